@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: MIT
+ * backend.h: for authors of backends: the one seam between the movement and a collision engine. A backend never links
+ * libtahr; everything it may call comes in tahr_host. */
+#ifndef TAHR_BACKEND_H
+#define TAHR_BACKEND_H
+
+#include <tahr/types.h>
+#include <tahr/world.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a backend can do. */
+enum {
+    TAHR_CAP_MARGIN = 1 << 0,   /* honours tahr_sweep.margin; without it round shapes come inflated by the core */
+    TAHR_CAP_CONTACTS = 1 << 1, /* has the contacts slot */
+    TAHR_CAP_RAY = 1 << 2,
+    TAHR_CAP_SPHERE = 1 << 3, /* shapes that may be swept */
+    TAHR_CAP_CAPSULE = 1 << 4,
+    TAHR_CAP_BOX = 1 << 5,
+    TAHR_CAP_MESH = 1 << 6,         /* triangle meshes as bodies */
+    TAHR_CAP_BIT_IDENTICAL = 1 << 7 /* same bits on every machine and compiler */
+};
+
+/* Services a backend receives at open. Both members are always set; valid until close returns. */
+typedef struct tahr_host {
+    uint32_t struct_size;
+    uint32_t abi; /* TAHR_ABI of the library */
+    tahr_allocator allocator;
+    tahr_log log; /* write is never NULL */
+} tahr_host;
+
+/* Travels with every query. cache: this character's memory of cache_size() bytes, zeroed once, 64-byte aligned, or NULL.
+ * It may make an answer faster and may never change one bit of it. The counters are added to by the backend. */
+typedef struct tahr_query_context {
+    void *cache;
+    uint64_t narrow_tests;      /* pairs of shape and feature that reached the narrow phase */
+    uint64_t narrow_iterations; /* iterations inside it */
+    uint64_t gathers;           /* times local geometry was gathered */
+    uint64_t escapes;           /* queries whose box left the gathered one */
+} tahr_query_context;
+
+/* The announcement before a step: everything the step is expected to ask about lies in bounds. A hint only. */
+typedef struct tahr_prepare {
+    tahr_bounds bounds;
+    tahr_vec3 position; /* of the character at the start of the step; float geometry is local to the 4 m grid cell it is in */
+    tahr_vec3 up;
+    uint32_t mask;
+    uint32_t reserved;
+} tahr_prepare;
+
+/* One step of prepare and its queries runs on one thread; different contexts may be used on different threads at once.
+ * No slot allocates except open, close and place. No exception or signal leaves a slot. Iterations are capped and
+ * "gave up" is the answer `unknown`. Statuses other than 0 end the step with TAHR_E_BACKEND. */
+typedef struct tahr_backend {
+    uint32_t struct_size;
+    uint16_t abi_major; /* TAHR_ABI_MAJOR and _MINOR of the header it was compiled with */
+    uint16_t abi_minor;
+    uint32_t capabilities; /* TAHR_CAP_* */
+    uint32_t reserved;
+    const char *name;    /* short, lower case */
+    const char *version; /* of the engine behind it */
+
+    /* Builds the scene. desc and options are valid during the call only. On failure nothing is kept and *self is
+     * untouched. host stays valid until close. */
+    tahr_status (*open)(const tahr_host *host, const tahr_world_desc *desc, void **self);
+    void (*close)(void *self);
+
+    /* The sensors met before the first blocking hit, then that hit, ordered by (fraction, body, feature); capacity 1
+     * means "the blocking one only". *count = 0: free. More than capacity: sensors are dropped last first, the blocking
+     * hit never, and TAHR_TRUNCATED is returned. */
+    tahr_status (*sweep)(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
+                         uint32_t *count);
+
+    /* One record per feature within margin, ordered by (distance, body, feature). An edge or vertex shared by several
+     * triangles is felt once, and not at all where a neighbour is closer. More than capacity: TAHR_TRUNCATED. */
+    tahr_status (*contacts)(void *self, tahr_query_context *context, const tahr_contact_query *query, tahr_contact *contacts,
+                            uint32_t capacity, uint32_t *count);
+
+    /* The first blocking hit of a segment; *count is 0 or 1. */
+    tahr_status (*ray)(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count);
+
+    /* Optional (NULL): bytes of cache per character; the announcement; placing bodies anew. */
+    size_t (*cache_size)(void *self);
+    tahr_status (*prepare)(void *self, tahr_query_context *context, const tahr_prepare *announcement);
+    tahr_status (*place)(void *self, const tahr_body_pose *poses, uint32_t count);
+} tahr_backend;
+
+/* What a shared object exports as `tahr_backend_v1`, and a static build as `tahr_backend_v1_<name>`. Static memory. */
+typedef const tahr_backend *(*tahr_backend_fn)(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

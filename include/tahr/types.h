@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT
+ * types.h: frozen plain data: vectors, shapes, queries and their answers. SI units (metres, seconds, radians), right-handed
+ * world frame, any up direction. Frozen: fixed size within an ABI range, reserved words zero. */
+#ifndef TAHR_TYPES_H
+#define TAHR_TYPES_H
+
+#include <tahr/abi.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct tahr_vec3 {
+    double x, y, z;
+} tahr_vec3;
+
+/* Unit quaternion, w is the scalar part. */
+typedef struct tahr_quat {
+    double x, y, z, w;
+} tahr_quat;
+
+/* Local to world: p_world = position + orientation * p_local. */
+typedef struct tahr_pose {
+    tahr_vec3 position;
+    tahr_quat orientation;
+} tahr_pose;
+
+typedef struct tahr_bounds {
+    tahr_vec3 min, max;
+} tahr_bounds;
+
+enum { TAHR_SHAPE_SPHERE = 1, TAHR_SHAPE_CAPSULE = 2, TAHR_SHAPE_BOX = 3 };
+
+/* A character's shape, centred on its position, its axis along up.
+ * Sphere: radius; half_height equals radius. Capsule: radius and half_height with the caps in it (half_height >= radius).
+ * Box: half extents half_x, half_y across the axis (in the frame of the orientation) and half_height along it; radius 0. */
+typedef struct tahr_shape {
+    uint32_t type; /* TAHR_SHAPE_* */
+    uint32_t reserved;
+    double radius;      /* m */
+    double half_height; /* m */
+    double half_x;      /* m, boxes only */
+    double half_y;      /* m, boxes only */
+} tahr_shape;
+
+/* Sweep flags. LEAVE_OVERLAP: a surface that is overlapped at the start blocks only a motion that goes deeper into it. */
+enum { TAHR_SWEEP_LEAVE_OVERLAP = 1 };
+
+/* "How far can this shape go along this motion before the distance to something falls to margin?"
+ * The margin is a distance between surfaces along their normal (metres, >= 0), not extra motion. With d0 the signed
+ * distance at the start: d0 < 0 is an overlap at the start; 0 <= d0 <= margin blocks at fraction 0 if the motion
+ * approaches (motion . normal < 0) and does not block otherwise. */
+typedef struct tahr_sweep {
+    tahr_shape shape;
+    tahr_vec3 position;    /* centre of the shape, world */
+    tahr_vec3 up;          /* unit axis of the shape, world */
+    tahr_quat orientation; /* frame of the shape: its z axis is up (boxes need it, round shapes do not) */
+    tahr_vec3 motion;      /* m, world */
+    double margin;         /* m */
+    uint32_t mask;         /* bodies with (body.mask & mask) == 0 are not there */
+    uint32_t ignore_body;  /* one body that is not there, or TAHR_NO_BODY */
+    uint32_t flags;        /* TAHR_SWEEP_* */
+    uint32_t reserved;
+} tahr_sweep;
+
+/* "What is within margin of this shape here?" */
+typedef struct tahr_contact_query {
+    tahr_shape shape;
+    tahr_vec3 position;
+    tahr_vec3 up;
+    tahr_quat orientation;
+    double margin; /* m, >= 0; 0 = overlap and penetration only */
+    uint32_t mask;
+    uint32_t ignore_body;
+    uint32_t flags; /* 0 */
+    uint32_t reserved;
+} tahr_contact_query;
+
+/* "What does this segment meet first?" From origin to origin + motion. */
+typedef struct tahr_ray {
+    tahr_vec3 origin;
+    tahr_vec3 motion;
+    uint32_t mask;
+    uint32_t ignore_body;
+} tahr_ray;
+
+/* How a surface changes the walkable limit. INCREASE only widens it to walkable_angle, DECREASE only narrows it. */
+enum { TAHR_WALKABLE_DEFAULT = 0, TAHR_WALKABLE_INCREASE = 1, TAHR_WALKABLE_DECREASE = 2, TAHR_WALKABLE_NEVER = 3 };
+
+/* Where a shape met something. All vectors world frame. */
+typedef struct tahr_hit {
+    uint32_t blocking;      /* 1: stops the motion; 0: a sensor, or nothing at all */
+    uint32_t start_overlap; /* 1: overlaps at the start: fraction 0, depth and normal say how to get out */
+    uint32_t unknown;       /* 1: the backend gave up; free up to fraction, nothing known beyond */
+    uint32_t sensor;        /* 1: reported, does not block */
+    double fraction;        /* 0..1 of the motion */
+    double distance;        /* m, signed distance at that place: the margin for an ordinary hit, less if it was closer already */
+    double depth;           /* m, > 0 only with start_overlap */
+    tahr_vec3 normal;         /* contact normal, unit, from the surface to the shape */
+    tahr_vec3 surface_normal; /* unit normal of the face that was hit; on an edge or vertex, of its face that opposes the motion most */
+    tahr_vec3 point;          /* on the surface */
+    double walkable_angle;    /* rad, with INCREASE and DECREASE */
+    uint32_t walkable_rule;   /* TAHR_WALKABLE_* */
+    uint32_t surface;         /* the user's id of the surface */
+    uint32_t body;
+    uint32_t feature; /* triangle of a mesh, face of a box, 0 of round bodies */
+} tahr_hit;
+
+/* One feature near a shape. */
+typedef struct tahr_contact {
+    double distance;          /* m, signed: negative is penetration depth */
+    tahr_vec3 normal;         /* contact normal, unit, from the surface to the shape: the way out */
+    tahr_vec3 surface_normal; /* unit normal of the face; on an edge or vertex, of its face that faces the normal most */
+    tahr_vec3 point;          /* on the surface */
+    double walkable_angle;
+    uint32_t walkable_rule;
+    uint32_t surface;
+    uint32_t body;
+    uint32_t feature;
+    uint32_t sensor;
+    uint32_t reserved;
+} tahr_contact;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

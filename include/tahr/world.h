@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT
+ * world.h: describing a scene, opening a world on a backend or on your own callbacks, placing bodies, asking directly. */
+#ifndef TAHR_WORLD_H
+#define TAHR_WORLD_H
+
+#include <tahr/types.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct tahr_world tahr_world;
+struct tahr_backend;
+
+enum { TAHR_BODY_MESH = 1, TAHR_BODY_BOX = 2, TAHR_BODY_SPHERE = 3, TAHR_BODY_CAPSULE = 4 };
+
+enum {
+    TAHR_BODY_SENSOR = 1 << 0,    /* reported, never blocks */
+    TAHR_BODY_TWO_SIDED = 1 << 1, /* mesh triangles block from behind too */
+    TAHR_BODY_MOVABLE = 1 << 2    /* will be placed again with tahr_world_set; others never move */
+};
+
+/* One body of a scene. Its id is its index in tahr_world_desc.bodies.
+ * Zero what you do not use: mask 0 means "all bits", a zero quaternion means identity. */
+typedef struct tahr_body_desc {
+    uint32_t struct_size;
+    uint32_t type;  /* TAHR_BODY_* kind */
+    uint32_t flags; /* TAHR_BODY_* flags */
+    uint32_t mask;
+    tahr_pose pose;
+    uint32_t walkable_rule; /* TAHR_WALKABLE_* */
+    uint32_t surface;       /* handed back in hits and contacts */
+    double walkable_angle;  /* rad, with INCREASE and DECREASE */
+
+    tahr_vec3 half_extents; /* box, m */
+    double radius;          /* sphere, capsule, m */
+    double half_height;     /* capsule along its local z, caps included, m */
+
+    const double *vertices;  /* mesh: 3 per vertex, m, local, finite, |x| <= 1e7; copied */
+    const uint32_t *indices; /* mesh: 3 per triangle, counter-clockwise seen from the front; copied */
+    uint32_t vertex_count;
+    uint32_t triangle_count;
+} tahr_body_desc;
+
+typedef struct tahr_body_pose {
+    uint32_t body;
+    uint32_t flags; /* 0 */
+    tahr_pose pose;
+} tahr_body_pose;
+
+/* A scene. allocator and log are copied; everything else is read during tahr_world_open only. */
+typedef struct tahr_world_desc {
+    uint32_t struct_size;
+    uint32_t body_count;
+    const tahr_body_desc *bodies;
+    const tahr_allocator *allocator; /* NULL: malloc */
+    const tahr_log *log;             /* NULL: silent */
+    const void *options;             /* the backend's own description (for example tahr_native_desc), or NULL */
+} tahr_world_desc;
+
+/* [in] query, [out] hit (zeroed before the call: leaving it so means "free"). Return TAHR_OK, or a negative status to end
+ * the step with TAHR_E_BACKEND. Called from the stepping thread. */
+typedef tahr_status (*tahr_sweep_fn)(void *user, const tahr_sweep *query, tahr_hit *hit);
+typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,
+                                        uint32_t *count);
+typedef tahr_status (*tahr_ray_fn)(void *user, const tahr_ray *query, tahr_hit *hit);
+
+/* Your own collision engine. Only sweep is required; contacts missing: depenetration uses the depth and normal of a
+ * sweep that starts in overlap, one surface at a time; ray missing: a sphere of 1 mm is swept. */
+typedef struct tahr_callbacks {
+    uint32_t struct_size;
+    uint32_t flags; /* 0 */
+    void *user;
+    tahr_sweep_fn sweep;
+    tahr_contacts_fn contacts;
+    tahr_ray_fn ray;
+} tahr_callbacks;
+
+/* Sets every field to its default. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE. Since 0.1. */
+TAHR_API tahr_status tahr_world_desc_init(tahr_world_desc *desc, size_t size);
+TAHR_API tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint32_t type);
+
+/* Opens a scene on a backend. [out] world, untouched on failure; close it with tahr_world_close.
+ * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_ABI (backend of another ABI), TAHR_E_FLOAT_MODE,
+ * TAHR_E_GEOMETRY (index out of range, vertex not finite or beyond 1e7 m, mesh without triangles), TAHR_E_ARGUMENT (pose, size or mask of a
+ * body), TAHR_E_UNSUPPORTED (the backend cannot hold such a body), TAHR_E_MEMORY; the log names the body and the field.
+ * Allocates. Since 0.1. */
+TAHR_API tahr_status tahr_world_open(const struct tahr_backend *backend, const tahr_world_desc *desc, tahr_world **world);
+
+/* Opens a world whose geometry is behind the caller's functions. desc may be NULL; of it only allocator and log are used.
+ * Returns TAHR_OK, TAHR_E_NULL (sweep missing), TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_FLOAT_MODE, TAHR_E_MEMORY. Since 0.1. */
+TAHR_API tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tahr_world_desc *desc, tahr_world **world);
+
+/* Closes a world; its movers must be destroyed before. NULL is allowed. Since 0.1. */
+TAHR_API void tahr_world_close(tahr_world *world);
+
+/* Places movable bodies at new poses and advances the revision. All or nothing: every pose is checked first. Needs
+ * exclusive access: no step may run meanwhile. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND (no such body),
+ * TAHR_E_ARGUMENT (not movable, not finite), TAHR_E_UNSUPPORTED. Since 0.1. */
+TAHR_API tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint32_t count);
+
+/* Tells callback worlds that their geometry changed, so that cached floors are looked at again. Since 0.1. */
+TAHR_API tahr_status tahr_world_touch(tahr_world *world);
+
+/* Counts the changes of a world; 0 for NULL. Since 0.1. */
+TAHR_API uint64_t tahr_world_revision(const tahr_world *world);
+
+/* Name of the backend behind a world ("native", "callbacks"); static memory. Since 0.1. */
+TAHR_API const char *tahr_world_backend_name(const tahr_world *world);
+
+/* Bytes that a world holds now through its allocator (scene and backend, without the caches of movers). 0 for NULL. Since 0.1. */
+TAHR_API uint64_t tahr_world_memory(const tahr_world *world);
+
+/* The three questions, asked directly, with arguments and answers checked. Outputs untouched on error.
+ * Return TAHR_OK, TAHR_TRUNCATED, TAHR_UNKNOWN, TAHR_E_NULL, TAHR_E_ARGUMENT (query not finite, negative margin, bad shape or up),
+ * TAHR_E_UNSUPPORTED, TAHR_E_BACKEND (invalid answer). Allocate nothing; may run on several threads. Since 0.1. */
+TAHR_API tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity, uint32_t *count);
+TAHR_API tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,
+                                         uint32_t *count);
+TAHR_API tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, tahr_hit *hit, uint32_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
