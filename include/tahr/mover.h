@@ -18,7 +18,8 @@ enum {
     TAHR_FLOOR_BLOCKING = 1 << 0, /* something is below, within reach */
     TAHR_FLOOR_WALKABLE = 1 << 1, /* and can be stood on */
     TAHR_FLOOR_PERCHING = 1 << 2, /* held up at the rim of the shape; a floor further in allows it */
-    TAHR_FLOOR_WEDGED = 1 << 3    /* held by several faces, each too steep to stand on */
+    TAHR_FLOOR_WEDGED = 1 << 3,   /* held by several faces, each too steep to stand on */
+    TAHR_FLOOR_RIM = 1 << 4       /* something touches the rim of the shape; the floor was found by a thinner one */
 };
 
 /* What is below the shape. distance is the way down until the shape would be skin above it, plus skin. */
@@ -34,7 +35,11 @@ typedef struct tahr_floor {
     uint32_t surface;
 } tahr_floor;
 
-enum { TAHR_STATE_JUMP_HELD = 1 << 0, TAHR_STATE_JUMPING = 1 << 1 };
+enum {
+    TAHR_STATE_JUMP_HELD = 1 << 0,   /* the jump button was down in the last step */
+    TAHR_STATE_JUMPING = 1 << 1,     /* rising by a jump */
+    TAHR_STATE_FLOOR_MOVED = 1 << 2  /* the height was corrected after floor was looked for */
+};
 
 /* Everything that decides a character's future. Frozen, 512 bytes, no pointers: copy it to remember, compare it with
  * memcmp to check a rollback, hash it to detect a desync. The reserved tail is zero. You may write position, velocity,

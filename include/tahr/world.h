@@ -58,7 +58,9 @@ typedef struct tahr_world_desc {
     const void *options;             /* the backend's own description (for example tahr_native_desc), or NULL */
 } tahr_world_desc;
 
-/* [in] query, [out] hit (zeroed before the call: leaving it so means "free"). Return TAHR_OK, or a negative status to end
+/* [in] query, [out] hit (zeroed before the call: leaving it so means "free"). Fill in blocking, fraction and normal, or
+ * start_overlap, depth and normal. What stays zero is derived: surface_normal from normal, distance from the margin, point
+ * from the shape. Return TAHR_OK, or a negative status to end
  * the step with TAHR_E_BACKEND. Called from the stepping thread. */
 typedef tahr_status (*tahr_sweep_fn)(void *user, const tahr_sweep *query, tahr_hit *hit);
 typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,

@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: MIT
+ * callbacks.c: a user's functions behind the same vtable as every backend, with contacts and rays derived from the sweep
+ * where the user has none. */
+#include "callbacks.h"
+
+#include <string.h>
+
+#include "vec.h"
+
+static void close_callbacks(void *self)
+{
+    (void)self; /* the world owns it */
+}
+
+/* Where the shape, stopped at the hit, is nearest to a surface with that normal. */
+static vec3 nearest_point(const tahr_sweep *q, const tahr_hit *h)
+{
+    vec3 centre = add_scaled(q->position, q->motion, h->fraction);
+    double along = dot(h->normal, q->up);
+    double side = along > 0 ? -1 : (along < 0 ? 1 : 0);
+    if (q->shape.type == TAHR_SHAPE_BOX) {
+        vec3 x = rotate(q->orientation, vec(1, 0, 0)), y = rotate(q->orientation, vec(0, 1, 0));
+        double ax = dot(h->normal, x), ay = dot(h->normal, y);
+        vec3 corner = add_scaled(centre, q->up, side * q->shape.half_height);
+        corner = add_scaled(corner, x, ax > 1e-9 ? -q->shape.half_x : (ax < -1e-9 ? q->shape.half_x : 0));
+        corner = add_scaled(corner, y, ay > 1e-9 ? -q->shape.half_y : (ay < -1e-9 ? q->shape.half_y : 0));
+        return add_scaled(corner, h->normal, -h->distance);
+    }
+    vec3 core = add_scaled(centre, q->up, side * (q->shape.half_height - q->shape.radius));
+    return add_scaled(core, h->normal, -(q->shape.radius + h->distance));
+}
+
+static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
+                         uint32_t *count)
+{
+    const tahr_callbacks *user = self;
+    (void)capacity;
+    context->narrow_tests++;
+    memset(&hits[0], 0, sizeof hits[0]);
+    tahr_status status = user->sweep(user->user, query, &hits[0]);
+    tahr_hit *h = &hits[0];
+    *count = h->blocking || h->start_overlap || h->sensor || h->unknown;
+    if (h->start_overlap) {
+        h->distance = -h->depth;
+    } else if (h->distance == 0) {
+        h->distance = query->margin; /* most users say only where */
+    }
+    if (length_squared(h->surface_normal) == 0) {
+        h->surface_normal = h->normal;
+    }
+    if (length_squared(h->point) == 0) {
+        h->point = nearest_point(query, h);
+    }
+    return status < 0 ? status : TAHR_OK;
+}
+
+/* Without a contacts function a sweep that goes nowhere tells the deepest overlap. */
+static tahr_status contacts(void *self, tahr_query_context *context, const tahr_contact_query *query, tahr_contact *out,
+                            uint32_t capacity, uint32_t *count)
+{
+    const tahr_callbacks *user = self;
+    tahr_hit hit;
+    uint32_t found = 0;
+    if (user->contacts) {
+        context->narrow_tests++;
+        memset(out, 0, capacity * sizeof out[0]);
+        tahr_status status = user->contacts(user->user, query, out, capacity, count);
+        return status < 0 ? status : TAHR_OK;
+    }
+    tahr_sweep q = {.shape = query->shape,
+                    .position = query->position,
+                    .up = query->up,
+                    .orientation = query->orientation,
+                    .margin = query->margin,
+                    .mask = query->mask,
+                    .ignore_body = query->ignore_body};
+    tahr_status status = sweep(self, context, &q, &hit, 1, &found);
+    *count = 0;
+    if (status < 0 || !found || !hit.start_overlap || capacity == 0) {
+        return status;
+    }
+    tahr_contact c = {.distance = -hit.depth,
+                      .normal = hit.normal,
+                      .surface_normal = hit.surface_normal,
+                      .point = hit.point,
+                      .walkable_angle = hit.walkable_angle,
+                      .walkable_rule = hit.walkable_rule,
+                      .surface = hit.surface,
+                      .body = hit.body,
+                      .feature = hit.feature};
+    out[0] = c;
+    *count = 1;
+    return TAHR_OK;
+}
+
+static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
+{
+    const tahr_callbacks *user = self;
+    memset(hit, 0, sizeof *hit);
+    if (user->ray) {
+        context->narrow_tests++;
+        tahr_status status = user->ray(user->user, query, hit);
+        *count = hit->blocking != 0;
+        if (length_squared(hit->surface_normal) == 0) {
+            hit->surface_normal = hit->normal;
+        }
+        return status < 0 ? status : TAHR_OK;
+    }
+    tahr_sweep q = {.shape = {TAHR_SHAPE_SPHERE, 0, 0.001, 0.001, 0, 0}, /* thin enough to stand for a ray */
+                    .position = query->origin,
+                    .up = {0, 0, 1},
+                    .orientation = {0, 0, 0, 1},
+                    .motion = query->motion,
+                    .mask = query->mask,
+                    .ignore_body = query->ignore_body};
+    return sweep(self, context, &q, hit, 1, count);
+}
+
+const tahr_backend tahr__callbacks_backend = {
+    .struct_size = sizeof(tahr_backend),
+    .abi_major = TAHR_ABI_MAJOR,
+    .abi_minor = TAHR_ABI_MINOR,
+    .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE | TAHR_CAP_BOX,
+    .name = "callbacks",
+    .version = "user",
+    .close = close_callbacks,
+    .sweep = sweep,
+    .contacts = contacts,
+    .ray = ray,
+};

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: MIT
+ * core.h: the core's own objects: the world behind its handle, a mover, and the step in progress that every rule gets. */
+#ifndef TAHR_CORE_H
+#define TAHR_CORE_H
+
+#include <tahr/backend.h>
+#include <tahr/tahr.h>
+
+#include "cone.h"
+#include "velocity.h"
+
+/* Counts the bytes that pass through the user's allocator; an allocator itself. */
+typedef struct tahr__memory {
+    tahr_allocator user;
+    uint64_t bytes;
+} tahr__memory;
+
+struct tahr_world {
+    const tahr_backend *backend;
+    void *self; /* the backend's */
+    tahr_host host;
+    tahr_log log;
+    tahr__memory memory;
+    uint64_t revision;
+    uint32_t body_count;
+};
+
+/* Numbers derived from the config once, when the mover is created. */
+typedef struct tahr__limits {
+    double walkable;            /* cosine of the steepest walkable floor */
+    double walkable_hysteresis; /* the same for a floor that was walkable */
+    double width;               /* m, half width of the shape: what perch and edge rules measure against */
+} tahr__limits;
+
+struct tahr_mover {
+    tahr_world *world;
+    tahr_config config;
+    tahr__limits limits;
+    void *cache;
+    size_t cache_size;
+    uint32_t busy;
+};
+
+/* One step in progress: working copies, so that an error leaves the caller's state untouched. */
+typedef struct tahr__step {
+    const tahr_mover *mover;
+    const tahr_config *config;
+    const tahr__limits *limits;
+    tahr_world *world;
+    tahr_input input;
+    tahr_state state;
+    tahr_report report;
+    tahr_query_context context;
+    vec3 gravity;       /* m/s2 */
+    double time;        /* s since the start of the step */
+    uint32_t queries;   /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
+    tahr_status error;  /* sticky: after it every query answers "blocked here" */
+} tahr__step;
+
+/* Where a slice of time goes on: a mode never calls another one, it returns this. */
+typedef struct tahr__next {
+    uint32_t mode;
+    double time_left; /* s */
+} tahr__next;
+
+static inline vec3 step_foot(const tahr__step *step)
+{
+    return add_scaled(step->state.position, step->state.up, -step->config->shape.half_height);
+}
+
+/* The part across up. */
+static inline vec3 step_level(const tahr__step *step, vec3 v)
+{
+    return reject(v, step->state.up);
+}
+
+#endif

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: MIT
+ * elementary.c: expm1, log1p, sine and cosine from range reduction and series. */
+#include "elementary.h"
+
+#include <stdint.h>
+#include <string.h>
+
+#include "vec.h"
+
+/* ln 2 in two parts: the high one has 32 zero bits at its end, so that k * LN2_HIGH is exact for |k| < 2^11. */
+static const double LN2_HIGH = 6.93147180369123816490e-01;
+static const double LN2_LOW = 1.90821492927058770002e-10;
+static const double INVERSE_LN2 = 1.44269504088896338700e+00;
+
+static double power_of_two(int k)
+{
+    uint64_t bits = (uint64_t)(1023 + k) << 52;
+    double result;
+    memcpy(&result, &bits, sizeof result);
+    return result;
+}
+
+/* Taylor series of e^r - 1 for |r| <= ln 2 / 2: the first term left out is r^15 / 15! < 1e-19. */
+static double expm1_series(double r)
+{
+    double sum = 1.0;
+    for (int n = 14; n >= 2; n--) {
+        sum = 1.0 + sum * r / n;
+    }
+    return sum * r;
+}
+
+double tahr__expm1(double x)
+{
+    double shifted = x * INVERSE_LN2;
+    int k = (int)(shifted < 0 ? shifted - 0.5 : shifted + 0.5);
+    double r = (x - k * LN2_HIGH) - k * LN2_LOW;
+    double e = expm1_series(r);
+    if (k == 0) {
+        return e;
+    }
+    if (k < -60) {
+        return -1;
+    }
+    double p = power_of_two(k);
+    return p * e + (p - 1);
+}
+
+/* 2 atanh(s) = ln((1 + s) / (1 - s)); |s| <= 0.172 (m between sqrt 1/2 and sqrt 2): 0.0295^12 / 25 < 1e-19. */
+double tahr__log1p(double x)
+{
+    double u = 1 + x;
+    double lost = u - 1 == x ? 0 : (x - (u - 1)) / u; /* what rounding 1 + x threw away, relative to u */
+    uint64_t bits;
+    memcpy(&bits, &u, sizeof bits);
+    int k = (int)(bits >> 52) - 1023;
+    double f;
+    if (u > 0.7072 && u < 1.4142) {
+        k = 0;
+        f = x; /* exact */
+        lost = 0;
+    } else {
+        bits = (bits & 0x000FFFFFFFFFFFFFu) | ((uint64_t)1023 << 52);
+        memcpy(&f, &bits, sizeof f);
+        if (f > 1.41421356237309514547) {
+            f *= 0.5;
+            k++;
+        }
+        f -= 1;
+    }
+    double s = f / (2 + f);
+    double z = s * s;
+    double sum = 0;
+    for (int n = 25; n >= 3; n -= 2) {
+        sum = (sum + 1.0 / n) * z;
+    }
+    return k * LN2_HIGH + ((2 * s + 2 * s * sum) + (lost + k * LN2_LOW));
+}
+
+/* Taylor series on a quarter of the angle (|x| <= 1: x^19 / 19! < 1e-17), then two doublings. */
+void tahr__sincos(double x, double *sine, double *cosine)
+{
+    double q = x * 0.25;
+    double z = -q * q;
+    double s = 1, versine = 1; /* versine: (1 - cos q) * 2 / q^2 */
+    for (int n = 8; n >= 1; n--) {
+        s = 1 + s * z / (2 * n * (2 * n + 1));
+        versine = 1 + versine * z / ((2 * n + 1) * (2 * n + 2));
+    }
+    double sq = s * q;
+    double cq = 1 - versine * q * q * 0.5;
+    double s2 = 2 * sq * cq, c2 = 1 - 2 * sq * sq;
+    *sine = 2 * s2 * c2;
+    *cosine = 1 - 2 * s2 * s2;
+}

@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: MIT
+ * falling.c: one slice of falling: arcs in closed form, swept as chords, with the time of every contact solved on the arc. */
+#include "falling.h"
+
+#include "floor.h"
+#include "move.h"
+#include "query.h"
+#include "report.h"
+#include "slide.h"
+
+/* A contact-free arc from the character's position. */
+typedef struct arc {
+    tahr__law law; /* across the axis */
+    vec3 axis;     /* against gravity */
+    vec3 level;    /* velocity across the axis */
+    double rise;   /* velocity along it */
+    double gravity, terminal, hold;
+} arc;
+
+typedef struct fall {
+    double left; /* s */
+    tahr__plane planes[TAHR__MAX_PLANES];
+    uint32_t plane_count;
+} fall;
+
+static arc arc_of(const tahr__step *step)
+{
+    const tahr_config *c = step->config;
+    arc a = {.gravity = length(step->gravity), .terminal = c->terminal_speed};
+    a.axis = a.gravity > 1e-6 ? scale(step->gravity, -1.0 / a.gravity) : step->state.up;
+    if (vec_equal(a.axis, step->state.up) || dot(a.axis, step->state.up) > 1 - 1e-15) {
+        a.axis = step->state.up;
+    }
+    vec3 wish = reject(step->input.move, a.axis);
+    double size = length(wish);
+    a.law.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0);
+    a.law.speed = c->max_speed * min_of(size, 1);
+    a.law.acceleration = c->acceleration * c->air_control;
+    a.law.turn_friction = c->air_turn_friction;
+    a.rise = dot(step->state.velocity, a.axis);
+    a.level = add_scaled(step->state.velocity, a.axis, -a.rise);
+    a.hold = (step->state.flags & TAHR_STATE_JUMPING) && step->input.jump ? step->state.jump_hold : 0;
+    return a;
+}
+
+static vec3 arc_at(const arc *a, double t, vec3 *velocity)
+{
+    double v;
+    double rise = tahr__fall_advance(a->rise, a->gravity, a->terminal, a->hold, t, &v);
+    tahr__motion m = tahr__law_advance(&a->law, a->level, t);
+    *velocity = add_scaled(m.velocity, a->axis, v);
+    return add_scaled(m.displacement, a->axis, rise);
+}
+
+/* s until the arc is highest; 0 if it is past that. */
+static double apex_time(const arc *a)
+{
+    return a->rise > 0 && a->gravity > 0 ? a->hold + a->rise / a->gravity : 0;
+}
+
+/* A chord off the arc by at most arc_tolerance: |a| t^2 / 8. */
+static double chord_time(const tahr__step *step, const arc *a)
+{
+    return a->gravity > 0 ? sqrt(8 * step->config->arc_tolerance / a->gravity) : step->config->max_dt;
+}
+
+/* When the arc meets the plane through `touch` (relative to the arc's start): safeguarded Newton between 0 and t. */
+static double meeting_time(const arc *a, vec3 normal, vec3 touch, double t)
+{
+    double low = 0, high = t, s = 0.5 * t, goal = dot(normal, touch);
+    for (int i = 0; i < 24; i++) {
+        vec3 v;
+        double value = dot(normal, arc_at(a, s, &v)) - goal;
+        double slope = dot(normal, v);
+        *(value > 0 ? &low : &high) = s;
+        double next = slope < 0 ? s - value / slope : 0.5 * (low + high);
+        next = next >= low && next <= high ? next : 0.5 * (low + high);
+        if (next == s) {
+            break;
+        }
+        s = next;
+    }
+    return s;
+}
+
+/* Puts the character where its arc, not the chord, meets the plane of the hit. Returns the time of it. */
+static double meet_on_arc(tahr__step *step, const arc *a, vec3 chord, double duration, tahr_hit *hit)
+{
+    vec3 v, start = step->state.position;
+    double t = meeting_time(a, hit->normal, scale(chord, hit->fraction), duration);
+    vec3 to = arc_at(a, t, &v);
+    tahr_hit check;
+    tahr__sweep(step, &step->config->shape, start, to, step->config->skin, 0, &check);
+    if (check.start_overlap || check.unknown) {
+        return 0;
+    }
+    if (check.blocking && (1 - check.fraction) * length(to) > 1e-9) { /* something else, or a curved edge, comes first */
+        *hit = check;
+        step->state.position = add_scaled(start, to, check.fraction);
+        return t * check.fraction;
+    }
+    step->state.position = add(start, to);
+    return t;
+}
+
+/* A floor that can be landed on: met from above, walkable, with the whole support that standing needs. */
+static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
+{
+    double up = dot(hit->normal, step->state.up);
+    double speed = dot(step->state.velocity, hit->normal);
+    if (up < 1e-3 || speed > 0 || step->error < 0) { /* 1e-3: a wall */
+        return tahr__decide(step, TAHR_RULE_LANDING, 0, hit, up, 1e-3, "not met from above");
+    }
+    tahr__find_floor(step, step->config->snap_distance, hit, floor);
+    int near = floor->distance <= step->config->floor_max * step->config->skin;
+    return tahr__decide(step, TAHR_RULE_LANDING, floor_is_walkable(floor) && near, hit, floor->distance,
+                        step->config->floor_max * step->config->skin, "floor where it fell");
+}
+
+static tahr__next land(tahr__step *step, const tahr_hit *hit, const tahr_floor *floor, double left)
+{
+    double speed = -dot(step->state.velocity, step->state.up);
+    tahr__event(step, TAHR_EVENT_LANDED, 0, hit, max_of(speed, 0));
+    step->state.velocity = step_level(step, step->state.velocity);
+    step->state.flags &= ~(uint32_t)TAHR_STATE_JUMPING;
+    step->state.jump_hold = 0;
+    tahr__keep_floor(step, floor);
+    tahr__next next = {TAHR_MODE_WALKING, left};
+    return next;
+}
+
+/* Projected onto a steep face a level motion would rise by itself: no faster up than asked. */
+static vec3 slide_in_air(const tahr__step *step, const fall *f, vec3 motion)
+{
+    vec3 up = step->state.up;
+    vec3 bent = tahr__slide(f->planes, f->plane_count, motion);
+    if (f->plane_count == 0 || dot(bent, up) <= max_of(dot(motion, up), 0)) {
+        return bent;
+    }
+    tahr__plane walls[TAHR__MAX_PLANES];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < f->plane_count && count + 1 < TAHR__MAX_PLANES; i++) {
+        vec3 level = reject(f->planes[i].normal, up);
+        walls[count++] = f->planes[i];
+        if (dot(f->planes[i].normal, up) > 0 && length_squared(level) > 1e-12) {
+            walls[count] = f->planes[i];
+            walls[count++].normal = unit(level);
+        }
+    }
+    return tahr__slide(walls, count, motion);
+}
+
+static void use_time(tahr__step *step, fall *f, double t)
+{
+    step->time += t;
+    f->left -= t;
+    step->state.jump_hold = max_of(step->state.jump_hold - t, 0);
+    if (f->left < 1e-12) {
+        f->left = 0;
+    }
+}
+
+/* One chord. Returns 1 if something was hit. */
+static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
+{
+    arc a = arc_of(step);
+    double apex = apex_time(&a);
+    double duration = min_of(f->left, chord_time(step, &a));
+    int reaches_apex = apex > 0 && apex <= duration;
+    vec3 v;
+    if (reaches_apex) {
+        duration = apex;
+    } else if (f->left > duration) { /* equal chords rather than a short last one */
+        duration = f->left / (double)(int)(f->left / duration + 1);
+    }
+    vec3 chord = slide_in_air(step, f, arc_at(&a, duration, &v));
+    vec3 start = step->state.position;
+    double used = duration;
+    tahr__move(step, chord, hit);
+    int met = hit->blocking && !hit->start_overlap && !hit->unknown;
+    if (met && f->plane_count == 0) {
+        step->state.position = start;
+        used = meet_on_arc(step, &a, chord, duration, hit);
+    } else if (hit->blocking) {
+        used = hit->start_overlap ? duration : duration * hit->fraction;
+    }
+    arc_at(&a, used, &v);
+    step->state.velocity = slide_in_air(step, f, v);
+    use_time(step, f, used);
+    if (reaches_apex && used == duration) {
+        if (f->plane_count == 0) { /* exactly zero, so that the apex is met once */
+            step->state.velocity = add_scaled(step->state.velocity, a.axis, -dot(step->state.velocity, a.axis));
+        }
+        tahr__event(step, TAHR_EVENT_APEX, 0, NULL, 0);
+        step->state.flags &= ~(uint32_t)TAHR_STATE_JUMPING;
+    }
+    return met;
+}
+
+/* Held by steep faces on all sides: that is a floor too. */
+static int lands_in_wedge(tahr__step *step, tahr_floor *floor)
+{
+    tahr__find_floor(step, 0, NULL, floor);
+    return floor_is_walkable(floor);
+}
+
+tahr__next tahr__fall(tahr__step *step, double time)
+{
+    fall f = {.left = time};
+    tahr_floor floor;
+    tahr_hit hit;
+    vec3 start = step->state.position;
+    uint32_t hits = 0;
+    while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 && !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
+        tahr__planes_forget(step, f.planes, &f.plane_count);
+        if (!fall_chord(step, &f, &hit)) {
+            if (hit.blocking) {
+                break; /* unknown or crushed: the rest of the time is lost */
+            }
+            continue;
+        }
+        if (lands(step, &hit, &floor)) {
+            return land(step, &hit, &floor, f.left);
+        }
+        tahr__plane plane = tahr__plane_of(step, &hit);
+        double speed = max_of(-dot(step->state.velocity, hit.normal), 0);
+        tahr__event(step, TAHR_EVENT_HIT, 0, &hit, speed);
+        tahr__planes_add(f.planes, &f.plane_count, &plane);
+        step->state.velocity = slide_in_air(step, &f, step->state.velocity);
+        step->report.slides++;
+        hits++;
+    }
+    step->time += f.left;
+    if (f.plane_count > 1 && length_squared(sub(step->state.position, start)) < 1e-12 && lands_in_wedge(step, &floor)) {
+        return land(step, &hit, &floor, 0);
+    }
+    tahr__next next = {TAHR_MODE_FALLING, 0};
+    return next;
+}

@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: MIT
+ * floor.c: walkable test, edge tolerance, perch, floor distance, find floor, height adjustment. */
+#include "floor.h"
+
+#include <string.h>
+
+#include "elementary.h"
+#include "move.h"
+#include "query.h"
+#include "report.h"
+
+/* Faces this close to vertical are never a floor, whatever an override says. */
+static const double VERTICAL = 1e-4;
+
+static double cosine(double angle)
+{
+    double s, c;
+    tahr__sincos(clamp(angle, 0, 1.5707963267948966), &s, &c);
+    return c;
+}
+
+int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable)
+{
+    double limit = was_walkable ? step->limits->walkable_hysteresis : step->limits->walkable;
+    double up = dot(hit->surface_normal, step->state.up);
+    int walkable = hit->blocking && !hit->start_overlap && hit->walkable_rule != TAHR_WALKABLE_NEVER;
+    if (hit->walkable_rule == TAHR_WALKABLE_INCREASE) {
+        limit = min_of(limit, cosine(hit->walkable_angle));
+    } else if (hit->walkable_rule == TAHR_WALKABLE_DECREASE) {
+        limit = max_of(limit, cosine(hit->walkable_angle));
+    }
+    limit = max_of(limit, VERTICAL);
+    return tahr__decide(step, TAHR_RULE_WALKABLE, walkable && up >= limit, hit, up, limit, "cosine of the face's slope");
+}
+
+/* How far inside the rim of the shape, seen from above, a point lies. */
+static double inside_rim(const tahr__step *step, vec3 point)
+{
+    vec3 offset = step_level(step, sub(point, step->state.position));
+    const tahr_shape *s = &step->config->shape;
+    if (s->type != TAHR_SHAPE_BOX) {
+        return s->radius - length(offset);
+    }
+    vec3 x = rotate(step->state.orientation, vec(1, 0, 0));
+    vec3 y = rotate(step->state.orientation, vec(0, 1, 0));
+    double dx = dot(offset, x), dy = dot(offset, y);
+    return min_of(s->half_x - max_of(dx, -dx), s->half_y - max_of(dy, -dy));
+}
+
+/* The shape, thinner all round, with its foot where it was. */
+static tahr_shape thinner(const tahr_shape *shape, double by)
+{
+    tahr_shape s = *shape;
+    if (s.type == TAHR_SHAPE_BOX) {
+        s.half_x = max_of(s.half_x - by, 1e-3 * s.half_x);
+        s.half_y = max_of(s.half_y - by, 1e-3 * s.half_y);
+    } else {
+        s.type = TAHR_SHAPE_CAPSULE;
+        s.radius = max_of(s.radius - by, 1e-3 * s.radius);
+    }
+    return s;
+}
+
+/* Clearance below in the direction of up, from a downward sweep over `range`. */
+static double clearance(const tahr__step *step, const tahr_hit *hit, double range)
+{
+    double skin = step->config->skin;
+    if (hit->fraction > 0 || hit->distance >= skin) {
+        return hit->fraction * range + skin;
+    }
+    /* Closer than skin already: the way up that restores it, for slopes not steeper than 78 degrees. */
+    double rate = max_of(dot(hit->normal, step->state.up), 0.2);
+    return skin - (skin - hit->distance) / rate;
+}
+
+static void sweep_down(tahr__step *step, const tahr_shape *shape, double range, tahr_hit *hit)
+{
+    tahr__sweep(step, shape, step->state.position, scale(step->state.up, -range), step->config->skin, 0, hit);
+}
+
+/* The same face as a moment ago keeps the benefit of the hysteresis. */
+static int was_walkable(const tahr__step *step, const tahr_hit *hit)
+{
+    const tahr_floor *old = &step->state.floor;
+    return step->state.mode == TAHR_MODE_WALKING && floor_is_walkable(old) && old->body == hit->body &&
+           dot(old->surface_normal, hit->surface_normal) > 0.9999; /* within 0.8 degrees, less than the hysteresis */
+}
+
+static void fill(tahr_floor *floor, const tahr_hit *hit, double distance)
+{
+    floor->normal = hit->normal;
+    floor->surface_normal = hit->surface_normal;
+    floor->point = hit->point;
+    floor->distance = distance;
+    floor->body = hit->body;
+    floor->feature = hit->feature;
+    floor->surface = hit->surface;
+}
+
+/* A contact at the rim, or on a face too steep, holds the character only if there is a floor for a thinner foot. Under a
+ * face that is itself no floor it may lie no deeper than a step: that is a bevelled step, not a rock to lean on. */
+static int perches(tahr__step *step, double reach, int surface_walkable, tahr_floor *floor)
+{
+    tahr_shape inner = thinner(&step->config->shape, step->config->perch_threshold);
+    double deepest = surface_walkable ? reach + step->config->perch_extra : step->config->step_height;
+    double range = deepest + step->config->skin;
+    tahr_hit hit;
+    sweep_down(step, &inner, range, &hit);
+    int ok = tahr__is_walkable(step, &hit, was_walkable(step, &hit));
+    double distance = hit.blocking ? clearance(step, &hit, range) : range;
+    if (ok) {
+        floor->flags |= TAHR_FLOOR_PERCHING;
+        floor->perch_distance = distance;
+    }
+    return tahr__decide(step, TAHR_RULE_PERCH, ok, &hit, distance, deepest, "floor for the inner foot");
+}
+
+static int wedge(tahr__step *step, tahr_floor *floor)
+{
+    double band = step->config->floor_max * step->config->skin;
+    if (floor->distance > band || !tahr__is_wedged(step)) {
+        return 0;
+    }
+    floor->flags |= TAHR_FLOOR_WEDGED;
+    return 1;
+}
+
+void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor)
+{
+    const tahr_config *c = step->config;
+    double range = reach + (c->floor_max - 1) * c->skin;
+    tahr_hit hit;
+    uint32_t flags = TAHR_FLOOR_BLOCKING;
+    memset(floor, 0, sizeof *floor);
+    floor->body = TAHR_NO_BODY;
+    floor->distance = range + c->skin;
+    if (supplied) {
+        hit = *supplied;
+        hit.fraction = 0; /* it ended here */
+    } else {
+        sweep_down(step, &c->shape, range, &hit);
+    }
+    if (hit.blocking && !hit.start_overlap && inside_rim(step, hit.point) < c->edge_tolerance) {
+        tahr__decide(step, TAHR_RULE_EDGE_TOLERANCE, 0, &hit, inside_rim(step, hit.point), c->edge_tolerance, "touches the rim");
+        tahr_shape inner = thinner(&c->shape, 2 * c->edge_tolerance);
+        sweep_down(step, &inner, range, &hit);
+        flags |= TAHR_FLOOR_RIM;
+    }
+    if (!hit.blocking || step->error < 0) {
+        tahr__decide(step, TAHR_RULE_FLOOR, 0, NULL, floor->distance, range, "nothing below");
+        return;
+    }
+    fill(floor, &hit, hit.start_overlap ? -hit.depth : clearance(step, &hit, range));
+    floor->flags = flags;
+    int surface = tahr__is_walkable(step, &hit, was_walkable(step, &hit));
+    /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
+    int on_face = dot(hit.normal, hit.surface_normal) > 1 - 1e-6;
+    int rim = inside_rim(step, hit.point) < c->perch_threshold;
+    int ok = surface && (on_face || !rim);
+    if (!ok && rim && !hit.start_overlap) {
+        ok = perches(step, reach, surface, floor);
+    }
+    if (!ok && !surface) {
+        ok = wedge(step, floor);
+    }
+    floor->flags |= ok ? TAHR_FLOOR_WALKABLE : 0u;
+    tahr__decide(step, TAHR_RULE_FLOOR, ok, &hit, floor->distance, range, "floor distance");
+}
+
+void tahr__keep_floor(tahr__step *step, const tahr_floor *floor)
+{
+    step->state.floor = *floor;
+    step->state.floor_position = step->state.position;
+    step->state.floor_revision = step->world->revision + 1;
+    step->state.flags &= ~(uint32_t)TAHR_STATE_FLOOR_MOVED;
+}
+
+int tahr__floor_is_current(const tahr__step *step)
+{
+    return step->state.floor_revision == step->world->revision + 1 && vec_equal(step->state.floor_position, step->state.position);
+}
+
+/* The floor goes with the character, so that the next move starts from it; a character that stands looks again. */
+static void shift_floor(tahr__step *step, double height)
+{
+    step->state.floor.distance += height;
+    step->state.floor_position = step->state.position;
+    step->state.flags |= TAHR_STATE_FLOOR_MOVED;
+}
+
+double tahr__adjust_height(tahr__step *step)
+{
+    const tahr_config *c = step->config;
+    const tahr_floor *floor = &step->state.floor;
+    double target = c->floor_target * c->skin;
+    double gap = floor->distance;
+    /* Below skin by no more than a backend's rounding is inside the band. */
+    if (!floor_is_walkable(floor) || (gap >= c->skin - 1e-6 && gap <= c->floor_max * c->skin)) {
+        return 0;
+    }
+    vec3 before = step->state.position;
+    tahr_hit hit;
+    vec3 motion = scale(step->state.up, target - gap);
+    int proven = !(step->state.flags & TAHR_STATE_FLOOR_MOVED) && !(floor->flags & TAHR_FLOOR_RIM);
+    if (gap > target && proven) {
+        step->state.position = add(step->state.position, motion); /* the floor sweep went farther */
+    } else {
+        tahr__move(step, motion, &hit);
+    }
+    double height = dot(sub(step->state.position, before), step->state.up);
+    tahr__decide(step, TAHR_RULE_FLOOR_HEIGHT, 1, NULL, gap, c->floor_max * c->skin, "clearance outside the band");
+    shift_floor(step, height);
+    return height;
+}
+
+int tahr__is_wedged(tahr__step *step)
+{
+    enum { CONTACTS = TAHR__MAX_PLANES };
+    tahr_contact contacts[CONTACTS];
+    tahr__plane planes[TAHR__MAX_PLANES];
+    uint32_t used = 0;
+    vec3 way;
+    uint32_t count = tahr__contacts(step, step->state.position, step->config->floor_max * step->config->skin, contacts, CONTACTS);
+    for (uint32_t i = 0; i < count; i++) {
+        tahr__plane plane = {.normal = contacts[i].normal, .body = contacts[i].body, .feature = contacts[i].feature};
+        tahr__planes_add(planes, &used, &plane);
+    }
+    tahr__project(planes, used, scale(step->state.up, -1), &way);
+    double left = length(way);
+    /* sin of 0.6 degrees: a gutter less inclined holds a character as a floor does. */
+    return tahr__decide(step, TAHR_RULE_WEDGE, left < 0.01, NULL, left, 0.01, "downward motion that the contacts leave");
+}

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT
+ * floor.h: what can be stood on, how far below it is, and keeping the right height above it. */
+#ifndef TAHR_FLOOR_H
+#define TAHR_FLOOR_H
+
+#include "core.h"
+
+/* Walkable test. was_walkable widens the limit by the hysteresis. No query. */
+int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable);
+
+/* Floor under the character's position, looked for down to `reach` metres (plus the clearance band). A hit of a vertical
+ * sweep that ended here may be supplied instead of the first sweep. 1 sweep; at most TAHR__FLOOR_QUERIES. */
+void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor);
+
+/* 1 sweep, 1 retry with a thinner shape, 1 perch sweep, 1 contact query for a wedge. */
+enum { TAHR__FLOOR_QUERIES = 4 };
+
+/* Makes `floor` the state's floor as found at this position. */
+void tahr__keep_floor(tahr__step *step, const tahr_floor *floor);
+
+/* Is the state's floor that of this position and this world? */
+int tahr__floor_is_current(const tahr__step *step);
+
+/* Brings the clearance into the band [skin, floor_max * skin], following the floor down or rising off it. Returns the
+ * change of height. No query going down what the floor sweep has proven free, else one sweep. */
+double tahr__adjust_height(tahr__step *step);
+
+/* Held by faces that are each too steep, so that no motion downward is left? One contact query. */
+int tahr__is_wedged(tahr__step *step);
+
+static inline int floor_is_walkable(const tahr_floor *floor)
+{
+    return (floor->flags & TAHR_FLOOR_WALKABLE) != 0;
+}
+
+#endif

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT
+ * modes.c: the state machine: one table of modes. A mode returns the time that it left over and the mode that should go
+ * on; only here and in mover.c does the mode change. */
+#include "modes.h"
+
+#include "falling.h"
+#include "report.h"
+#include "walking.h"
+
+static tahr__next rest(tahr__step *step, double time)
+{
+    tahr__next next = {TAHR_MODE_NONE, 0};
+    step->time += time;
+    return next;
+}
+
+typedef struct entry {
+    const char *name;
+    tahr__next (*run)(tahr__step *step, double time);
+} entry;
+
+/* Indexed by TAHR_MODE_*. Transitions: walking -> falling when the floor ends or a jump starts; falling -> walking when
+ * a floor is landed on; none stays. */
+static const entry modes[] = {{"none", rest}, {"walking", tahr__walk}, {"falling", tahr__fall}};
+
+enum { MODE_COUNT = sizeof modes / sizeof modes[0] };
+
+int tahr__is_mode(uint32_t mode)
+{
+    return mode < MODE_COUNT;
+}
+
+const char *tahr_mode_name(uint32_t mode)
+{
+    return tahr__is_mode(mode) ? modes[mode].name : "?";
+}
+
+void tahr__change_mode(tahr__step *step, uint32_t mode)
+{
+    if (step->state.mode != mode) {
+        step->state.mode = mode;
+        tahr__event(step, TAHR_EVENT_MODE, 0, NULL, mode);
+    }
+}
+
+double tahr__run_mode(tahr__step *step, double time)
+{
+    tahr__next next = modes[step->state.mode].run(step, time);
+    tahr__change_mode(step, next.mode);
+    return next.time_left;
+}

@@ -1,0 +1,377 @@
+/* SPDX-License-Identifier: MIT
+ * query.c: the only file that calls backend slots. Checks every question and every answer: a backend may lie, and what it
+ * says decides where a character goes. */
+#include "query.h"
+
+#include <string.h>
+
+#include "message.h"
+#include "shape.h"
+
+/* Normals of user callbacks are often single precision: their length is accepted within this and then made exact. */
+static const double UNIT_TOLERANCE = 1e-3;
+
+static int is_unit(vec3 n)
+{
+    double l = length_squared(n);
+    return l > (1 - UNIT_TOLERANCE) * (1 - UNIT_TOLERANCE) && l < (1 + UNIT_TOLERANCE) * (1 + UNIT_TOLERANCE);
+}
+
+static const char *bad_hit(const tahr_hit *h)
+{
+    if (!(h->fraction >= 0 && h->fraction <= 1)) {
+        return "fraction";
+    }
+    if (!h->blocking && !h->sensor && !h->start_overlap) {
+        return NULL;
+    }
+    if (!is_finite(h->distance)) {
+        return "distance";
+    }
+    if (h->start_overlap && !(h->depth >= 0 && is_finite(h->depth))) {
+        return "depth";
+    }
+    if (h->unknown) {
+        return NULL;
+    }
+    if (!is_unit(h->normal)) {
+        return "normal";
+    }
+    if (!is_unit(h->surface_normal)) {
+        return "surface_normal";
+    }
+    if (!vec_is_finite(h->point)) {
+        return "point";
+    }
+    return h->walkable_rule > TAHR_WALKABLE_NEVER || !is_finite(h->walkable_angle) ? "walkable_rule" : NULL;
+}
+
+static const char *bad_contact(const tahr_contact *c)
+{
+    if (!is_finite(c->distance)) {
+        return "distance";
+    }
+    if (!is_unit(c->normal)) {
+        return "normal";
+    }
+    if (!is_unit(c->surface_normal)) {
+        return "surface_normal";
+    }
+    if (!vec_is_finite(c->point)) {
+        return "point";
+    }
+    return c->walkable_rule > TAHR_WALKABLE_NEVER || !is_finite(c->walkable_angle) ? "walkable_rule" : NULL;
+}
+
+/* A normal that is unit to double precision already keeps its bits. */
+static vec3 exact_unit(vec3 n)
+{
+    double l = length_squared(n);
+    return l > 1 - 1e-15 && l < 1 + 1e-15 ? n : unit(n);
+}
+
+static tahr_status bad_answer(const tahr_world *world, const char *slot, const char *field)
+{
+    return tahr__complain(&world->log, TAHR_E_BACKEND, slot, field, "in the answer is invalid");
+}
+
+/* A backend without the margin gets round shapes inflated: then its overlap of depth d is a gap of margin - d. */
+static void inflate(tahr_sweep *q)
+{
+    q->shape.radius += q->margin;
+    q->shape.half_height += q->margin;
+    q->shape.half_x += q->shape.type == TAHR_SHAPE_BOX ? q->margin : 0;
+    q->shape.half_y += q->shape.type == TAHR_SHAPE_BOX ? q->margin : 0;
+    if (q->shape.type == TAHR_SHAPE_BOX) {
+        q->shape.radius = 0;
+    }
+    q->flags |= TAHR_SWEEP_LEAVE_OVERLAP;
+    q->margin = 0;
+}
+
+static void deflate(const tahr_sweep *q, double margin, tahr_hit *h)
+{
+    if (h->start_overlap && h->depth <= margin) {
+        h->start_overlap = 0;
+        h->blocking = dot(h->normal, q->motion) < 0;
+        h->distance = margin - h->depth;
+        h->depth = 0;
+    } else if (h->start_overlap) {
+        h->depth -= margin;
+        h->distance = -h->depth;
+    } else {
+        h->distance = margin;
+    }
+}
+
+static tahr_status checked_sweep(const tahr_world *world, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
+                                 uint32_t capacity, uint32_t *count)
+{
+    tahr_sweep q = *query;
+    int inflated = !(world->backend->capabilities & TAHR_CAP_MARGIN) && q.margin > 0;
+    if (inflated) {
+        inflate(&q);
+    }
+    *count = 0;
+    tahr_status status = world->backend->sweep(world->self, context, &q, hits, capacity, count);
+    if (status < 0 || *count > capacity) {
+        return bad_answer(world, "sweep", status < 0 ? "status" : "count");
+    }
+    for (uint32_t i = 0; i < *count; i++) {
+        tahr_hit *h = &hits[i];
+        const char *bad = bad_hit(h);
+        if (bad) {
+            return bad_answer(world, "sweep", bad);
+        }
+        h->normal = exact_unit(h->normal);
+        h->surface_normal = exact_unit(h->surface_normal);
+        if (inflated) {
+            deflate(query, query->margin, h);
+        }
+    }
+    return status;
+}
+
+static tahr_status checked_contacts(const tahr_world *world, tahr_query_context *context, const tahr_contact_query *query,
+                                    tahr_contact *contacts, uint32_t capacity, uint32_t *count)
+{
+    *count = 0;
+    tahr_status status = world->backend->contacts(world->self, context, query, contacts, capacity, count);
+    if (status < 0 || *count > capacity) {
+        return bad_answer(world, "contacts", status < 0 ? "status" : "count");
+    }
+    for (uint32_t i = 0; i < *count; i++) {
+        const char *bad = bad_contact(&contacts[i]);
+        if (bad) {
+            return bad_answer(world, "contacts", bad);
+        }
+        contacts[i].normal = exact_unit(contacts[i].normal);
+        contacts[i].surface_normal = exact_unit(contacts[i].surface_normal);
+    }
+    return status;
+}
+
+static tahr_status checked_ray(const tahr_world *world, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit,
+                               uint32_t *count)
+{
+    *count = 0;
+    tahr_status status = world->backend->ray(world->self, context, query, hit, count);
+    if (status < 0 || *count > 1) {
+        return bad_answer(world, "ray", status < 0 ? "status" : "count");
+    }
+    const char *bad = *count ? bad_hit(hit) : NULL;
+    return bad ? bad_answer(world, "ray", bad) : status;
+}
+
+/* Counts a query; 0 when the step may not ask any more. */
+static int may_ask(tahr__step *step)
+{
+    if (step->error < 0) {
+        return 0;
+    }
+    if (step->queries >= TAHR_MAX_QUERIES_PER_STEP) {
+        step->report.flags |= TAHR_REPORT_QUERY_CAP;
+        return 0;
+    }
+    step->queries++;
+    return 1;
+}
+
+static void blocked_here(const tahr__step *step, tahr_hit *hit)
+{
+    memset(hit, 0, sizeof *hit);
+    hit->blocking = 1;
+    hit->unknown = 1;
+    hit->body = TAHR_NO_BODY;
+    hit->normal = hit->surface_normal = step->state.up;
+}
+
+void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags, tahr_hit *hit)
+{
+    uint32_t count = 0;
+    if (!may_ask(step)) {
+        blocked_here(step, hit);
+        return;
+    }
+    tahr_sweep q = {.shape = *shape,
+                    .position = from,
+                    .up = step->state.up,
+                    .orientation = step->state.orientation,
+                    .motion = motion,
+                    .margin = margin,
+                    .mask = step->config->mask,
+                    .ignore_body = TAHR_NO_BODY,
+                    .flags = flags};
+    step->report.sweeps++;
+    tahr_status status = checked_sweep(step->world, &step->context, &q, hit, 1, &count);
+    if (status < 0) {
+        step->error = status;
+        blocked_here(step, hit);
+        return;
+    }
+    if (count == 0 || !(hit->blocking || hit->start_overlap)) {
+        memset(hit, 0, sizeof *hit);
+        hit->fraction = 1;
+        hit->body = TAHR_NO_BODY;
+        return;
+    }
+    hit->blocking = 1;
+    if (hit->unknown) {
+        step->report.flags |= TAHR_REPORT_UNKNOWN;
+        if (!is_unit(hit->normal)) { /* nothing is known of what is there: treat it as a wall in the way */
+            hit->normal = hit->surface_normal = unit(scale(motion, -1));
+        }
+    }
+}
+
+uint32_t tahr__contacts(tahr__step *step, vec3 position, double margin, tahr_contact *contacts, uint32_t capacity)
+{
+    uint32_t count = 0, kept = 0;
+    if (!step->world->backend->contacts || !may_ask(step)) {
+        return 0;
+    }
+    tahr_contact_query q = {.shape = step->config->shape,
+                            .position = position,
+                            .up = step->state.up,
+                            .orientation = step->state.orientation,
+                            .margin = margin,
+                            .mask = step->config->mask,
+                            .ignore_body = TAHR_NO_BODY};
+    step->report.contact_queries++;
+    tahr_status status = checked_contacts(step->world, &step->context, &q, contacts, capacity, &count);
+    if (status < 0) {
+        step->error = status;
+        return 0;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (!contacts[i].sensor) {
+            contacts[kept++] = contacts[i];
+        }
+    }
+    return kept;
+}
+
+void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit)
+{
+    uint32_t count = 0;
+    if (!may_ask(step)) {
+        blocked_here(step, hit);
+        return;
+    }
+    tahr_ray q = {.origin = origin, .motion = motion, .mask = step->config->mask, .ignore_body = TAHR_NO_BODY};
+    step->report.rays++;
+    tahr_status status = checked_ray(step->world, &step->context, &q, hit, &count);
+    if (status < 0) {
+        step->error = status;
+        blocked_here(step, hit);
+    } else if (count == 0) {
+        memset(hit, 0, sizeof *hit);
+        hit->fraction = 1;
+        hit->body = TAHR_NO_BODY;
+    }
+}
+
+void tahr__announce(tahr__step *step, const tahr_bounds *bounds)
+{
+    if (!step->world->backend->prepare) {
+        return;
+    }
+    tahr_prepare p = {.bounds = *bounds, .position = step->state.position, .up = step->state.up, .mask = step->config->mask};
+    if (step->world->backend->prepare(step->world->self, &step->context, &p) < 0) {
+        step->error = bad_answer(step->world, "prepare", "status");
+    }
+}
+
+/* What a direct query must fulfil; returns the name of the first bad field. */
+static const char *bad_placement(const tahr_shape *shape, vec3 position, vec3 up, tahr_quat q, double margin)
+{
+    const char *bad = tahr__shape_check(shape);
+    double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    if (bad) {
+        return bad;
+    }
+    if (!vec_is_finite(position) || length(position) > 2e7) {
+        return "position";
+    }
+    if (!(length_squared(up) > 1 - 1e-9 && length_squared(up) < 1 + 1e-9)) {
+        return "up";
+    }
+    if (!(q2 > 1 - 1e-9 && q2 < 1 + 1e-9)) {
+        return "orientation";
+    }
+    return margin >= 0 && margin <= 1e4 ? NULL : "margin";
+}
+
+static tahr_status bad_argument(const tahr_world *world, const char *function, const char *field)
+{
+    return tahr__complain(&world->log, TAHR_E_ARGUMENT, function, field, "is out of range or not finite");
+}
+
+tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity, uint32_t *count)
+{
+    if (!world || !query || !hits || !count) {
+        return TAHR_E_NULL;
+    }
+    const char *bad = bad_placement(&query->shape, query->position, query->up, query->orientation, query->margin);
+    if (!bad && !(vec_is_finite(query->motion) && length(query->motion) <= 1e6)) {
+        bad = "motion";
+    }
+    if (!bad && capacity == 0) {
+        bad = "capacity";
+    }
+    if (bad) {
+        return bad_argument(world, "tahr_world_sweep", bad);
+    }
+    tahr_query_context context = {0};
+    uint32_t found = 0;
+    tahr_status status = checked_sweep(world, &context, query, hits, capacity, &found);
+    if (status >= 0) {
+        *count = found;
+        if (found && hits[found - 1].unknown) {
+            status = TAHR_UNKNOWN;
+        }
+    }
+    return status;
+}
+
+tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,
+                                uint32_t *count)
+{
+    if (!world || !query || !contacts || !count) {
+        return TAHR_E_NULL;
+    }
+    const char *bad = bad_placement(&query->shape, query->position, query->up, query->orientation, query->margin);
+    if (bad) {
+        return bad_argument(world, "tahr_world_contacts", bad);
+    }
+    if (!world->backend->contacts) {
+        return TAHR_E_UNSUPPORTED;
+    }
+    tahr_query_context context = {0};
+    uint32_t found = 0;
+    tahr_status status = checked_contacts(world, &context, query, contacts, capacity, &found);
+    if (status >= 0) {
+        *count = found;
+    }
+    return status;
+}
+
+tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
+{
+    if (!world || !query || !hit || !count) {
+        return TAHR_E_NULL;
+    }
+    if (!vec_is_finite(query->origin) || !vec_is_finite(query->motion) || length(query->origin) > 2e7) {
+        return bad_argument(world, "tahr_world_ray", "origin or motion");
+    }
+    tahr_query_context context = {0};
+    tahr_hit found_hit;
+    uint32_t found = 0;
+    memset(&found_hit, 0, sizeof found_hit);
+    tahr_status status = checked_ray(world, &context, query, &found_hit, &found);
+    if (status >= 0) {
+        *hit = found_hit;
+        *count = found;
+    }
+    return status;
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT
+ * report.c: writing events and decisions into the caller's arrays; what does not fit is counted. */
+#include "report.h"
+
+void tahr__event(tahr__step *step, uint32_t type, double later, const tahr_hit *hit, double value)
+{
+    tahr_report *r = &step->report;
+    if (!r->events) {
+        return;
+    }
+    if (r->event_count == r->event_capacity) {
+        r->events_lost++;
+        r->flags |= TAHR_REPORT_TRUNCATED;
+        return;
+    }
+    tahr_event event = {.type = type,
+                        .body = hit ? hit->body : TAHR_NO_BODY,
+                        .feature = hit ? hit->feature : 0,
+                        .surface = hit ? hit->surface : 0,
+                        .time = step->time + later,
+                        .value = value,
+                        .position = step->state.position};
+    if (hit) {
+        event.normal = hit->normal;
+    }
+    r->events[r->event_count++] = event;
+}
+
+int tahr__decide(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value, double limit, const char *reason)
+{
+    tahr_report *r = &step->report;
+    if (!r->decisions) {
+        return accepted;
+    }
+    if (r->decision_count == r->decision_capacity) {
+        r->decisions_lost++;
+        r->flags |= TAHR_REPORT_TRUNCATED;
+        return accepted;
+    }
+    tahr_decision decision = {.rule = rule,
+                              .accepted = accepted != 0,
+                              .body = hit ? hit->body : TAHR_NO_BODY,
+                              .feature = hit ? hit->feature : 0,
+                              .value = value,
+                              .limit = limit,
+                              .reason = reason};
+    if (hit) {
+        decision.normal = hit->normal;
+        decision.point = hit->point;
+    }
+    r->decisions[r->decision_count++] = decision;
+    return accepted;
+}

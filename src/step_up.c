@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT
+ * step_up.c: getting onto low obstacles: forward at step height, then down, judged by the face that is landed on.
+ *
+ * A round foot that has come 33 mm over a step (2 m/s at 60 Hz) touches its edge with a normal far from upright; judging
+ * that normal refuses the step in every frame. The face behind the edge does not depend on how far the foot has come, so
+ * the decision is the same at every frame rate, and needs no memory of former frames. */
+#include "step_up.h"
+
+#include "floor.h"
+#include "query.h"
+#include "report.h"
+
+/* Less progress than this part of the radius at step height is a wall, not a step. */
+static const double PROGRESS = 1e-4;
+
+typedef struct attempt {
+    vec3 up;
+    double lift;    /* m, raised by */
+    double covered; /* part of the motion */
+    vec3 position;  /* landed at */
+    tahr_hit landing;
+} attempt;
+
+static int refuse(tahr__step *step, const tahr_hit *hit, double value, double limit, const char *reason)
+{
+    return tahr__decide(step, TAHR_RULE_STEP_UP, 0, hit, value, limit, reason);
+}
+
+/* Height of the floor that the step is measured from. */
+static double floor_height(const tahr__step *step)
+{
+    const tahr_floor *floor = &step->state.floor;
+    return dot(floor->point, step->state.up);
+}
+
+/* How far the shape could go forward if it were raised; lowers the lift under a ceiling. */
+static int forward(tahr__step *step, vec3 motion, attempt *a)
+{
+    const tahr_config *c = step->config;
+    tahr_hit hit;
+    vec3 raised = add_scaled(step->state.position, a->up, a->lift);
+    tahr__sweep(step, &c->shape, raised, motion, c->skin, 0, &hit);
+    if (!hit.start_overlap && hit.fraction * length(motion) <= PROGRESS * step->limits->width) {
+        return refuse(step, &hit, hit.fraction, 0, "blocked at step height too");
+    }
+    double covered = hit.fraction;
+    tahr__sweep(step, &c->shape, step->state.position, scale(a->up, a->lift), c->skin, 0, &hit);
+    if (hit.start_overlap) {
+        return refuse(step, &hit, hit.depth, 0, "overlaps where it stands");
+    }
+    if (hit.blocking) { /* a ceiling: as high as it lets */
+        a->lift *= hit.fraction;
+        tahr__sweep(step, &c->shape, add_scaled(step->state.position, a->up, a->lift), motion, c->skin, 0, &hit);
+        covered = hit.start_overlap ? 0 : hit.fraction;
+        if (covered * length(motion) <= PROGRESS * step->limits->width) {
+            return refuse(step, &hit, a->lift, c->step_height, "ceiling too low");
+        }
+    }
+    a->covered = covered;
+    a->position = add_scaled(add_scaled(step->state.position, a->up, a->lift), motion, covered);
+    return 1;
+}
+
+/* A bevelled or rounded lip shows a steep face first: look for the tread behind it. */
+static int tread_behind(tahr__step *step, vec3 motion, const tahr_hit *landing, double base)
+{
+    const tahr_config *c = step->config;
+    double top = base + c->step_height;
+    double at = dot(landing->point, step->state.up);
+    vec3 over = add_scaled(landing->point, unit(motion), c->perch_threshold);
+    vec3 origin = add_scaled(over, step->state.up, top + c->skin - at);
+    tahr_hit hit;
+    tahr__ray(step, origin, scale(step->state.up, -(c->step_height + c->skin)), &hit);
+    return hit.fraction > 0 && tahr__is_walkable(step, &hit, 0);
+}
+
+static int land(tahr__step *step, vec3 motion, attempt *a)
+{
+    const tahr_config *c = step->config;
+    double base = floor_height(step);
+    double range = a->lift + c->snap_distance;
+    tahr_hit *hit = &a->landing;
+    tahr__sweep(step, &c->shape, a->position, scale(a->up, -range), c->skin, 0, hit);
+    if (!hit->blocking || hit->start_overlap) {
+        return refuse(step, hit, range, 0, "nothing to land on");
+    }
+    double rise = dot(hit->point, a->up) - base;
+    if (rise > c->step_height + 1e-6) {
+        return refuse(step, hit, rise, c->step_height, "higher than a step");
+    }
+    if (!tahr__is_walkable(step, hit, 0) && !tread_behind(step, motion, hit, base)) {
+        return refuse(step, hit, dot(hit->surface_normal, a->up), step->limits->walkable, "landing face too steep");
+    }
+    a->position = add_scaled(a->position, a->up, -range * hit->fraction);
+    return 1;
+}
+
+double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
+{
+    const tahr_config *c = step->config;
+    tahr_state before = step->state;
+    tahr_floor floor;
+    attempt a = {.up = step->state.up, .lift = c->step_height};
+    if (c->step_height <= 0 || !floor_is_walkable(&step->state.floor) ||
+        dot(obstacle->normal, a.up) < -0.1) { /* struck by the upper half: a ceiling or an overhang */
+        return 0;
+    }
+    if (!forward(step, motion, &a) || !land(step, motion, &a)) {
+        return 0;
+    }
+    step->state.position = a.position;
+    tahr__find_floor(step, c->snap_distance, &a.landing, &floor);
+    if (!floor_is_walkable(&floor) || step->error < 0) {
+        step->state = before;
+        refuse(step, &a.landing, floor.distance, 0, "no floor to stand on there");
+        return 0;
+    }
+    double gain = dot(sub(a.position, before.position), a.up);
+    int new_tread = floor.body != before.floor.body || floor.feature != before.floor.feature;
+    tahr__keep_floor(step, &floor);
+    step->report.step_offset += gain;
+    tahr__decide(step, TAHR_RULE_STEP_UP, 1, &a.landing, gain, c->step_height, "landed");
+    if (new_tread && gain > c->skin) {
+        tahr__event(step, TAHR_EVENT_STEPPED_UP, 0, &a.landing, gain);
+    }
+    return a.covered;
+}

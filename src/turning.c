@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: MIT
+ * turning.c: which way is up, and which way the character faces. */
+#include "turning.h"
+
+#include "elementary.h"
+#include "query.h"
+#include "report.h"
+
+void tahr__right(tahr__step *step)
+{
+    double g = length(step->gravity);
+    tahr_state *s = &step->state;
+    tahr_contact contact;
+    if (g < 1e-6) {
+        return; /* weightless: up stays what it was */
+    }
+    vec3 up = scale(step->gravity, -1.0 / g);
+    if (dot(up, s->up) > 1 - 1e-15) {
+        return;
+    }
+    tahr_state before = *s;
+    vec3 foot = step_foot(step);
+    s->orientation = quat_unit(quat_multiply(quat_between(s->up, up), s->orientation));
+    s->up = up;
+    s->position = add_scaled(foot, up, step->config->shape.half_height);
+    s->floor_revision = 0;
+    if (tahr__contacts(step, s->position, 0, &contact, 1) > 0 && contact.distance < 0) {
+        *s = before;
+        step->report.flags |= TAHR_REPORT_UP_REFUSED;
+    }
+}
+
+void tahr__face(tahr__step *step, double dt)
+{
+    tahr_state *s = &step->state;
+    if (!(step->input.flags & TAHR_INPUT_FACING)) {
+        return;
+    }
+    vec3 goal = unit(step_level(step, step->input.facing));
+    vec3 forward = unit(step_level(step, rotate(s->orientation, vec(1, 0, 0))));
+    if (length_squared(goal) == 0 || length_squared(forward) == 0) {
+        return;
+    }
+    double c = dot(forward, goal);
+    double side = dot(cross(forward, goal), s->up);
+    double most = step->config->turn_rate * dt;
+    double sine, cosine;
+    if (most >= 3.141592653589793) {
+        most = 3.141592653589793;
+    }
+    tahr__sincos(most, &sine, &cosine);
+    if (c < cosine) { /* farther than one step turns */
+        double half_sine, half_cosine;
+        tahr__sincos(0.5 * most, &half_sine, &half_cosine);
+        half_sine = side < 0 ? -half_sine : half_sine;
+        tahr_quat turn = {s->up.x * half_sine, s->up.y * half_sine, s->up.z * half_sine, half_cosine};
+        s->orientation = quat_unit(quat_multiply(turn, s->orientation));
+    } else if (side != 0 || c < 0) {
+        tahr_quat turn = {s->up.x * side, s->up.y * side, s->up.z * side, 1 + c};
+        s->orientation = quat_unit(quat_multiply(quat_unit(turn), s->orientation));
+    }
+}

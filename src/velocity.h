@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT
+ * velocity.h: velocity and displacement over a time, in closed form. Asks nothing, allocates nothing. */
+#ifndef TAHR_VELOCITY_H
+#define TAHR_VELOCITY_H
+
+#include "vec.h"
+
+/* How a velocity across up answers to a wish. */
+typedef struct tahr__law {
+    vec3 wish;            /* unit direction across up, or zero: no input */
+    double speed;         /* m/s asked for, >= 0 */
+    double acceleration;  /* m/s2 along the wish */
+    double turn_friction; /* 1/s decay of the part across the wish */
+    double braking;       /* m/s2 without input or above speed */
+    double drag;          /* 1/s added to it */
+} tahr__law;
+
+typedef struct tahr__motion {
+    vec3 displacement;
+    vec3 velocity;
+    double stop_time; /* s at which the velocity became zero; < 0: it did not during this time */
+} tahr__motion;
+
+/* Advances the velocity v (across up) by t >= 0 seconds. Composes: two halves give the whole, to rounding. */
+tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t);
+
+/* A fall: the velocity along up is v0 at the start, gravity g (m/s2, > 0, along -up) acts after `hold` seconds, and the fall is
+ * never faster than terminal. Returns the rise after t seconds, [out] v the velocity then. */
+double tahr__fall_advance(double v0, double g, double terminal, double hold, double t, double *v);
+
+#endif

@@ -1,0 +1,334 @@
+/* SPDX-License-Identifier: MIT
+ * walking.c: one slice of walking: velocity in closed form, then along the floor, up and down steps, along walls.
+ *
+ * While walking the velocity lies across up; its length is the speed along the surface. A step up or down changes the
+ * height and no velocity. */
+#include "walking.h"
+
+#include "floor.h"
+#include "move.h"
+#include "query.h"
+#include "report.h"
+#include "slide.h"
+#include "step_up.h"
+
+/* Where a slice is: what is left of it, and what it has met. */
+typedef struct walk {
+    vec3 wish;       /* level displacement of the whole slice */
+    double duration; /* s */
+    double left;     /* part of the wish not yet covered */
+    tahr__plane walls[TAHR__MAX_PLANES];
+    uint32_t wall_count;
+    tahr__plane ramps[TAHR__MAX_PLANES]; /* walkable faces that carry */
+    uint32_t ramp_count;
+    vec3 from; /* the last straight piece, to find the place where a floor ended */
+    double left_before;
+} walk;
+
+static tahr__law law_of(const tahr__step *step)
+{
+    const tahr_config *c = step->config;
+    vec3 wish = step_level(step, step->input.move);
+    double size = length(wish);
+    tahr__law law = {.speed = c->max_speed * min_of(size, 1),
+                     .acceleration = c->acceleration,
+                     .turn_friction = c->turn_friction,
+                     .braking = c->braking_deceleration,
+                     .drag = c->braking_drag};
+    if (size > 0) {
+        law.wish = scale(wish, 1.0 / size);
+    }
+    return law;
+}
+
+static void carry(walk *w, const tahr__step *step, vec3 normal, uint32_t body, uint32_t feature)
+{
+    tahr__plane ramp = {.normal = normal, .anchor = step->state.position, .body = body, .feature = feature};
+    tahr__planes_add(w->ramps, &w->ramp_count, &ramp);
+}
+
+static void carry_floor(walk *w, const tahr__step *step)
+{
+    const tahr_floor *floor = &step->state.floor;
+    w->ramp_count = 0;
+    if (floor_is_walkable(floor) && !(floor->flags & TAHR_FLOOR_WEDGED) &&
+        dot(floor->surface_normal, step->state.up) >= step->limits->walkable_hysteresis) {
+        carry(w, step, floor->surface_normal, floor->body, floor->feature);
+    }
+}
+
+/* Lifts a level displacement onto all faces that carry, at the same length along them. */
+static vec3 along_floor(const walk *w, const tahr__step *step, vec3 level)
+{
+    double rise = -INFINITY;
+    if (w->ramp_count == 0) {
+        return level;
+    }
+    for (uint32_t i = 0; i < w->ramp_count; i++) {
+        double r = -dot(w->ramps[i].normal, level) / dot(w->ramps[i].normal, step->state.up);
+        rise = max_of(rise, r);
+    }
+    if (rise == 0) {
+        return level;
+    }
+    double size = length(level);
+    vec3 lifted = add_scaled(level, step->state.up, rise);
+    return scale(lifted, size / sqrt(size * size + rise * rise));
+}
+
+/* A walkable face in the way: go on along it. Its contact normal must be walkable too; the lip of a step is not a ramp. */
+static int take_ramp(tahr__step *step, walk *w, const tahr_hit *hit)
+{
+    double up = dot(hit->normal, step->state.up);
+    if (up < step->limits->walkable || !tahr__is_walkable(step, hit, 0)) {
+        return tahr__decide(step, TAHR_RULE_RAMP, 0, hit, up, step->limits->walkable, "too steep to go on along");
+    }
+    for (uint32_t i = 0; i < w->ramp_count; i++) {
+        if (dot(w->ramps[i].normal, hit->normal) > 1 - 1e-9) {
+            return tahr__decide(step, TAHR_RULE_RAMP, 0, hit, up, 1, "already going along it");
+        }
+    }
+    carry(w, step, hit->normal, hit->body, hit->feature);
+    return tahr__decide(step, TAHR_RULE_RAMP, 1, hit, up, step->limits->walkable, "a walkable face");
+}
+
+static int take_step(tahr__step *step, walk *w, vec3 level, const tahr_hit *hit)
+{
+    double covered = tahr__step_up(step, level, hit);
+    if (covered <= 0) {
+        return 0;
+    }
+    w->left *= 1 - covered;
+    w->wall_count = 0; /* what stood beside the foot below need not stand here */
+    carry_floor(w, step);
+    w->from = step->state.position;
+    w->left_before = w->left;
+    return 1;
+}
+
+static double slice_time(const walk *w)
+{
+    return (1 - w->left) * w->duration;
+}
+
+static int take_wall(tahr__step *step, walk *w, const tahr_hit *hit)
+{
+    tahr__plane wall = tahr__plane_of(step, hit);
+    vec3 floor_normal = w->ramp_count ? w->ramps[0].normal : step->state.up;
+    double speed = -dot(step->state.velocity, hit->normal);
+    tahr__event(step, TAHR_EVENT_HIT, slice_time(w), hit, max_of(speed, 0));
+    step->report.slides++;
+    if (!tahr__level_wall(step, floor_normal, &wall)) {
+        return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");
+    }
+    tahr__planes_add(w->walls, &w->wall_count, &wall);
+    step->state.velocity = tahr__slide(w->walls, w->wall_count, step->state.velocity);
+    return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(wall.normal, step->state.up), 0, "slides along");
+}
+
+/* Walks the wish, bending it as things are met. */
+static void walk_along(tahr__step *step, walk *w)
+{
+    tahr_hit hit;
+    for (uint32_t i = 0; i < step->config->max_slides && w->left > 0 && step->error >= 0; i++) {
+        vec3 level = tahr__slide(w->walls, w->wall_count, scale(w->wish, w->left));
+        if (length_squared(level) == 0) {
+            return;
+        }
+        vec3 motion = along_floor(w, step, level);
+        w->from = step->state.position;
+        w->left_before = w->left;
+        tahr__move(step, motion, &hit);
+        w->left *= hit.blocking ? 1 - hit.fraction : 0;
+        if (!hit.blocking || hit.unknown || hit.start_overlap) {
+            return;
+        }
+        tahr__planes_forget(step, w->walls, &w->wall_count);
+        if (take_ramp(step, w, &hit)) {
+            continue;
+        }
+        level = tahr__slide(w->walls, w->wall_count, scale(w->wish, w->left));
+        if (length_squared(level) > 0 && take_step(step, w, level, &hit)) {
+            continue;
+        }
+        if (!take_wall(step, w, &hit)) {
+            step->state.velocity = vec(0, 0, 0);
+            return;
+        }
+    }
+}
+
+/* The floor ended somewhere on the last straight piece: halves it until the place is known to a thousandth of it.
+ * Returns the part of the piece at which the character stands (inside) or falls (outside). */
+static double where_floor_ended(tahr__step *step, const walk *w, vec3 to, int inside)
+{
+    enum { ROUNDS = 10 };
+    double low = 0, high = 1;
+    tahr_floor floor;
+    for (int i = 0; i < ROUNDS && step->error >= 0; i++) {
+        double middle = 0.5 * (low + high);
+        step->state.position = add_scaled(w->from, sub(to, w->from), middle);
+        tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+        *(floor_is_walkable(&floor) ? &low : &high) = middle;
+    }
+    return inside ? low : high;
+}
+
+/* Stops at the last place with a floor and goes on along the edge. Returns 1 if there is such a place. */
+static int hold_at_ledge(tahr__step *step, walk *w)
+{
+    vec3 to = step->state.position;
+    tahr_floor floor;
+    double part = where_floor_ended(step, w, to, 1);
+    step->state.position = add_scaled(w->from, sub(to, w->from), part);
+    tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+    if (!floor_is_walkable(&floor)) {
+        return tahr__decide(step, TAHR_RULE_LEDGE, 0, NULL, part, 0, "no floor on the way here");
+    }
+    tahr__keep_floor(step, &floor);
+    w->left = w->left_before - (w->left_before - w->left) * part;
+    /* The contact with the edge leans outward: its level part is the wall that keeps the character in. */
+    tahr__plane edge = {.normal = unit(scale(step_level(step, floor.normal), -1)),
+                        .anchor = step->state.position,
+                        .body = floor.body,
+                        .feature = floor.feature};
+    if (length_squared(edge.normal) == 0) {
+        edge.normal = unit(scale(step_level(step, w->wish), -1));
+    }
+    tahr__planes_add(w->walls, &w->wall_count, &edge);
+    step->state.velocity = tahr__slide(w->walls, w->wall_count, step->state.velocity);
+    return tahr__decide(step, TAHR_RULE_LEDGE, 1, NULL, part, 1, "held at the ledge");
+}
+
+/* Not allowed off ledges: at most two edges in a slice (a corner of a plateau), then stands. */
+static void stay_on_ledge(tahr__step *step, walk *w)
+{
+    tahr_floor floor;
+    for (int corner = 0; corner < 2; corner++) {
+        if (!hold_at_ledge(step, w)) {
+            step->state.position = w->from;
+            break;
+        }
+        vec3 held = step->state.position;
+        tahr_floor held_floor = step->state.floor;
+        carry_floor(w, step);
+        walk_along(step, w);
+        tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+        if (floor_is_walkable(&floor)) {
+            tahr__keep_floor(step, &floor);
+            return;
+        }
+        if (corner == 1) {
+            step->state.position = held;
+            tahr__keep_floor(step, &held_floor);
+        }
+    }
+    step->state.velocity = vec(0, 0, 0);
+}
+
+void tahr__leave_floor(tahr__step *step)
+{
+    walk w = {.ramp_count = 0};
+    vec3 v = step_level(step, step->state.velocity);
+    carry_floor(&w, step);
+    step->state.velocity = step_level(step, along_floor(&w, step, v));
+}
+
+static tahr__next fall_off(tahr__step *step, walk *w, const tahr_floor *end)
+{
+    vec3 to = step->state.position;
+    double part = 1;
+    if (floor_is_walkable(&step->state.floor)) {
+        part = where_floor_ended(step, w, to, 0);
+        step->state.position = add_scaled(w->from, sub(to, w->from), part);
+    }
+    double left = w->left_before - (w->left_before - w->left) * part;
+    if (part == 1) {
+        left = 0; /* it fell at the very end: nothing of the slice is left, whatever walls took */
+    }
+    tahr__leave_floor(step);
+    tahr__keep_floor(step, end);
+    step->state.floor_revision = 0;
+    step->time += w->duration * (1 - left);
+    tahr__event(step, TAHR_EVENT_LEFT_GROUND, 0, NULL, 0);
+    tahr__next next = {TAHR_MODE_FALLING, w->duration * left};
+    return next;
+}
+
+/* Follows the floor down, or rises off it, and says so when it was a step. */
+static void settle(tahr__step *step)
+{
+    double height = tahr__adjust_height(step);
+    step->report.step_offset += height;
+    if (height < -2 * step->config->skin) {
+        tahr__event(step, TAHR_EVENT_STEPPED_DOWN, 0, NULL, -height);
+        tahr__decide(step, TAHR_RULE_STEP_DOWN, 1, NULL, -height, step->config->snap_distance, "floor followed down");
+    }
+}
+
+/* Nothing moves: look at the floor only if something may have changed. */
+static tahr__next stand(tahr__step *step, double time)
+{
+    tahr__next next = {TAHR_MODE_WALKING, 0};
+    tahr_floor floor;
+    int moved = (step->state.flags & TAHR_STATE_FLOOR_MOVED) != 0;
+    if (step->config->cached_floor && !moved && tahr__floor_is_current(step)) {
+        step->report.flags |= TAHR_REPORT_CACHED_FLOOR;
+        tahr__decide(step, TAHR_RULE_CACHED_FLOOR, 1, NULL, 0, 0, "neither the character nor the world moved");
+        step->time += time;
+        return next;
+    }
+    tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+    if (!floor_is_walkable(&floor)) {
+        tahr__event(step, TAHR_EVENT_LEFT_GROUND, 0, NULL, 0);
+        tahr__keep_floor(step, &floor);
+        tahr__next fall = {TAHR_MODE_FALLING, time};
+        return fall;
+    }
+    tahr__keep_floor(step, &floor);
+    settle(step);
+    step->time += time;
+    return next;
+}
+
+tahr__next tahr__walk(tahr__step *step, double time)
+{
+    tahr__law law = law_of(step);
+    tahr_floor floor;
+    if (!tahr__floor_is_current(step)) {
+        tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+        tahr__keep_floor(step, &floor);
+    }
+    if (!floor_is_walkable(&step->state.floor)) {
+        tahr__next fall = {TAHR_MODE_FALLING, time};
+        tahr__event(step, TAHR_EVENT_LEFT_GROUND, 0, NULL, 0);
+        return fall;
+    }
+    tahr__motion m = tahr__law_advance(&law, step_level(step, step->state.velocity), time);
+    if (length_squared(m.displacement) == 0) {
+        step->state.velocity = m.velocity;
+        return stand(step, time);
+    }
+    walk w = {.wish = m.displacement, .duration = time, .left = 1, .from = step->state.position, .left_before = 1};
+    carry_floor(&w, step);
+    step->state.velocity = m.velocity;
+    walk_along(step, &w);
+    if (!tahr__floor_is_current(step)) {
+        tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+        if (!floor_is_walkable(&floor) && step->config->walk_off_ledges) {
+            return fall_off(step, &w, &floor);
+        }
+        if (floor_is_walkable(&floor)) {
+            tahr__keep_floor(step, &floor);
+        } else {
+            stay_on_ledge(step, &w);
+        }
+    }
+    settle(step);
+    if (m.stop_time >= 0) {
+        tahr__event(step, TAHR_EVENT_STOPPED, m.stop_time, NULL, 0);
+    }
+    step->time += time;
+    tahr__next next = {TAHR_MODE_WALKING, 0};
+    return next;
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT
+ * walking.h: one slice of walking. */
+#ifndef TAHR_WALKING_H
+#define TAHR_WALKING_H
+
+#include "core.h"
+
+/* Walks for at most `time` seconds. On flat ground 2 sweeps moving, 1 standing, 0 standing on a current floor. */
+tahr__next tahr__walk(tahr__step *step, double time);
+
+/* Turns the speed along the floor into the velocity of a body that leaves it: the level part of it. */
+void tahr__leave_floor(tahr__step *step);
+
+#endif

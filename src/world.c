@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: MIT
+ * world.c: a scene behind one backend: opening, checking, placing bodies, closing. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "callbacks.h"
+#include "core.h"
+#include "float_mode.h"
+#include "message.h"
+#include "sized.h"
+#include "world_memory.h"
+
+static const double FARTHEST = 1e7; /* m: double still resolves 2e-9 m there */
+
+tahr_status tahr_world_desc_init(tahr_world_desc *desc, size_t size)
+{
+    if (!desc) {
+        return TAHR_E_NULL;
+    }
+    if (size < sizeof *desc) {
+        return TAHR_E_STRUCT_SIZE;
+    }
+    memset(desc, 0, size);
+    desc->struct_size = (uint32_t)size;
+    return TAHR_OK;
+}
+
+tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint32_t type)
+{
+    if (!desc) {
+        return TAHR_E_NULL;
+    }
+    if (size < sizeof *desc) {
+        return TAHR_E_STRUCT_SIZE;
+    }
+    memset(desc, 0, size);
+    desc->struct_size = (uint32_t)size;
+    desc->type = type;
+    desc->mask = 0xFFFFFFFFu;
+    desc->pose.orientation.w = 1;
+    return TAHR_OK;
+}
+
+static void silent(void *user, int32_t level, const char *message)
+{
+    (void)user, (void)level, (void)message;
+}
+
+static const char *bad_pose(const tahr_pose *pose, int zero_is_identity)
+{
+    tahr_quat q = pose->orientation;
+    double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    if (!vec_is_finite(pose->position) || length(pose->position) > FARTHEST) {
+        return "pose.position";
+    }
+    return (zero_is_identity && q2 == 0) || (q2 > 1 - 1e-6 && q2 < 1 + 1e-6) ? NULL : "pose.orientation";
+}
+
+static int is_size(double x)
+{
+    return x >= 1e-6 && x <= 1e6;
+}
+
+static const char *bad_body(const tahr_body_desc *b)
+{
+    const char *pose = bad_pose(&b->pose, 1);
+    if (pose) {
+        return pose;
+    }
+    if (b->flags & ~(uint32_t)(TAHR_BODY_SENSOR | TAHR_BODY_TWO_SIDED | TAHR_BODY_MOVABLE)) {
+        return "flags";
+    }
+    if (b->walkable_rule > TAHR_WALKABLE_NEVER || !is_finite(b->walkable_angle)) {
+        return "walkable_rule";
+    }
+    switch (b->type) {
+    case TAHR_BODY_MESH:
+        return b->vertices && b->indices ? NULL : "vertices or indices";
+    case TAHR_BODY_BOX:
+        return is_size(b->half_extents.x) && is_size(b->half_extents.y) && is_size(b->half_extents.z) ? NULL : "half_extents";
+    case TAHR_BODY_SPHERE:
+        return is_size(b->radius) ? NULL : "radius";
+    case TAHR_BODY_CAPSULE:
+        return is_size(b->radius) && is_size(b->half_height) && b->half_height >= b->radius ? NULL : "radius or half_height";
+    default:
+        return "type";
+    }
+}
+
+static tahr_status check_bodies(const tahr_log *log, const tahr_world_desc *desc)
+{
+    char name[64];
+    if (desc->body_count > 0 && !desc->bodies) {
+        return tahr__complain(log, TAHR_E_NULL, "tahr_world_open", "bodies", "is NULL");
+    }
+    for (uint32_t i = 0; i < desc->body_count; i++) {
+        snprintf(name, sizeof name, "bodies[%u]", i);
+        tahr_status status = tahr__sized_check(&desc->bodies[i], sizeof desc->bodies[i]);
+        if (status < 0) {
+            return tahr__complain(log, status, "tahr_world_open", name, tahr_status_message(status));
+        }
+        const char *bad = bad_body(&desc->bodies[i]);
+        if (bad) {
+            snprintf(name, sizeof name, "bodies[%u].%s", i, bad);
+            return tahr__complain(log, TAHR_E_ARGUMENT, "tahr_world_open", name, "is missing, out of range or not finite");
+        }
+        if (desc->bodies[i].type == TAHR_BODY_MESH && desc->bodies[i].triangle_count == 0) {
+            return tahr__complain(log, TAHR_E_GEOMETRY, "tahr_world_open", name, "is a mesh without triangles");
+        }
+    }
+    return TAHR_OK;
+}
+
+static const char *missing_slot(const tahr_backend *b)
+{
+    if (!b->name || !b->version) {
+        return "name or version";
+    }
+    if (!b->open || !b->close || !b->sweep || !b->contacts || !b->ray) {
+        return "open, close, sweep, contacts or ray";
+    }
+    return NULL;
+}
+
+/* Everything both ways of opening share: the handle, its allocator and log, the checks of the machine. */
+static tahr_status new_world(const char *function, const tahr_world_desc *desc, size_t extra, tahr_world **out)
+{
+    tahr__memory memory = {desc && desc->allocator ? *desc->allocator : tahr__malloc, 0};
+    tahr_log log = {NULL, silent};
+    if (desc && desc->log && desc->log->write) {
+        log = *desc->log;
+    }
+    if (!memory.user.alloc || !memory.user.free) {
+        return tahr__complain(&log, TAHR_E_NULL, function, "allocator.alloc or free", "is NULL");
+    }
+    const char *problem = tahr__float_mode_problem();
+    if (problem) {
+        return tahr__complain(&log, TAHR_E_FLOAT_MODE, function, "the floating-point mode:", problem);
+    }
+    tahr_world *world = memory.user.alloc(memory.user.user, sizeof *world + extra, 64);
+    if (!world) {
+        return tahr__complain(&log, TAHR_E_MEMORY, function, "allocator", "returned NULL");
+    }
+    memset(world, 0, sizeof *world + extra);
+    world->memory = memory;
+    world->memory.bytes = sizeof *world + extra;
+    world->log = log;
+    world->host.struct_size = sizeof world->host;
+    world->host.abi = TAHR_ABI;
+    world->host.allocator = tahr__counting_allocator(&world->memory);
+    world->host.log = log;
+    world->revision = 1;
+    *out = world;
+    return TAHR_OK;
+}
+
+static void free_world(tahr_world *world, size_t extra)
+{
+    tahr_allocator user = world->memory.user;
+    user.free(user.user, world, sizeof *world + extra, 64);
+}
+
+tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *desc, tahr_world **out)
+{
+    tahr_world *world = NULL;
+    if (!backend || !desc || !out) {
+        return TAHR_E_NULL;
+    }
+    tahr_status status = tahr__sized_check(desc, sizeof *desc);
+    if (status < 0) {
+        return status;
+    }
+    if (backend->struct_size < sizeof *backend) {
+        return tahr__complain(desc->log, TAHR_E_STRUCT_SIZE, "tahr_world_open", "backend.struct_size", "is too small");
+    }
+    if (tahr_abi_check((uint32_t)backend->abi_major << 16 | backend->abi_minor) < 0) {
+        return tahr__complain(desc->log, TAHR_E_ABI, "tahr_world_open", "backend", "was built for another ABI");
+    }
+    const char *missing = missing_slot(backend);
+    if (missing) {
+        return tahr__complain(desc->log, TAHR_E_NULL, "tahr_world_open", missing, "of the backend is NULL");
+    }
+    status = check_bodies(desc->log, desc);
+    if (status >= 0) {
+        status = new_world("tahr_world_open", desc, 0, &world);
+    }
+    if (status < 0) {
+        return status;
+    }
+    status = backend->open(&world->host, desc, &world->self);
+    if (status < 0) {
+        free_world(world, 0);
+        return status;
+    }
+    world->backend = backend;
+    world->body_count = desc->body_count;
+    *out = world;
+    return TAHR_OK;
+}
+
+tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tahr_world_desc *desc, tahr_world **out)
+{
+    tahr_world *world = NULL;
+    if (!callbacks || !out) {
+        return TAHR_E_NULL;
+    }
+    tahr_status status = tahr__sized_check(callbacks, sizeof *callbacks);
+    if (status >= 0 && desc) {
+        status = tahr__sized_check(desc, sizeof *desc);
+    }
+    if (status < 0) {
+        return status;
+    }
+    if (!callbacks->sweep) {
+        return tahr__complain(desc ? desc->log : NULL, TAHR_E_NULL, "tahr_world_open_callbacks", "callbacks.sweep", "is NULL");
+    }
+    if (callbacks->flags) {
+        return tahr__complain(desc ? desc->log : NULL, TAHR_E_UNSUPPORTED, "tahr_world_open_callbacks", "callbacks.flags", "is not 0");
+    }
+    status = new_world("tahr_world_open_callbacks", desc, sizeof *callbacks, &world);
+    if (status < 0) {
+        return status;
+    }
+    world->self = world + 1;
+    memcpy(world->self, callbacks, sizeof *callbacks);
+    world->backend = &tahr__callbacks_backend;
+    *out = world;
+    return TAHR_OK;
+}
+
+void tahr_world_close(tahr_world *world)
+{
+    if (world) {
+        world->backend->close(world->self);
+        free_world(world, world->backend == &tahr__callbacks_backend ? sizeof(tahr_callbacks) : 0);
+    }
+}
+
+tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint32_t count)
+{
+    if (!world || (!poses && count > 0)) {
+        return TAHR_E_NULL;
+    }
+    if (!world->backend->place) {
+        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_set", world->backend->name, "cannot place bodies");
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (poses[i].body >= world->body_count) {
+            return tahr__complain_value(&world->log, TAHR_E_NOT_FOUND, "tahr_world_set", "poses.body", poses[i].body, "no such body");
+        }
+        const char *bad = bad_pose(&poses[i].pose, 0);
+        if (bad || poses[i].flags) {
+            return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", "the pose of body", poses[i].body,
+                                        bad ? bad : "flags must be 0");
+        }
+    }
+    tahr_status status = world->backend->place(world->self, poses, count);
+    if (status >= 0) {
+        world->revision++;
+    }
+    return status;
+}
+
+tahr_status tahr_world_touch(tahr_world *world)
+{
+    if (!world) {
+        return TAHR_E_NULL;
+    }
+    world->revision++;
+    return TAHR_OK;
+}
+
+uint64_t tahr_world_revision(const tahr_world *world)
+{
+    return world ? world->revision : 0;
+}
+
+uint64_t tahr_world_memory(const tahr_world *world)
+{
+    return world ? world->memory.bytes : 0;
+}
+
+const char *tahr_world_backend_name(const tahr_world *world)
+{
+    return world ? world->backend->name : "?";
+}
