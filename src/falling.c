@@ -87,6 +87,10 @@ static double meeting_time(const arc *a, vec3 normal, vec3 touch, double t)
 static double meet_on_arc(tahr__step *step, const arc *a, vec3 chord, double duration, tahr_hit *hit)
 {
     vec3 v, start = step->state.position;
+    if (hit->fraction * length(chord) < 1e-9) { /* touched from the start */
+        step->state.position = add_scaled(start, chord, hit->fraction);
+        return duration * hit->fraction;
+    }
     double t = meeting_time(a, hit->normal, scale(chord, hit->fraction), duration);
     vec3 to = arc_at(a, t, &v);
     tahr_hit check;
@@ -231,6 +235,7 @@ tahr__next tahr__fall(tahr__step *step, double time)
         hits++;
     }
     step->time += f.left;
+    step->report.time_lost += f.left;
     if (f.plane_count > 1 && length_squared(sub(step->state.position, start)) < 1e-12 && lands_in_wedge(step, &floor)) {
         return land(step, &hit, &floor, 0);
     }

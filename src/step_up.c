@@ -33,31 +33,34 @@ static double floor_height(const tahr__step *step)
     return dot(floor->point, step->state.up);
 }
 
-/* How far the shape could go forward if it were raised; lowers the lift under a ceiling. */
+/* Sweeps forward from the raised place. Returns the part of the motion that is free there. */
+static double free_ahead(tahr__step *step, vec3 motion, double lift, tahr_hit *hit)
+{
+    vec3 raised = add_scaled(step->state.position, step->state.up, lift);
+    tahr__sweep(step, &step->config->shape, raised, motion, step->config->skin, 0, hit);
+    double part = hit->start_overlap ? 0 : hit->fraction;
+    return part * length(motion) > PROGRESS * step->limits->width ? part : 0;
+}
+
+/* How far the shape could go forward if it were raised; lowers the lift under a ceiling. Forward comes first: a tall wall
+ * is then refused by one sweep. */
 static int forward(tahr__step *step, vec3 motion, attempt *a)
 {
     const tahr_config *c = step->config;
-    tahr_hit hit;
-    vec3 raised = add_scaled(step->state.position, a->up, a->lift);
-    tahr__sweep(step, &c->shape, raised, motion, c->skin, 0, &hit);
-    if (!hit.start_overlap && hit.fraction * length(motion) <= PROGRESS * step->limits->width) {
-        return refuse(step, &hit, hit.fraction, 0, "blocked at step height too");
+    tahr_hit ahead, above;
+    a->covered = free_ahead(step, motion, a->lift, &ahead);
+    if (a->covered == 0 && !ahead.start_overlap) {
+        return refuse(step, &ahead, ahead.fraction, 0, "blocked at step height too");
     }
-    double covered = hit.fraction;
-    tahr__sweep(step, &c->shape, step->state.position, scale(a->up, a->lift), c->skin, 0, &hit);
-    if (hit.start_overlap) {
-        return refuse(step, &hit, hit.depth, 0, "overlaps where it stands");
+    tahr__sweep(step, &c->shape, step->state.position, scale(a->up, a->lift), c->skin, 0, &above);
+    if (above.blocking && !above.start_overlap) { /* a ceiling: as high as it lets */
+        a->lift *= above.fraction;
+        a->covered = free_ahead(step, motion, a->lift, &ahead);
     }
-    if (hit.blocking) { /* a ceiling: as high as it lets */
-        a->lift *= hit.fraction;
-        tahr__sweep(step, &c->shape, add_scaled(step->state.position, a->up, a->lift), motion, c->skin, 0, &hit);
-        covered = hit.start_overlap ? 0 : hit.fraction;
-        if (covered * length(motion) <= PROGRESS * step->limits->width) {
-            return refuse(step, &hit, a->lift, c->step_height, "ceiling too low");
-        }
+    if (above.start_overlap || a->covered == 0) {
+        return refuse(step, &above, a->lift, c->step_height, "no room to rise");
     }
-    a->covered = covered;
-    a->position = add_scaled(add_scaled(step->state.position, a->up, a->lift), motion, covered);
+    a->position = add_scaled(add_scaled(step->state.position, a->up, a->lift), motion, a->covered);
     return 1;
 }
 
@@ -71,7 +74,9 @@ static int tread_behind(tahr__step *step, vec3 motion, const tahr_hit *landing, 
     vec3 origin = add_scaled(over, step->state.up, top + c->skin - at);
     tahr_hit hit;
     tahr__ray(step, origin, scale(step->state.up, -(c->step_height + c->skin)), &hit);
-    return hit.fraction > 0 && tahr__is_walkable(step, &hit, 0);
+    /* Below the landing it is not the tread: the ray began inside the obstacle. */
+    int above = hit.blocking && dot(hit.point, step->state.up) >= at - c->skin;
+    return above && tahr__is_walkable(step, &hit, 0);
 }
 
 static int land(tahr__step *step, vec3 motion, attempt *a)

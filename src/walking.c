@@ -5,6 +5,8 @@
  * height and no velocity. */
 #include "walking.h"
 
+#include <string.h>
+
 #include "floor.h"
 #include "move.h"
 #include "query.h"
@@ -19,8 +21,9 @@ typedef struct walk {
     double left;     /* part of the wish not yet covered */
     tahr__plane walls[TAHR__MAX_PLANES];
     uint32_t wall_count;
-    tahr__plane ramps[TAHR__MAX_PLANES]; /* walkable faces that carry */
+    vec3 ramps[TAHR__MAX_PLANES]; /* normals of the walkable faces that carry */
     uint32_t ramp_count;
+    double ease; /* rise per metre that keeps rounding from pointing into a ramp */
     vec3 from; /* the last straight piece, to find the place where a floor ended */
     double left_before;
 } walk;
@@ -41,10 +44,10 @@ static tahr__law law_of(const tahr__step *step)
     return law;
 }
 
-static void carry(walk *w, const tahr__step *step, vec3 normal, uint32_t body, uint32_t feature)
+/* Ramps are not merged as walls are: two faces that differ by a hair both carry, and the steeper one decides. */
+static void carry(walk *w, vec3 normal)
 {
-    tahr__plane ramp = {.normal = normal, .anchor = step->state.position, .body = body, .feature = feature};
-    tahr__planes_add(w->ramps, &w->ramp_count, &ramp);
+    w->ramps[w->ramp_count++] = normal;
 }
 
 static void carry_floor(walk *w, const tahr__step *step)
@@ -53,7 +56,7 @@ static void carry_floor(walk *w, const tahr__step *step)
     w->ramp_count = 0;
     if (floor_is_walkable(floor) && !(floor->flags & TAHR_FLOOR_WEDGED) &&
         dot(floor->surface_normal, step->state.up) >= step->limits->walkable_hysteresis) {
-        carry(w, step, floor->surface_normal, floor->body, floor->feature);
+        carry(w, floor->surface_normal);
     }
 }
 
@@ -65,13 +68,14 @@ static vec3 along_floor(const walk *w, const tahr__step *step, vec3 level)
         return level;
     }
     for (uint32_t i = 0; i < w->ramp_count; i++) {
-        double r = -dot(w->ramps[i].normal, level) / dot(w->ramps[i].normal, step->state.up);
+        double r = -dot(w->ramps[i], level) / dot(w->ramps[i], step->state.up);
         rise = max_of(rise, r);
     }
-    if (rise == 0) {
+    if (rise == 0 && w->ease == 0) {
         return level;
     }
     double size = length(level);
+    rise += w->ease * size;
     vec3 lifted = add_scaled(level, step->state.up, rise);
     return scale(lifted, size / sqrt(size * size + rise * rise));
 }
@@ -84,21 +88,26 @@ static int take_ramp(tahr__step *step, walk *w, const tahr_hit *hit)
         return tahr__decide(step, TAHR_RULE_RAMP, 0, hit, up, step->limits->walkable, "too steep to go on along");
     }
     for (uint32_t i = 0; i < w->ramp_count; i++) {
-        if (dot(w->ramps[i].normal, hit->normal) > 1 - 1e-9) {
-            return tahr__decide(step, TAHR_RULE_RAMP, 0, hit, up, 1, "already going along it");
+        if (dot(w->ramps[i], hit->normal) > 1 - 1e-14) { /* rounding touched it again: keep off a little more each time */
+            w->ease = w->ease > 0 ? 10 * w->ease : 1e-9;
+            return tahr__decide(step, TAHR_RULE_RAMP, 1, hit, up, w->ease, "going along it already");
         }
     }
-    carry(w, step, hit->normal, hit->body, hit->feature);
+    if (w->ramp_count < TAHR__MAX_PLANES) {
+        carry(w, hit->normal);
+    }
     return tahr__decide(step, TAHR_RULE_RAMP, 1, hit, up, step->limits->walkable, "a walkable face");
 }
 
+/* A step is taken half a foot at a time, so that a long slice climbs one tread after the other. */
 static int take_step(tahr__step *step, walk *w, vec3 level, const tahr_hit *hit)
 {
-    double covered = tahr__step_up(step, level, hit);
+    double stride = min_of(1, 0.5 * step->limits->width / length(level));
+    double covered = tahr__step_up(step, scale(level, stride), hit);
     if (covered <= 0) {
         return 0;
     }
-    w->left *= 1 - covered;
+    w->left *= 1 - covered * stride;
     w->wall_count = 0; /* what stood beside the foot below need not stand here */
     carry_floor(w, step);
     w->from = step->state.position;
@@ -114,7 +123,7 @@ static double slice_time(const walk *w)
 static int take_wall(tahr__step *step, walk *w, const tahr_hit *hit)
 {
     tahr__plane wall = tahr__plane_of(step, hit);
-    vec3 floor_normal = w->ramp_count ? w->ramps[0].normal : step->state.up;
+    vec3 floor_normal = w->ramp_count ? w->ramps[0] : step->state.up;
     double speed = -dot(step->state.velocity, hit->normal);
     tahr__event(step, TAHR_EVENT_HIT, slice_time(w), hit, max_of(speed, 0));
     step->report.slides++;
@@ -159,19 +168,19 @@ static void walk_along(tahr__step *step, walk *w)
 }
 
 /* The floor ended somewhere on the last straight piece: halves it until the place is known to a thousandth of it.
- * Returns the part of the piece at which the character stands (inside) or falls (outside). */
-static double where_floor_ended(tahr__step *step, const walk *w, vec3 to, int inside)
+ * [out] the parts of the piece at which the character still stands and already falls. */
+static void where_floor_ended(tahr__step *step, const walk *w, vec3 to, double *inside, double *outside)
 {
     enum { ROUNDS = 10 };
-    double low = 0, high = 1;
     tahr_floor floor;
+    *inside = 0;
+    *outside = 1;
     for (int i = 0; i < ROUNDS && step->error >= 0; i++) {
-        double middle = 0.5 * (low + high);
+        double middle = 0.5 * (*inside + *outside);
         step->state.position = add_scaled(w->from, sub(to, w->from), middle);
         tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
-        *(floor_is_walkable(&floor) ? &low : &high) = middle;
+        *(floor_is_walkable(&floor) ? inside : outside) = middle;
     }
-    return inside ? low : high;
 }
 
 /* Stops at the last place with a floor and goes on along the edge. Returns 1 if there is such a place. */
@@ -179,7 +188,8 @@ static int hold_at_ledge(tahr__step *step, walk *w)
 {
     vec3 to = step->state.position;
     tahr_floor floor;
-    double part = where_floor_ended(step, w, to, 1);
+    double part, outside;
+    where_floor_ended(step, w, to, &part, &outside);
     step->state.position = add_scaled(w->from, sub(to, w->from), part);
     tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
     if (!floor_is_walkable(&floor)) {
@@ -234,20 +244,16 @@ void tahr__leave_floor(tahr__step *step)
     step->state.velocity = step_level(step, along_floor(&w, step, v));
 }
 
-static tahr__next fall_off(tahr__step *step, walk *w, const tahr_floor *end)
+/* Leaves the floor at the place, and the time, where it ended. */
+static tahr__next fall_off(tahr__step *step, walk *w, vec3 to, double part)
 {
-    vec3 to = step->state.position;
-    double part = 1;
-    if (floor_is_walkable(&step->state.floor)) {
-        part = where_floor_ended(step, w, to, 0);
-        step->state.position = add_scaled(w->from, sub(to, w->from), part);
-    }
+    tahr_floor none;
+    memset(&none, 0, sizeof none);
+    none.body = TAHR_NO_BODY;
+    step->state.position = add_scaled(w->from, sub(to, w->from), part);
     double left = w->left_before - (w->left_before - w->left) * part;
-    if (part == 1) {
-        left = 0; /* it fell at the very end: nothing of the slice is left, whatever walls took */
-    }
     tahr__leave_floor(step);
-    tahr__keep_floor(step, end);
+    tahr__keep_floor(step, &none);
     step->state.floor_revision = 0;
     step->time += w->duration * (1 - left);
     tahr__event(step, TAHR_EVENT_LEFT_GROUND, 0, NULL, 0);
@@ -291,6 +297,44 @@ static tahr__next stand(tahr__step *step, double time)
     return next;
 }
 
+/* Walks on until the floor under the end of the walk is known. Where it seems to end it may only lie lower than one snap
+ * reaches from the straight path of a long slice (stairs down at 10 Hz): goes down where it still was, and on from there.
+ * Returns 1 with a floor, or 0 with the place where it ended as a part of the last piece. */
+static int walk_over_floor(tahr__step *step, walk *w, double *part)
+{
+    enum { DROPS = 6 };
+    tahr_floor floor;
+    for (int drop = 0; drop < DROPS; drop++) {
+        walk_along(step, w);
+        if (tahr__floor_is_current(step)) {
+            return 1;
+        }
+        tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+        if (floor_is_walkable(&floor)) {
+            tahr__keep_floor(step, &floor);
+            return 1;
+        }
+        if (!step->config->walk_off_ledges) {
+            stay_on_ledge(step, w);
+            return 1;
+        }
+        vec3 to = step->state.position;
+        double inside;
+        where_floor_ended(step, w, to, &inside, part);
+        step->state.position = add_scaled(w->from, sub(to, w->from), inside);
+        tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+        if (!floor_is_walkable(&floor) || floor.distance < 0.25 * step->config->snap_distance) {
+            step->state.position = to;
+            return 0;
+        }
+        tahr__keep_floor(step, &floor);
+        settle(step);
+        w->left = w->left_before - (w->left_before - w->left) * inside;
+        carry_floor(w, step);
+    }
+    return 1;
+}
+
 tahr__next tahr__walk(tahr__step *step, double time)
 {
     tahr__law law = law_of(step);
@@ -310,19 +354,11 @@ tahr__next tahr__walk(tahr__step *step, double time)
         return stand(step, time);
     }
     walk w = {.wish = m.displacement, .duration = time, .left = 1, .from = step->state.position, .left_before = 1};
+    double part = 1;
     carry_floor(&w, step);
     step->state.velocity = m.velocity;
-    walk_along(step, &w);
-    if (!tahr__floor_is_current(step)) {
-        tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
-        if (!floor_is_walkable(&floor) && step->config->walk_off_ledges) {
-            return fall_off(step, &w, &floor);
-        }
-        if (floor_is_walkable(&floor)) {
-            tahr__keep_floor(step, &floor);
-        } else {
-            stay_on_ledge(step, &w);
-        }
+    if (!walk_over_floor(step, &w, &part)) {
+        return fall_off(step, &w, step->state.position, part);
     }
     settle(step);
     if (m.stop_time >= 0) {
