@@ -210,11 +210,13 @@ static int lands_in_wedge(tahr__step *step, tahr_floor *floor)
 
 tahr__next tahr__fall(tahr__step *step, double time)
 {
-    fall f = {.left = time};
+    fall f; /* of its planes only what is counted is read */
     tahr_floor floor;
     tahr_hit hit;
     vec3 start = step->state.position;
     uint32_t hits = 0;
+    f.left = time;
+    f.plane_count = 0;
     while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 && !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         tahr__planes_forget(step, f.planes, &f.plane_count);
         if (!fall_chord(step, &f, &hit)) {

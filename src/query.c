@@ -107,13 +107,14 @@ static void deflate(const tahr_sweep *q, double margin, tahr_hit *h)
 static tahr_status checked_sweep(const tahr_world *world, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
                                  uint32_t capacity, uint32_t *count)
 {
-    tahr_sweep q = *query;
-    int inflated = !(world->backend->capabilities & TAHR_CAP_MARGIN) && q.margin > 0;
+    tahr_sweep larger;
+    int inflated = !(world->backend->capabilities & TAHR_CAP_MARGIN) && query->margin > 0;
     if (inflated) {
-        inflate(&q);
+        larger = *query;
+        inflate(&larger);
     }
     *count = 0;
-    tahr_status status = world->backend->sweep(world->self, context, &q, hits, capacity, count);
+    tahr_status status = world->backend->sweep(world->self, context, inflated ? &larger : query, hits, capacity, count);
     if (status < 0 || *count > capacity) {
         return bad_answer(world, "sweep", status < 0 ? "status" : "count");
     }

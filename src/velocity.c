@@ -52,16 +52,19 @@ static double brake(double v, double b, double f, double t, double *distance)
 
 /* When the free line p0 + A s crosses the cap upward; INFINITY if not within t. F(s) = p0 + A s - c(s) is convex, and as
  * c <= V it is not negative at (V - p0) / A: Newton from there falls monotonically onto the upper root, which is the
- * crossing (a lower root at s = 0 belongs to a velocity wholly across the wish). 8 rounds reach rounding. */
-static double meeting_time(double p0, double q0, double a, double f, double v, double t)
+ * crossing (a lower root at s = 0 belongs to a velocity wholly across the wish). 8 rounds reach rounding. q1 = q(t). */
+static double meeting_time(const tahr__law *law, double p0, double q0, double q1, double t)
 {
-    double e = tahr__expm1(-f * t);
-    double q1 = q0 * (1 + e);
+    double v = law->speed, a = law->acceleration, f = law->turn_friction;
+    double c0 = sqrt(max_of(v * v - q0 * q0, 0));
+    if (p0 >= c0 && a * c0 >= f * q0 * q0) { /* on the cap, and the line is steeper: stays on it */
+        return 0;
+    }
     if (p0 + a * t <= sqrt(max_of(v * v - q1 * q1, 0))) {
         return INFINITY;
     }
     double s = min_of(t, (v - p0) / a);
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 8 && q0 > 0; i++) {
         double q = q0 * (1 + tahr__expm1(-f * s));
         double c = sqrt(max_of(v * v - q * q, 0));
         double value = p0 + a * s - c;
@@ -74,14 +77,14 @@ static double meeting_time(double p0, double q0, double a, double f, double v, d
     return s;
 }
 
-/* Along the cap from q0 for t: p and its integral. The integral of c is V t + (V ln((V + c1)/(V + c0)) - (c1 - c0)) / f. */
-static double on_cap(double q0, double f, double v, double t, double *q, double *distance)
+/* Along the cap from q0 to q1 = q0 (1 + e), e = expm1(-f t): p and its integral. The integral of c is
+ * V t + (V ln((V + c1)/(V + c0)) - (c1 - c0)) / f. */
+static double on_cap(const tahr__law *law, double q0, double e, double t, double *distance)
 {
-    double e = tahr__expm1(-f * t);
+    double v = law->speed, f = law->turn_friction;
     double q1 = q0 * (1 + e);
     double c0 = sqrt(max_of(v * v - q0 * q0, 0));
     double c1 = sqrt(max_of(v * v - q1 * q1, 0));
-    *q = q1;
     if (f * t < 1e-12 || c0 + c1 <= 0) {
         *distance = c0 * t;
         return c1;
@@ -112,25 +115,24 @@ static double brake_phase(const tahr__law *law, vec3 v, double t, tahr__motion *
 
 static void wish_phase(const tahr__law *law, vec3 v, double t, tahr__motion *m)
 {
-    double speed = law->speed;
+    double speed = law->speed, f = law->turn_friction;
     double p = dot(v, law->wish);
     vec3 across = reject(v, law->wish);
     double q = length(across);
     vec3 side = q > 0 ? scale(across, 1.0 / q) : vec(0, 0, 0);
-    if (q > speed) {
-        q = speed; /* only rounding: over-speed was braked before */
-    }
+    q = min_of(q, speed); /* more is only rounding: over-speed was braked before */
     p = min_of(p, sqrt(max_of(speed * speed - q * q, 0)));
-    double meet = law->acceleration > 0 ? meeting_time(p, q, law->acceleration, law->turn_friction, speed, t) : INFINITY;
+    double e = q > 0 ? tahr__expm1(-f * t) : 0;
+    double q1 = q * (1 + e);
+    double meet = law->acceleration > 0 ? meeting_time(law, p, q, q1, t) : INFINITY;
     double free = min_of(t, meet);
     double along = p * free + 0.5 * law->acceleration * free * free;
-    double sideways = q * decay_integral(law->turn_friction, t);
+    double sideways = q > 0 ? q * (f * t < SMALL ? decay_integral(f, t) : -e / f) : 0;
     double p1 = p + law->acceleration * free;
-    double q1 = q * (1 + tahr__expm1(-law->turn_friction * t));
     if (meet < t) {
-        double on, unused;
-        double qm = q * (1 + tahr__expm1(-law->turn_friction * free));
-        p1 = on_cap(qm, law->turn_friction, speed, t - free, &unused, &on);
+        double on;
+        double qm = free > 0 ? q * (1 + tahr__expm1(-f * free)) : q;
+        p1 = on_cap(law, qm, free > 0 && q > 0 ? tahr__expm1(-f * (t - free)) : e, t - free, &on);
         along += on;
     }
     m->displacement = add(m->displacement, add(scale(law->wish, along), scale(side, sideways)));

@@ -60,6 +60,18 @@ static void carry_floor(walk *w, const tahr__step *step)
     }
 }
 
+/* The plane arrays are left as they are: only what is counted is read. */
+static void begin_walk(walk *w, const tahr__step *step, vec3 wish, double duration)
+{
+    w->wish = wish;
+    w->duration = duration;
+    w->left = w->left_before = 1;
+    w->wall_count = 0;
+    w->ease = 0;
+    w->from = step->state.position;
+    carry_floor(w, step);
+}
+
 /* Lifts a level displacement onto all faces that carry, at the same length along them. */
 static vec3 along_floor(const walk *w, const tahr__step *step, vec3 level)
 {
@@ -238,9 +250,9 @@ static void stay_on_ledge(tahr__step *step, walk *w)
 
 void tahr__leave_floor(tahr__step *step)
 {
-    walk w = {.ramp_count = 0};
+    walk w;
     vec3 v = step_level(step, step->state.velocity);
-    carry_floor(&w, step);
+    begin_walk(&w, step, v, 0);
     step->state.velocity = step_level(step, along_floor(&w, step, v));
 }
 
@@ -353,9 +365,9 @@ tahr__next tahr__walk(tahr__step *step, double time)
         step->state.velocity = m.velocity;
         return stand(step, time);
     }
-    walk w = {.wish = m.displacement, .duration = time, .left = 1, .from = step->state.position, .left_before = 1};
+    walk w;
     double part = 1;
-    carry_floor(&w, step);
+    begin_walk(&w, step, m.displacement, time);
     step->state.velocity = m.velocity;
     if (!walk_over_floor(step, &w, &part)) {
         return fall_off(step, &w, step->state.position, part);
