@@ -80,14 +80,22 @@ tahr_status tahr_config_scale(tahr_config *config, double factor)
     if (!is_finite(factor) || factor <= 0) {
         return TAHR_E_ARGUMENT;
     }
-    double *lengths[] = {&config->shape.radius,    &config->shape.half_height, &config->shape.half_x,     &config->shape.half_y,
-                         &config->skin,            &config->max_depenetration, &config->step_height,      &config->snap_distance,
-                         &config->perch_threshold, &config->perch_extra,       &config->edge_tolerance,   &config->arc_tolerance,
-                         &config->max_speed,       &config->acceleration,      &config->braking_deceleration, &config->jump_speed,
-                         &config->terminal_speed,  &config->gravity.x,         &config->gravity.y,        &config->gravity.z};
+    tahr_config c;
+    memcpy(&c, config, sizeof c);
+    double *lengths[] = {&c.shape.radius,    &c.shape.half_height, &c.shape.half_x,         &c.shape.half_y,   &c.skin,
+                         &c.max_depenetration, &c.step_height,     &c.snap_distance,        &c.perch_threshold, &c.perch_extra,
+                         &c.edge_tolerance,  &c.arc_tolerance,     &c.max_speed,            &c.acceleration,   &c.braking_deceleration,
+                         &c.jump_speed,      &c.terminal_speed,    &c.gravity.x,            &c.gravity.y,      &c.gravity.z};
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
         *lengths[i] *= factor;
     }
+    c.struct_size = sizeof c;
+    status = tahr_config_check(&c, NULL);
+    if (status < 0) {
+        return status;
+    }
+    c.struct_size = config->struct_size;
+    memcpy(config, &c, sizeof c);
     return TAHR_OK;
 }
 

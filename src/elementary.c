@@ -77,19 +77,26 @@ double tahr__log1p(double x)
     return k * LN2_HIGH + ((2 * s + 2 * s * sum) + (lost + k * LN2_LOW));
 }
 
-/* Taylor series on a quarter of the angle (|x| <= 1: x^19 / 19! < 1e-17), then two doublings. */
+/* Reduction by quarter turns, then Taylor series for |r| <= pi / 4: r^19 / 19! < 1e-19. */
 void tahr__sincos(double x, double *sine, double *cosine)
 {
-    double q = x * 0.25;
-    double z = -q * q;
-    double s = 1, versine = 1; /* versine: (1 - cos q) * 2 / q^2 */
+    /* pi / 2 in two parts, the high one with 32 zero bits at its end. */
+    const double high = 1.57079632673412561417e+00, low = 6.07710050650619224932e-11;
+    double quarters = x * 6.36619772367581382433e-01;
+    int k = (int)(quarters < 0 ? quarters - 0.5 : quarters + 0.5);
+    double r = (x - k * high) - k * low;
+    double z = -r * r, s = 1, c = 1;
     for (int n = 8; n >= 1; n--) {
         s = 1 + s * z / (2 * n * (2 * n + 1));
-        versine = 1 + versine * z / ((2 * n + 1) * (2 * n + 2));
+        c = 1 + c * z / (2 * n * (2 * n - 1));
     }
-    double sq = s * q;
-    double cq = 1 - versine * q * q * 0.5;
-    double s2 = 2 * sq * cq, c2 = 1 - 2 * sq * sq;
-    *sine = 2 * s2 * c2;
-    *cosine = 1 - 2 * s2 * s2;
+    s *= r;
+    *sine = k & 1 ? c : s;
+    *cosine = k & 1 ? s : c;
+    if (k & 2) {
+        *sine = -*sine;
+    }
+    if ((k + 1) & 2) {
+        *cosine = -*cosine;
+    }
 }

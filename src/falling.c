@@ -129,6 +129,8 @@ static tahr__next land(tahr__step *step, const tahr_hit *hit, const tahr_floor *
     step->state.flags &= ~(uint32_t)TAHR_STATE_JUMPING;
     step->state.jump_hold = 0;
     tahr__keep_floor(step, floor);
+    /* The hit that told the floor ended a hair from where a look from here would: standing looks again. */
+    step->state.flags |= TAHR_STATE_FLOOR_MOVED;
     tahr__next next = {TAHR_MODE_WALKING, left};
     return next;
 }
@@ -180,9 +182,9 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     vec3 chord = slide_in_air(step, f, arc_at(&a, duration, &v));
     vec3 start = step->state.position;
     double used = duration;
-    tahr__move(step, chord, hit);
+    int pushed = tahr__move(step, chord, hit);
     int met = hit->blocking && !hit->start_overlap && !hit->unknown;
-    if (met && f->plane_count == 0) {
+    if (met && f->plane_count == 0 && !pushed) {
         step->state.position = start;
         used = meet_on_arc(step, &a, chord, duration, hit);
     } else if (hit->blocking) {

@@ -228,5 +228,5 @@ int tahr__is_wedged(tahr__step *step)
     tahr__project(planes, used, scale(step->state.up, -1), &way);
     double left = length(way);
     /* sin of 0.6 degrees: a gutter less inclined holds a character as a floor does. */
-    return tahr__decide(step, TAHR_RULE_WEDGE, left < 0.01, NULL, left, 0.01, "downward motion that the contacts leave");
+    return tahr__decide(step, TAHR_RULE_WEDGE, used > 1 && left < 0.01, NULL, left, 0.01, "downward motion that the contacts leave");
 }

@@ -18,17 +18,19 @@ static void advance(tahr__step *step, vec3 motion, const tahr_hit *hit)
     }
 }
 
-void tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
+int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
 {
     const tahr_shape *shape = &step->config->shape;
     double skin = step->config->skin;
     tahr__sweep(step, shape, step->state.position, motion, skin, 0, hit);
-    if (hit->start_overlap) {
+    int overlapped = hit->start_overlap != 0;
+    if (overlapped) {
         tahr__depenetrate(step);
         /* What is still overlapped may be left, never entered deeper. */
         tahr__sweep(step, shape, step->state.position, motion, skin, TAHR_SWEEP_LEAVE_OVERLAP, hit);
     }
     advance(step, motion, hit);
+    return overlapped;
 }
 
 enum { CONTACTS = TAHR__MAX_PLANES };

@@ -6,8 +6,9 @@
 #include "core.h"
 
 /* Sweeps the character by motion, keeping skin, and puts it where the sweep ended. An overlap at the start is resolved
- * first and the motion tried once more. [out] hit. One sweep; at most 2 + TAHR__DEPENETRATION_QUERIES. */
-void tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit);
+ * first and the motion tried once more. [out] hit. Returns 1 if there was one. One sweep; at most
+ * 2 + TAHR__DEPENETRATION_QUERIES. */
+int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit);
 
 /* Pushes the character out of everything that it overlaps, all at once. What cannot be resolved is halved between the
  * walls and reported as crushed. Returns 1 if nothing is overlapped any more. */

@@ -16,13 +16,9 @@
 /* Slices shorter than this are rounding of the times of contacts. */
 static const double MIN_SLICE = 1e-9;
 
-/* Walking and falling may hand a step to each other this often; a pit of ledges ends there, and says so. */
-enum { MAX_SLICES = 16 };
-
-static uint32_t shape_capability(uint32_t type)
-{
-    return type == TAHR_SHAPE_SPHERE ? TAHR_CAP_SPHERE : (type == TAHR_SHAPE_BOX ? TAHR_CAP_BOX : TAHR_CAP_CAPSULE);
-}
+/* Walking and falling may hand a step to each other this often (a gap as wide as the foot); then it ends, and says so.
+ * Each time costs up to 30 queries to find where the floor ended. */
+enum { MAX_SLICES = 8 };
 
 static tahr__limits limits_of(const tahr_config *c)
 {
@@ -45,7 +41,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
         return tahr__complain(&world->log, status, "tahr_mover_create", field ? field : "config",
                               field ? "is out of range or not finite" : tahr_status_message(status));
     }
-    if (!(world->backend->capabilities & shape_capability(config->shape.type))) {
+    if (!(world->backend->capabilities & tahr__shape_capability(config->shape.type))) {
         return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", "shape.type", "is not among the backend's shapes");
     }
     tahr_allocator a = world->memory.user;
@@ -115,7 +111,20 @@ static const char *bad_state(const tahr_state *s)
     if (!tahr__is_mode(s->mode)) {
         return "state.mode";
     }
-    int floor_ok = vec_is_finite(s->floor.normal) && vec_is_finite(s->floor.surface_normal) && vec_is_finite(s->floor.point) &&
+    const uint32_t flags = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMPING | TAHR_STATE_FLOOR_MOVED;
+    if (s->flags & ~flags) {
+        return "state.flags";
+    }
+    uint64_t tail = 0;
+    for (size_t at = 0; at < sizeof s->reserved; at += sizeof tail) {
+        uint64_t word;
+        memcpy(&word, s->reserved + at, sizeof word);
+        tail |= word;
+    }
+    if (tail) {
+        return "state.reserved";
+    }
+    int floor_ok = vec_is_finite(s->floor_position) && is_finite(s->floor.perch_distance) && vec_is_finite(s->floor.normal) && vec_is_finite(s->floor.surface_normal) && vec_is_finite(s->floor.point) &&
                    is_finite(s->floor.distance) && is_finite(s->jump_hold);
     return floor_ok ? NULL : "state.floor";
 }

@@ -228,7 +228,7 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
 uint32_t tahr__contacts(tahr__step *step, vec3 position, double margin, tahr_contact *contacts, uint32_t capacity)
 {
     uint32_t count = 0, kept = 0;
-    if (!step->world->backend->contacts || !may_ask(step)) {
+    if (!may_ask(step)) {
         return 0;
     }
     tahr_contact_query q = {.shape = step->config->shape,
@@ -283,6 +283,14 @@ void tahr__announce(tahr__step *step, const tahr_bounds *bounds)
     }
 }
 
+uint32_t tahr__shape_capability(uint32_t type)
+{
+    return type == TAHR_SHAPE_SPHERE ? TAHR_CAP_SPHERE : (type == TAHR_SHAPE_BOX ? TAHR_CAP_BOX : TAHR_CAP_CAPSULE);
+}
+
+/* Answers to direct queries are checked before the caller's array sees them; more than this many are cut. */
+enum { DIRECT_ANSWERS = 64 };
+
 /* What a direct query must fulfil; returns the name of the first bad field. */
 static const char *bad_placement(const tahr_shape *shape, vec3 position, vec3 up, tahr_quat q, double margin)
 {
@@ -310,6 +318,9 @@ static tahr_status bad_argument(const tahr_world *world, const char *function, c
 
 tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity, uint32_t *count)
 {
+    tahr_hit found[DIRECT_ANSWERS];
+    tahr_query_context context = {0};
+    uint32_t n = 0;
     if (!world || !query || !hits || !count) {
         return TAHR_E_NULL;
     }
@@ -317,43 +328,50 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     if (!bad && !(vec_is_finite(query->motion) && length(query->motion) <= 1e6)) {
         bad = "motion";
     }
-    if (!bad && capacity == 0) {
-        bad = "capacity";
+    if (!bad && query->flags & ~(uint32_t)TAHR_SWEEP_LEAVE_OVERLAP) {
+        bad = "flags";
     }
-    if (bad) {
-        return bad_argument(world, "tahr_world_sweep", bad);
+    if (bad || capacity == 0) {
+        return bad_argument(world, "tahr_world_sweep", bad ? bad : "capacity");
     }
-    tahr_query_context context = {0};
-    uint32_t found = 0;
-    tahr_status status = checked_sweep(world, &context, query, hits, capacity, &found);
-    if (status >= 0) {
-        *count = found;
-        if (found && hits[found - 1].unknown) {
-            status = TAHR_UNKNOWN;
-        }
+    if (!(world->backend->capabilities & tahr__shape_capability(query->shape.type))) {
+        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_sweep", "shape.type", "is not among the backend's shapes");
     }
-    return status;
+    tahr_status status = checked_sweep(world, &context, query, found, capacity < DIRECT_ANSWERS ? capacity : DIRECT_ANSWERS, &n);
+    if (status < 0) {
+        return status;
+    }
+    memcpy(hits, found, n * sizeof found[0]);
+    *count = n;
+    return n && found[n - 1].unknown ? TAHR_UNKNOWN : status;
 }
 
 tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,
                                 uint32_t *count)
 {
+    tahr_contact found[DIRECT_ANSWERS];
+    tahr_query_context context = {0};
+    uint32_t n = 0;
     if (!world || !query || !contacts || !count) {
         return TAHR_E_NULL;
     }
     const char *bad = bad_placement(&query->shape, query->position, query->up, query->orientation, query->margin);
+    if (!bad && query->flags) {
+        bad = "flags";
+    }
     if (bad) {
         return bad_argument(world, "tahr_world_contacts", bad);
     }
-    if (!world->backend->contacts) {
-        return TAHR_E_UNSUPPORTED;
+    if (!(world->backend->capabilities & tahr__shape_capability(query->shape.type))) {
+        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_contacts", "shape.type",
+                              "is not among the backend's shapes");
     }
-    tahr_query_context context = {0};
-    uint32_t found = 0;
-    tahr_status status = checked_contacts(world, &context, query, contacts, capacity, &found);
-    if (status >= 0) {
-        *count = found;
+    tahr_status status = checked_contacts(world, &context, query, found, capacity < DIRECT_ANSWERS ? capacity : DIRECT_ANSWERS, &n);
+    if (status < 0) {
+        return status;
     }
+    memcpy(contacts, found, n * sizeof found[0]);
+    *count = n;
     return status;
 }
 

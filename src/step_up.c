@@ -18,6 +18,7 @@ typedef struct attempt {
     double lift;    /* m, raised by */
     double covered; /* part of the motion */
     vec3 position;  /* landed at */
+    double rise;    /* m, landing face above the floor */
     tahr_hit landing;
 } attempt;
 
@@ -39,7 +40,7 @@ static double free_ahead(tahr__step *step, vec3 motion, double lift, tahr_hit *h
     vec3 raised = add_scaled(step->state.position, step->state.up, lift);
     tahr__sweep(step, &step->config->shape, raised, motion, step->config->skin, 0, hit);
     double part = hit->start_overlap ? 0 : hit->fraction;
-    return part * length(motion) > PROGRESS * step->limits->width ? part : 0;
+    return part == 1 || part * length(motion) > PROGRESS * step->limits->width ? part : 0;
 }
 
 /* How far the shape could go forward if it were raised; lowers the lift under a ceiling. Forward comes first: a tall wall
@@ -89,9 +90,9 @@ static int land(tahr__step *step, vec3 motion, attempt *a)
     if (!hit->blocking || hit->start_overlap) {
         return refuse(step, hit, range, 0, "nothing to land on");
     }
-    double rise = dot(hit->point, a->up) - base;
-    if (rise > c->step_height + 1e-6) {
-        return refuse(step, hit, rise, c->step_height, "higher than a step");
+    a->rise = dot(hit->point, a->up) - base;
+    if (a->rise > c->step_height + 1e-6) {
+        return refuse(step, hit, a->rise, c->step_height, "higher than a step");
     }
     if (!tahr__is_walkable(step, hit, 0) && !tread_behind(step, motion, hit, base)) {
         return refuse(step, hit, dot(hit->surface_normal, a->up), step->limits->walkable, "landing face too steep");
@@ -121,12 +122,13 @@ double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
         return 0;
     }
     double gain = dot(sub(a.position, before.position), a.up);
-    int new_tread = floor.body != before.floor.body || floor.feature != before.floor.feature;
     tahr__keep_floor(step, &floor);
+    /* The hit that told the floor ended a hair from where a look from here would: standing looks again. */
+    step->state.flags |= TAHR_STATE_FLOOR_MOVED;
     step->report.step_offset += gain;
     tahr__decide(step, TAHR_RULE_STEP_UP, 1, &a.landing, gain, c->step_height, "landed");
-    if (new_tread && gain > c->skin) {
-        tahr__event(step, TAHR_EVENT_STEPPED_UP, 0, &a.landing, gain);
+    if (a.rise > c->skin) { /* not again while the foot rolls over the same edge */
+        tahr__event(step, TAHR_EVENT_STEPPED_UP, 0, &a.landing, a.rise);
     }
     return a.covered;
 }

@@ -62,7 +62,8 @@ typedef struct tahr_config {
 TAHR_API tahr_status tahr_config_init(tahr_config *config, size_t size, int32_t preset);
 
 /* Multiplies every length, speed and acceleration, so that a character of another size moves alike. factor > 0, finite.
- * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_ARGUMENT. Since 0.1. */
+ * Untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_ARGUMENT (factor, or a
+ * field that would leave its range). Since 0.1. */
 TAHR_API tahr_status tahr_config_scale(tahr_config *config, double factor);
 
 /* Checks every field. [out] field may be NULL; receives the name of the first bad one in static memory, or NULL.

@@ -77,7 +77,7 @@ enum {
     TAHR_EVENT_JUMPED = 3,
     TAHR_EVENT_APEX = 4,
     TAHR_EVENT_STOPPED = 5,
-    TAHR_EVENT_STEPPED_UP = 6,   /* value: height gained, m */
+    TAHR_EVENT_STEPPED_UP = 6,   /* value: height of the step, m */
     TAHR_EVENT_STEPPED_DOWN = 7, /* value: height lost, m */
     TAHR_EVENT_HIT = 8,          /* blocked by something that is no floor; value: speed into it, m/s */
     TAHR_EVENT_DEPENETRATED = 9, /* value: length of the push, m */

@@ -115,7 +115,7 @@ TAHR_API uint64_t tahr_world_memory(const tahr_world *world);
 
 /* The three questions, asked directly, with arguments and answers checked. Outputs untouched on error.
  * Return TAHR_OK, TAHR_TRUNCATED, TAHR_UNKNOWN, TAHR_E_NULL, TAHR_E_ARGUMENT (query not finite, negative margin, bad shape or up),
- * TAHR_E_UNSUPPORTED, TAHR_E_BACKEND (invalid answer). Allocate nothing; may run on several threads. Since 0.1. */
+ * TAHR_E_UNSUPPORTED (shape), TAHR_E_BACKEND (invalid answer). At most 64 answers per call. Allocate nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity, uint32_t *count);
 TAHR_API tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,
                                          uint32_t *count);
