@@ -41,10 +41,12 @@ static tahr__law law_of(const tahr__step *step, const tahr__plane *walls, uint32
     const tahr_config *c = step->config;
     vec3 wish = step_level(step, step->input.move);
     double size = length(wish);
-    wish = tahr__slide(walls, wall_count, scale(wish, c->max_speed / max_of(size, 1)));
-    size = length(wish);
-    tahr__law law = {.speed = size,
-                     .acceleration = c->acceleration,
+    double asked = c->max_speed * min_of(size, 1);
+    wish = tahr__slide(walls, wall_count, wish);
+    double kept = size > 0 ? length(wish) / size : 0; /* cosine to the wall: of the speed and of the acceleration */
+    size *= kept;
+    tahr__law law = {.speed = asked * kept,
+                     .acceleration = c->acceleration * kept,
                      .turn_friction = c->turn_friction,
                      .braking = c->braking_deceleration,
                      .drag = c->braking_drag};
@@ -95,16 +97,39 @@ static void begin_walk(tahr__step *step, walk *w, double duration)
     begin_piece(step, w, step_level(step, step->state.velocity), duration);
 }
 
-/* s from the begin of the slice to where the walk is now. */
-static double elapsed(const walk *w)
+/* s of the piece at which a part of its displacement is covered, measured along the whole of it. The speed changes on the
+ * way, so the part of the time is not the part of the way: Newton, held within the piece; 6 rounds reach rounding. */
+static double time_of_part(const walk *w, double part)
 {
-    return w->began + (1 - w->left) * w->duration;
+    double low = 0, high = w->duration, t = part * high, size2 = length_squared(w->wish);
+    if (part <= 0 || part >= 1 || size2 == 0) {
+        return part <= 0 ? 0 : high;
+    }
+    for (int i = 0; i < 6; i++) {
+        tahr__motion m = tahr__law_advance(&w->law, w->velocity, t);
+        double excess = dot(m.displacement, w->wish) / size2 - part;
+        double rate = dot(m.velocity, w->wish) / size2;
+        *(excess > 0 ? &high : &low) = t;
+        double next = rate > 0 ? t - excess / rate : 0.5 * (low + high);
+        next = next >= low && next <= high ? next : 0.5 * (low + high);
+        if (next == t) {
+            break;
+        }
+        t = next;
+    }
+    return t;
+}
+
+/* s of the piece that are used up where the walk is now. */
+static double used_time(const walk *w)
+{
+    return time_of_part(w, 1 - w->left);
 }
 
 /* A wall was added to the set: the rest of the slice is a piece of its own. */
 static void bend(tahr__step *step, walk *w)
 {
-    double used = (1 - w->left) * w->duration;
+    double used = used_time(w);
     tahr__motion m = tahr__law_advance(&w->law, w->velocity, used);
     w->began += used;
     begin_piece(step, w, m.velocity, w->duration - used);
@@ -184,8 +209,9 @@ static int take_wall(tahr__step *step, walk *w, const tahr_hit *hit)
 {
     tahr__plane wall = tahr__plane_of(step, hit);
     vec3 floor_normal = w->ramp_count ? w->ramps[0] : step->state.up;
-    vec3 velocity = tahr__law_advance(&w->law, w->velocity, (1 - w->left) * w->duration).velocity;
-    tahr__event(step, TAHR_EVENT_HIT, elapsed(w), hit, max_of(-dot(velocity, hit->normal), 0));
+    double used = used_time(w);
+    vec3 velocity = tahr__law_advance(&w->law, w->velocity, used).velocity;
+    tahr__event(step, TAHR_EVENT_HIT, w->began + used, hit, max_of(-dot(velocity, hit->normal), 0));
     step->report.slides++;
     if (!tahr__level_wall(step, floor_normal, &wall)) {
         return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");
@@ -316,13 +342,14 @@ static tahr__next fall_off(tahr__step *step, walk *w, vec3 to, double part)
     none.body = TAHR_NO_BODY;
     step->state.position = add_scaled(w->from, sub(to, w->from), part);
     w->left = w->left_before - (w->left_before - w->left) * part;
-    step->state.velocity = tahr__law_advance(&w->law, w->velocity, (1 - w->left) * w->duration).velocity;
+    double used = used_time(w);
+    step->state.velocity = tahr__law_advance(&w->law, w->velocity, used).velocity;
     tahr__leave_floor(step);
     tahr__keep_floor(step, &none);
     step->state.floor_revision = 0;
-    step->time += elapsed(w);
+    step->time += w->began + used;
     tahr__event(step, TAHR_EVENT_LEFT_GROUND, 0, NULL, 0);
-    tahr__next next = {TAHR_MODE_FALLING, w->duration * w->left};
+    tahr__next next = {TAHR_MODE_FALLING, w->duration - used};
     return next;
 }
 
