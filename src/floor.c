@@ -33,18 +33,19 @@ int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable)
     return tahr__decide(step, TAHR_RULE_WALKABLE, walkable && up >= limit, hit, up, limit, "cosine of the face's slope");
 }
 
-/* How far inside the rim of the shape, seen from above, a point lies. */
+/* How far inside the rim of the shape and its skin, seen from above, a point lies. */
 static double inside_rim(const tahr__step *step, vec3 point)
 {
     vec3 offset = step_level(step, sub(point, step->state.position));
     const tahr_shape *s = &step->config->shape;
+    double skin = step->config->skin;
     if (s->type != TAHR_SHAPE_BOX) {
-        return s->radius - length(offset);
+        return s->radius + skin - length(offset);
     }
     vec3 x = rotate(step->state.orientation, vec(1, 0, 0));
     vec3 y = rotate(step->state.orientation, vec(0, 1, 0));
     double dx = dot(offset, x), dy = dot(offset, y);
-    return min_of(s->half_x - max_of(dx, -dx), s->half_y - max_of(dy, -dy));
+    return skin + min_of(s->half_x - max_of(dx, -dx), s->half_y - max_of(dy, -dy));
 }
 
 /* The shape, thinner all round, with its foot where it was. */
@@ -155,7 +156,7 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
     int surface = tahr__is_walkable(step, &hit, was_walkable(step, &hit));
     /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
     int on_face = dot(hit.normal, hit.surface_normal) > 1 - 1e-6;
-    int rim = inside_rim(step, hit.point) < c->perch_threshold;
+    int rim = inside_rim(step, hit.point) < c->perch_threshold + c->skin;
     int ok = surface && (on_face || !rim);
     if (!ok && rim && !hit.start_overlap) {
         ok = perches(step, reach, surface, floor);

@@ -1,0 +1,21 @@
+# Installs the headers, tahr.pc and the package files for find_package(tahr).
+install(FILES ${public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tahr)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# Paths in tahr.pc are relative to the file, so that an installed tree can be moved as a whole.
+file(RELATIVE_PATH pc_to_prefix
+    ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
+configure_file(.cmake/tahr.pc.in tahr.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/tahr.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tahr)
+configure_package_config_file(.cmake/tahr-config.cmake.in tahr-config.cmake INSTALL_DESTINATION ${package_dir})
+# Before 1.0 the minor number is the compatible range.
+write_basic_package_version_file(tahr-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/tahr-config.cmake ${PROJECT_BINARY_DIR}/tahr-config-version.cmake
+    DESTINATION ${package_dir})
+install(EXPORT tahr-targets NAMESPACE tahr:: DESTINATION ${package_dir})
+if(with_ccd)
+    install(EXPORT tahr-ccd-targets NAMESPACE tahr:: DESTINATION ${package_dir})
+endif()

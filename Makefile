@@ -1,0 +1,87 @@
+# Tahr's front door. It sets the machine up and drives CMake; CMakeLists.txt is the one real build.
+BUILD ?= build
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+PREFIX ?= /usr/local
+
+# make run
+LEVEL ?=
+BACKEND ?=
+UP ?=
+ARGS ?=
+
+# For those who know: warnings are errors; more arguments for CMake.
+WERROR ?=
+CMAKE_ARGS ?=
+
+.PHONY: build setup setup-run run test test-full asan bench install clean format help
+
+# Ninja if it is there and the folder is not configured yet; a configured folder keeps its generator.
+# Of its talk only what is left out and why is shown, unless it fails.
+configure = mkdir -p $(1) && { cmake -S . -B $(1) $(2) -DTAHR_WERROR=$(if $(WERROR),ON,OFF) $(CMAKE_ARGS) \
+	$$(if [ ! -f $(1)/CMakeCache.txt ] && command -v ninja >/dev/null; then echo -G Ninja; fi) \
+	>$(1)/configure.log 2>&1 || { cat $(1)/configure.log; exit 1; }; } && \
+	{ grep -E 'Warning|^-- TAHR_[A-Z_]*: no' $(1)/configure.log || true; }
+compile = cmake --build $(1) --parallel $(JOBS)
+# ctest's own output first, then why something was left out: every skipped test says so in a line "SKIP: ...".
+check = cd $(1) && (ctest --output-on-failure --no-label-summary -j $(JOBS) $(2); status=$$?; \
+	grep -h '^SKIP: ' Testing/Temporary/LastTest.log | sort -u; exit $$status)
+
+build: setup-run
+	@$(call configure,$(BUILD),)
+	@$(call compile,$(BUILD)) --target tahr_product
+
+setup:
+	@sh .ci/setup test
+
+setup-run:
+	@sh .ci/setup run
+
+run_options = $(if $(LEVEL),--level "$(LEVEL)") $(if $(UP),--up $(UP)) $(if $(BACKEND),--backend $(BACKEND)) \
+	--csv $(BUILD)/run.csv --plot $(BUILD)/run.svg $(ARGS)
+run: build
+	$(strip $(BUILD)/bin/tahr run $(run_options))
+
+test: setup
+	@$(call configure,$(BUILD),-DTAHR_TESTS=ON)
+	@$(call compile,$(BUILD))
+	@$(call check,$(BUILD),-LE full)
+
+test-full: setup
+	@$(call configure,$(BUILD),-DTAHR_TESTS=ON)
+	@$(call compile,$(BUILD))
+	@$(call check,$(BUILD),)
+
+# Tests labelled "toolchain" compile the sources again by themselves, so there is nothing in them for a sanitizer to see.
+asan: setup
+	@$(call configure,$(BUILD)/asan,-DTAHR_TESTS=ON -DTAHR_SANITIZE=ON)
+	@$(call compile,$(BUILD)/asan)
+	@$(call check,$(BUILD)/asan,-LE toolchain)
+
+bench: setup-run
+	@if ! ls tests/bench/*.c >/dev/null 2>&1; then echo "bench: tests/bench has no sources"; exit 1; fi
+	@$(call configure,$(BUILD),)
+	@$(call compile,$(BUILD)) --target tahr_bench
+	$(BUILD)/bin/tahr_bench $(ARGS)
+
+install: build
+	cmake --install $(BUILD) --prefix "$(abspath $(PREFIX))"
+
+clean:
+	cmake -E rm -rf $(BUILD)
+
+format:
+	@command -v clang-format >/dev/null || { echo "format: clang-format is not installed"; exit 1; }
+	clang-format -i $$(find include src backends bindings tests fuzz -name '*.[ch]' 2>/dev/null)
+
+help:
+	@echo "make              build the library and the shell into $(BUILD)/"
+	@echo "make run          walk the bundled playground; leaves $(BUILD)/run.svg and $(BUILD)/run.csv"
+	@echo "                  LEVEL=file  UP=y|z  BACKEND=native|native-double|ccd  ARGS='more options'"
+	@echo "make test         all tests but the long ones"
+	@echo "make test-full    all tests"
+	@echo "make asan         all tests under AddressSanitizer and UBSan, in $(BUILD)/asan"
+	@echo "make bench        the benchmark; ARGS='options'"
+	@echo "make install      PREFIX=/usr/local"
+	@echo "make setup        install what is missing through apt-get (run, test and the others do it too)"
+	@echo "make format       clang-format over all sources"
+	@echo "make clean        remove $(BUILD)/"

@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: MIT
+ * core_distance.c: nearest points between a triangle and a point, a segment or a box. */
+#include "core.h"
+
+static void witness_at(tahr__witness *out, tahr_vec3 q, tahr_vec3 p, uint32_t feature)
+{
+    tahr_vec3 d = v_sub(q, p);
+    double g = v_length(d);
+    out->distance = g;
+    out->point = p;
+    out->feature = feature;
+    if (g > 0) out->normal = v_scale(d, 1.0 / g);
+}
+
+/* Nearest point of edge i to q; clamps land on the corner itself, so that neighbours find the same bits. */
+static tahr_vec3 on_edge(tahr_vec3 q, const tahr_vec3 v[3], int i, uint32_t *feature)
+{
+    tahr_vec3 a = v[i], b = v[(i + 1) % 3], e = v_sub(b, a);
+    double along = v_dot(v_sub(q, a), e), length2 = v_dot(e, e);
+    if (!(along > 0) || !(length2 > 0)) {
+        *feature = TAHR__CORNER + (uint32_t)i;
+        return a;
+    }
+    if (along >= length2) {
+        *feature = TAHR__CORNER + (uint32_t)((i + 1) % 3);
+        return b;
+    }
+    *feature = TAHR__EDGE + (uint32_t)i;
+    /* Measure from the nearer end: the rounding of a long edge then stays small near both of its ends. */
+    if (along + along <= length2) return v_mad(a, e, along / length2);
+    return v_mad(b, e, -(v_dot(v_sub(b, q), e) / length2));
+}
+
+void tahr__point_triangle(tahr_vec3 q, const tahr_vec3 v[3], tahr__witness *out)
+{
+    tahr_vec3 e0 = v_sub(v[1], v[0]), e2 = v_sub(v[0], v[2]), d = v_sub(q, v[0]);
+    tahr_vec3 n = v_cross(e2, e0), x = v_cross(d, n);
+    /* side[i] > 0: the projection is inside of edge i. Their sum is n . n. */
+    double n2 = v_dot(n, n), side[3] = {v_dot(e0, x), 0, v_dot(e2, x)};
+    side[1] = n2 - side[0] - side[2];
+    if (n2 > 0 && side[0] >= 0 && side[1] >= 0 && side[2] >= 0) {
+        double inverse = 1.0 / sqrt(n2), height = v_dot(n, d) * inverse;
+        tahr_vec3 unit = v_scale(n, inverse);
+        out->feature = TAHR__FACE;
+        out->distance = fabs(height);
+        out->normal = height < 0 ? v_scale(unit, -1) : unit;
+        out->point = v_mad(q, unit, -height);
+        return;
+    }
+    double best = -1;
+    for (int i = 0; i < 3; i++) {
+        /* Nearest is a point of an edge that the projection is outside of; for a triangle without area any. */
+        if (n2 > 0 && side[i] >= 0) continue;
+        uint32_t feature;
+        tahr_vec3 p = on_edge(q, v, i, &feature), r = v_sub(q, p);
+        double r2 = v_dot(r, r);
+        if (best >= 0 && r2 >= best) continue;
+        best = r2;
+        out->point = p;
+        out->feature = feature;
+    }
+    witness_at(out, q, out->point, out->feature);
+}
+
+double tahr__segment_segment(tahr_vec3 p0, tahr_vec3 p1, tahr_vec3 q0, tahr_vec3 q1, double *s, double *t)
+{
+    tahr_vec3 d1 = v_sub(p1, p0), d2 = v_sub(q1, q0), r = v_sub(p0, q0);
+    double a = v_dot(d1, d1), e = v_dot(d2, d2), f = v_dot(d2, r), c = v_dot(d1, r);
+    if (!(a > 0) && !(e > 0)) {
+        *s = *t = 0;
+    } else if (!(a > 0)) {
+        *s = 0;
+        *t = d_min(1, d_max(0, f / e));
+    } else if (!(e > 0)) {
+        *t = 0;
+        *s = d_min(1, d_max(0, -c / a));
+    } else {
+        /* The squared sine by a cross product: a*e - b*b would lose it for nearly parallel segments. */
+        tahr_vec3 x = v_cross(d1, d2);
+        double b = v_dot(d1, d2), det = v_dot(x, x);
+        *s = det > 0 ? d_min(1, d_max(0, v_dot(v_cross(d2, r), x) / det)) : 0;
+        *t = (b * *s + f) / e;
+        if (*t < 0) {
+            *t = 0;
+            *s = d_min(1, d_max(0, -c / a));
+        } else if (*t > 1) {
+            *t = 1;
+            *s = d_min(1, d_max(0, (b - c) / a));
+        }
+    }
+    tahr_vec3 d = v_sub(v_mad(p0, d1, *s), v_mad(q0, d2, *t));
+    return v_dot(d, d);
+}
+
+/* Does the line a b pass through the triangle? The ends are known to be on opposite sides of its plane. */
+static int pierces(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3])
+{
+    tahr_vec3 d = v_sub(b, a);
+    double side[3];
+    for (int i = 0; i < 3; i++) side[i] = v_dot(d, v_cross(v_sub(v[i], a), v_sub(v[(i + 1) % 3], a)));
+    return (side[0] >= 0 && side[1] >= 0 && side[2] >= 0) || (side[0] <= 0 && side[1] <= 0 && side[2] <= 0);
+}
+
+static void keep_nearer(tahr__witness *out, const tahr__witness *w)
+{
+    if (w->distance < out->distance) *out = *w;
+}
+
+/* A segment against the edges of the triangle; only interior pairs can beat the ends and the corners. */
+static void against_edges(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3], tahr__witness *out)
+{
+    tahr_vec3 d = v_sub(b, a);
+    for (int i = 0; i < 3; i++) {
+        double s, t;
+        tahr_vec3 q0 = v[i], q1 = v[(i + 1) % 3];
+        double d2 = tahr__segment_segment(a, b, q0, q1, &s, &t);
+        if (!(d2 < out->distance * out->distance)) continue;
+        uint32_t feature = TAHR__EDGE + (uint32_t)i;
+        tahr_vec3 p = v_mad(q0, v_sub(q1, q0), t);
+        if (t <= 0) {
+            feature = TAHR__CORNER + (uint32_t)i;
+            p = q0;
+        } else if (t >= 1) {
+            feature = TAHR__CORNER + (uint32_t)((i + 1) % 3);
+            p = q1;
+        }
+        tahr__witness w;
+        w.normal = v_make(0, 0, 0);
+        w.reserved = 0;
+        witness_at(&w, v_mad(a, d, s), p, feature);
+        keep_nearer(out, &w);
+    }
+}
+
+void tahr__segment_triangle(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3], tahr__witness *out)
+{
+    tahr_vec3 n = v_cross(v_sub(v[1], v[0]), v_sub(v[2], v[0]));
+    double ha = v_dot(n, v_sub(a, v[0])), hb = v_dot(n, v_sub(b, v[0]));
+    if (((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) && pierces(a, b, v)) {
+        out->distance = 0;
+        out->feature = TAHR__FACE;
+        out->point = v_mad(a, v_sub(b, a), ha / (ha - hb));
+        return;
+    }
+    tahr__witness w = *out;
+    tahr__point_triangle(a, v, out);
+    tahr__point_triangle(b, v, &w);
+    double low = fabs(ha), high = fabs(hb), same_side = ha * hb;
+    if (w.distance < out->distance) {
+        *out = w;
+        low = fabs(hb);
+        high = fabs(ha);
+    }
+    /* Nearest end over the face, and the segment leads away from the plane: nothing between the ends can be nearer. */
+    if (out->feature == TAHR__FACE && same_side >= 0 && high >= low) return;
+    against_edges(a, b, v, out);
+}
+
+/* Nearest point of the box to p; the normal points from p, a corner of the triangle, to the box. */
+static void corner_to_box(const tahr__core *core, tahr_vec3 centre, tahr_vec3 p, uint32_t feature, tahr__witness *out)
+{
+    tahr_vec3 d = v_sub(p, centre), q = centre;
+    for (int i = 0; i < core->axis_count; i++) {
+        double h2 = v_dot(core->axis[i], core->axis[i]);
+        if (!(h2 > 0)) continue;
+        q = v_mad(q, core->axis[i], d_min(1, d_max(-1, v_dot(d, core->axis[i]) / h2)));
+    }
+    tahr__witness w;
+    w.normal = v_make(0, 0, 0);
+    w.reserved = 0;
+    witness_at(&w, q, p, feature);
+    keep_nearer(out, &w);
+}
+
+/* Is there an axis that separates the box from the triangle? (Face normals and edge pairs: complete for two polyhedra.) */
+static int separated(const tahr__core *core, const tahr_vec3 r[3])
+{
+    tahr_vec3 e[3] = {v_sub(r[1], r[0]), v_sub(r[2], r[1]), v_sub(r[0], r[2])};
+    for (int k = 0; k < 13; k++) {
+        tahr_vec3 n = k == 0 ? v_cross(e[0], e[1]) : core->axis[(k - 1) % 3];
+        if (k >= 4) n = v_cross(core->axis[(k - 4) / 3], e[(k - 4) % 3]);
+        double a = v_dot(n, r[0]), b = v_dot(n, r[1]), c = v_dot(n, r[2]), x = tahr__core_extent(core, n);
+        if (d_min(a, d_min(b, c)) > x || d_max(a, d_max(b, c)) < -x) return 1;
+    }
+    return 0;
+}
+
+void tahr__box_triangle(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 v[3], tahr__witness *out)
+{
+    tahr_vec3 r[3] = {v_sub(v[0], centre), v_sub(v[1], centre), v_sub(v[2], centre)};
+    out->distance = 0;
+    out->feature = TAHR__FACE;
+    out->point = v_scale(v_add(v[0], v_add(v[1], v[2])), 1.0 / 3.0);
+    if (!separated(core, r)) return;
+    tahr_vec3 corner[8];
+    for (int i = 0; i < 8; i++) {
+        corner[i] = v_mad(centre, core->axis[0], i & 1 ? 1 : -1);
+        corner[i] = v_mad(corner[i], core->axis[1], i & 2 ? 1 : -1);
+        corner[i] = v_mad(corner[i], core->axis[2], i & 4 ? 1 : -1);
+        tahr__witness w = *out;
+        tahr__point_triangle(corner[i], v, &w);
+        if (i == 0) *out = w;
+        else keep_nearer(out, &w);
+    }
+    for (int i = 0; i < 3; i++) corner_to_box(core, centre, v[i], TAHR__CORNER + (uint32_t)i, out);
+    for (int i = 0; i < 8; i++) {
+        for (int bit = 1; bit < 8; bit += bit) {
+            if (!(i & bit)) against_edges(corner[i], corner[i | bit], v, out);
+        }
+    }
+}
+
+void tahr__core_distance(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 v[3], tahr__witness *out)
+{
+    out->normal = v_make(0, 0, 0);
+    out->reserved = 0;
+    if (core->axis_count == 0) tahr__point_triangle(centre, v, out);
+    else if (core->axis_count == 1) tahr__segment_triangle(v_sub(centre, core->axis[0]), v_add(centre, core->axis[0]), v, out);
+    else tahr__box_triangle(core, centre, v, out);
+}
+
+/* Tries to leave along +-n: keeps the shortest way. low and high are the other shape's extent along n around the core. */
+static void try_way(tahr_vec3 n, double low, double high, double *depth, tahr_vec3 *normal)
+{
+    double n2 = v_dot(n, n);
+    if (!(n2 > 0)) return;
+    double inverse = 1.0 / sqrt(n2);
+    if (high * inverse < *depth) {
+        *depth = high * inverse;
+        *normal = v_scale(n, inverse);
+    }
+    if (-low * inverse < *depth) {
+        *depth = -low * inverse;
+        *normal = v_scale(n, -inverse);
+    }
+}
+
+double tahr__core_leave_triangle(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 v[3], unsigned sides,
+                                 tahr_vec3 *normal)
+{
+    tahr_vec3 r[3] = {v_sub(v[0], centre), v_sub(v[1], centre), v_sub(v[2], centre)};
+    tahr_vec3 e[3] = {v_sub(r[1], r[0]), v_sub(r[2], r[1]), v_sub(r[0], r[2])};
+    tahr_vec3 n = v_cross(e[0], e[1]);
+    double depth = 1e300, none = -1e300;
+    *normal = v_make(0, 0, 1);
+    double extent = tahr__core_extent(core, n), height = v_dot(n, r[0]);
+    if (!(sides & 7u)) sides = 1;
+    try_way(n, sides & 2u ? height - extent : none, sides & 1u ? height + extent : 1e300, &depth, normal);
+    if (sides & 4u) {
+        for (int k = 0; k < core->axis_count * 4; k++) {
+            tahr_vec3 u = core->axis[k / 4];
+            tahr_vec3 w = k % 4 < 3 ? e[k % 4] : core->axis[(k / 4 + 1) % core->axis_count];
+            tahr_vec3 x = v_cross(u, w);
+            double a = v_dot(x, r[0]), b = v_dot(x, r[1]), c = v_dot(x, r[2]), ext = tahr__core_extent(core, x);
+            try_way(x, d_min(a, d_min(b, c)) - ext, d_max(a, d_max(b, c)) + ext, &depth, normal);
+        }
+    }
+    return depth > 1e299 ? 0 : d_max(depth, 0);
+}
+
+double tahr__core_leave_solid(const tahr__core *core, tahr_vec3 centre, const tahr__core *solid, tahr_vec3 solid_centre,
+                              tahr_vec3 *normal)
+{
+    /* The difference of two sums of segments is a sum of segments; its faces are spanned by pairs of them. */
+    tahr_vec3 g[6], d = v_sub(solid_centre, centre);
+    int count = 0;
+    double depth = 1e300;
+    for (int i = 0; i < solid->axis_count; i++) g[count++] = solid->axis[i];
+    for (int i = 0; i < core->axis_count; i++) g[count++] = core->axis[i];
+    *normal = v_make(0, 0, 1);
+    for (int i = 0; i < count; i++) {
+        for (int j = i + 1; j < count; j++) {
+            tahr_vec3 n = v_cross(g[i], g[j]);
+            /* Nearly parallel pairs span no face; as an axis they would be noise. */
+            if (!(v_dot(n, n) > 1e-20 * v_dot(g[i], g[i]) * v_dot(g[j], g[j]))) continue;
+            double middle = v_dot(n, d), extent = 0;
+            for (int k = 0; k < count; k++) extent += fabs(v_dot(n, g[k]));
+            try_way(n, middle - extent, middle + extent, &depth, normal);
+        }
+    }
+    return depth > 1e299 ? -1 : depth;
+}

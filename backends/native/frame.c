@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT
+ * frame.c: the local frame of a query and how bodies come into it. */
+#include "scene.h"
+
+/* Side of a cell (m): small enough that a float has 2.4e-7 m steps in it, large enough to be left seldom. */
+#define CELL 4.0
+/* Coordinates up to this are rounded to float (steps of 1.9e-6 m just below it), larger ones keep double. */
+#define FLOAT_RANGE 32.0
+
+tahr__frame tahr__frame_make(const tahr__native *world, tahr_vec3 position, tahr_vec3 up)
+{
+    tahr__frame frame;
+    frame.origin = v_make(floor(position.x / CELL) * CELL, floor(position.y / CELL) * CELL, floor(position.z / CELL) * CELL);
+    frame.up = up;
+    frame.turned = !(up.x == 0 && up.y == 0 && up.z == 1);
+    frame.turn = frame.turned ? m_upright(up) : m_identity();
+    frame.round = world->round;
+    return frame;
+}
+
+tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body)
+{
+    tahr__map map;
+    map.offset = v_sub(body->position, frame->origin);
+    map.turned = frame->turned || body->turned;
+    map.round = frame->round;
+    if (frame->turned) {
+        map.offset = m_apply(&frame->turn, map.offset);
+        map.turn = body->turned ? m_mul(&frame->turn, &body->turn) : frame->turn;
+    } else {
+        map.turn = body->turn;
+    }
+    return map;
+}
+
+/* Per vertex, so that triangles that share one still share it after rounding. */
+tahr_vec3 tahr__map_point(const tahr__map *map, tahr_vec3 v)
+{
+    tahr_vec3 p = v_add(map->offset, map->turned ? m_apply(&map->turn, v) : v);
+    if (map->round && fabs(p.x) <= FLOAT_RANGE && fabs(p.y) <= FLOAT_RANGE && fabs(p.z) <= FLOAT_RANGE) {
+        p = v_make(d_round_to_float(p.x), d_round_to_float(p.y), d_round_to_float(p.z));
+    }
+    return p;
+}
+
+void tahr__map_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr_vec3 v[3])
+{
+    const uint32_t *vertex = body->mesh.triangles[triangle].vertex;
+    for (int i = 0; i < 3; i++) v[i] = tahr__map_point(map, body->mesh.vertices[vertex[i]]);
+}
+
+tahr_vec3 tahr__frame_to_world(const tahr__frame *frame, tahr_vec3 direction)
+{
+    return frame->turned ? m_unapply(&frame->turn, direction) : direction;
+}
+
+tahr_bounds tahr__frame_box_to_world(const tahr__frame *frame, const tahr_bounds *box, double grow)
+{
+    tahr_vec3 g = v_make(grow, grow, grow);
+    tahr_bounds world = {v_sub(box->min, g), v_add(box->max, g)};
+    if (frame->turned) {
+        tahr_vec3 half = v_scale(v_sub(world.max, world.min), 0.5), middle = v_add(world.min, half);
+        tahr__mat size = frame->turn;
+        for (int i = 0; i < 3; i++) size.row[i] = v_abs(size.row[i]);
+        half = m_unapply(&size, half);
+        middle = m_unapply(&frame->turn, middle);
+        world.min = v_sub(middle, half);
+        world.max = v_add(middle, half);
+    }
+    world.min = v_add(world.min, frame->origin);
+    world.max = v_add(world.max, frame->origin);
+    return world;
+}
+
+tahr_bounds tahr__frame_box_to_local(const tahr__frame *frame, const tahr_bounds *box)
+{
+    tahr_bounds local = {v_sub(box->min, frame->origin), v_sub(box->max, frame->origin)};
+    if (!frame->turned) return local;
+    tahr_vec3 half = v_scale(v_sub(local.max, local.min), 0.5), middle = m_apply(&frame->turn, v_add(local.min, half));
+    tahr__mat size = frame->turn;
+    for (int i = 0; i < 3; i++) size.row[i] = v_abs(size.row[i]);
+    half = m_apply(&size, half);
+    local.min = v_sub(middle, half);
+    local.max = v_add(middle, half);
+    return local;
+}
+
+void tahr__prim_round(const tahr__map *map, const tahr__body *body, uint32_t id, tahr__prim *prim)
+{
+    prim->v[0] = tahr__map_point(map, v_make(0, 0, -body->reach));
+    prim->v[1] = prim->v[2] = tahr__map_point(map, v_make(0, 0, body->reach));
+    prim->radius = body->radius;
+    prim->body = id;
+    prim->item = TAHR__ITEM_ROUND;
+}
+
+void tahr__prim_solid(const tahr__map *map, uint32_t id, tahr__prim *prim)
+{
+    prim->v[0] = prim->v[1] = prim->v[2] = map->offset;
+    prim->radius = 0;
+    prim->body = id;
+    prim->item = TAHR__ITEM_SOLID;
+}
+
+tahr_bounds tahr__prim_bounds(const tahr__native *world, const tahr__map *map, const tahr__prim *prim)
+{
+    tahr_vec3 grow = v_make(prim->radius, prim->radius, prim->radius);
+    if (prim->item & TAHR__ITEM_SOLID) {
+        tahr_vec3 half = world->bodies[prim->body].half_extents;
+        for (int i = 0; i < 3 && map->turned; i++) {
+            double extent = v_dot(v_abs(map->turn.row[i]), world->bodies[prim->body].half_extents);
+            if (i == 0) half.x = extent;
+            if (i == 1) half.y = extent;
+            if (i == 2) half.z = extent;
+        }
+        grow = v_add(half, v_make(TAHR__SLACK, TAHR__SLACK, TAHR__SLACK));
+    }
+    tahr_bounds b = {v_sub(v_min(prim->v[0], v_min(prim->v[1], prim->v[2])), grow),
+                     v_add(v_max(prim->v[0], v_max(prim->v[1], prim->v[2])), grow)};
+    return b;
+}

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: MIT
+ * gather.c: one character's cache of nearby static primitives, and the search that uses it where it holds everything. */
+#include "lanes.h"
+#include "scene.h"
+
+#include <string.h>
+
+/* A box that is far from everything, for unused lanes. */
+#define NOWHERE 1e30f
+
+/* The arrays behind a cache's header: six float bounds, body, item, nine coordinates (float or double). */
+typedef struct arrays {
+    float *bound[6];
+    uint32_t *body, *item;
+    void *corners;
+} arrays;
+
+static size_t corner_bytes(const tahr__native *world)
+{
+    return world->round ? sizeof(float) : sizeof(double);
+}
+
+static size_t header_bytes(void)
+{
+    return (sizeof(tahr__cache) + 63) / 64 * 64;
+}
+
+size_t tahr__cache_bytes(const tahr__native *world)
+{
+    size_t each = 6 * sizeof(float) + 2 * sizeof(uint32_t) + 9 * corner_bytes(world);
+    return header_bytes() + (world->no_cache ? 0 : each * world->capacity);
+}
+
+static arrays arrays_of(const tahr__native *world, tahr__cache *cache)
+{
+    arrays a;
+    /* The header ends on a multiple of 64, capacity is a multiple of 4: every array is aligned for its type. */
+    float *f = (float *)(void *)((unsigned char *)cache + header_bytes());
+    for (int i = 0; i < 6; i++) a.bound[i] = f + (size_t)i * world->capacity;
+    a.body = (uint32_t *)(void *)(f + (size_t)6 * world->capacity);
+    a.item = a.body + world->capacity;
+    a.corners = a.item + world->capacity;
+    return a;
+}
+
+static tahr__cache *cache_of(const tahr__query *query)
+{
+    return query->cache;
+}
+
+typedef struct gather {
+    tahr__search search;
+    arrays arrays;
+    tahr__cache *cache;
+} gather;
+
+static void store(tahr__search *search, const tahr__prim *prim)
+{
+    gather *g = (gather *)search;
+    const tahr__native *world = search->query->world;
+    uint32_t n = g->cache->count;
+    if (n == world->capacity) {
+        /* Nothing more to find: what does not fit is never kept in part. */
+        g->cache->overflow = 1;
+        search->box.min = v_make(1e30, 1e30, 1e30);
+        search->box.max = search->box.min;
+        search->narrowed = 1;
+        return;
+    }
+    tahr__map map;
+    memset(&map, 0, sizeof map);
+    if (prim->item & TAHR__ITEM_SOLID) map = tahr__map_make(&search->query->frame, &world->bodies[prim->body]);
+    tahr_bounds b = tahr__prim_bounds(world, &map, prim);
+    uint32_t wide = 0;
+    for (int i = 0; i < 3; i++) {
+        g->arrays.bound[i][n] = d_down(v_get(b.min, i));
+        g->arrays.bound[3 + i][n] = d_up(v_get(b.max, i));
+        for (int k = 0; k < 3; k++) {
+            double x = v_get(prim->v[i], k);
+            if (world->round) {
+                ((float *)g->arrays.corners)[9 * n + 3 * (uint32_t)i + (uint32_t)k] = (float)x;
+                if (d_round_to_float(x) != x) wide = TAHR__ITEM_WIDE;
+            } else {
+                ((double *)g->arrays.corners)[9 * n + 3 * (uint32_t)i + (uint32_t)k] = x;
+            }
+        }
+    }
+    g->arrays.body[n] = prim->body;
+    g->arrays.item[n] = prim->item | wide;
+    g->cache->count = n + 1;
+}
+
+static int same(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
+static int inside(const tahr_bounds *a, const tahr_bounds *b)
+{
+    return a->min.x >= b->min.x && a->min.y >= b->min.y && a->min.z >= b->min.z && a->max.x <= b->max.x &&
+           a->max.y <= b->max.y && a->max.z <= b->max.z;
+}
+
+static void gather_now(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
+{
+    tahr__cache *cache = context->cache;
+    tahr__query query;
+    gather g;
+    memset(&query, 0, sizeof query);
+    query.world = world;
+    query.context = context;
+    query.frame = cache->frame;
+    query.mask = p->mask;
+    query.ignore_body = TAHR_NO_BODY;
+    query.sensors = 1;
+    query.start = tahr__frame_box_to_local(&cache->frame, &(tahr_bounds){p->position, p->position}).min;
+    tahr_vec3 m = v_make(world->cache_margin, world->cache_margin, world->cache_margin);
+    cache->bounds.min = v_sub(p->bounds.min, m);
+    cache->bounds.max = v_add(p->bounds.max, m);
+    cache->mask = p->mask;
+    cache->gathered = 1;
+    cache->overflow = cache->count = 0;
+    g.search.query = &query;
+    g.search.box = tahr__frame_box_to_local(&cache->frame, &cache->bounds);
+    g.search.reach = 0;
+    g.search.narrowed = 0;
+    g.search.visit = store;
+    g.arrays = arrays_of(world, cache);
+    g.cache = cache;
+    tahr__tree_search(&g.search, &world->fixed);
+    for (uint32_t n = cache->count; n % 4 != 0; n++) {
+        for (int i = 0; i < 6; i++) g.arrays.bound[i][n] = NOWHERE;
+    }
+    context->gathers++;
+}
+
+tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
+{
+    tahr__cache *cache = context ? context->cache : NULL;
+    if (!cache) return TAHR_OK;
+    tahr__frame frame;
+    memset(&frame, 0, sizeof frame);
+    tahr__frame fresh = tahr__frame_make(world, p->position, p->up);
+    int keep = cache->announced && same(&cache->frame.origin, &fresh.origin, sizeof fresh.origin) &&
+               same(&cache->frame.up, &fresh.up, sizeof fresh.up);
+    cache->frame = fresh;
+    cache->announced = 1;
+    if (world->no_cache) return TAHR_OK;
+    if (keep && cache->gathered && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds)) return TAHR_OK;
+    gather_now(world, context, p);
+    return TAHR_OK;
+}
+
+/* One primitive out of the cache. */
+static void load(const tahr__query *query, const arrays *a, uint32_t n, tahr__prim *prim)
+{
+    const tahr__body *body = &query->world->bodies[a->body[n]];
+    prim->body = a->body[n];
+    prim->item = a->item[n] & ~TAHR__ITEM_WIDE;
+    prim->radius = body->radius;
+    if (a->item[n] & TAHR__ITEM_WIDE) {
+        tahr__map map = tahr__map_make(&query->frame, body);
+        if (prim->item & TAHR__ITEM_ROUND) tahr__prim_round(&map, body, prim->body, prim);
+        else if (prim->item & TAHR__ITEM_SOLID) tahr__prim_solid(&map, prim->body, prim);
+        else tahr__map_triangle(&map, body, prim->item, prim->v);
+        return;
+    }
+    for (uint32_t i = 0; i < 3; i++) {
+        if (query->world->round) {
+            const float *c = (const float *)a->corners + 9 * (size_t)n + 3 * i;
+            prim->v[i] = v_make((double)c[0], (double)c[1], (double)c[2]);
+        } else {
+            const double *c = (const double *)a->corners + 9 * (size_t)n + 3 * i;
+            prim->v[i] = v_make(c[0], c[1], c[2]);
+        }
+    }
+}
+
+static int concerns(const tahr__query *query, uint32_t id)
+{
+    const tahr__body *body = &query->world->bodies[id];
+    if (!(body->mask & query->mask) || id == query->ignore_body) return 0;
+    return query->sensors || !(body->flags & TAHR_BODY_SENSOR);
+}
+
+static void set_box(const tahr__search *s, float lo[3], float hi[3])
+{
+    for (int i = 0; i < 3; i++) {
+        lo[i] = d_down(v_get(s->box.min, i));
+        hi[i] = d_up(v_get(s->box.max, i));
+    }
+}
+
+/* Distance of a cached box to the search box; the same formula as the lanes. */
+static int still_near(const tahr__lanes *lanes, uint32_t n, const float lo[3], const float hi[3], float limit)
+{
+    const float *const *l = lanes->lo, *const *h = lanes->hi;
+    tahr__lanes one = {{l[0] + n, l[1] + n, l[2] + n}, {h[0] + n, h[1] + n, h[2] + n}, 1};
+    uint16_t index;
+    float distance;
+    return tahr__lanes_cull_scalar(&one, lo, hi, limit, &index, &distance) != 0;
+}
+
+static void search_cache(tahr__search *s)
+{
+    const tahr__query *query = s->query;
+    const tahr__native *world = query->world;
+    tahr__cache *cache = cache_of(query);
+    arrays a = arrays_of(world, cache);
+    tahr__lanes lanes = {{a.bound[0], a.bound[1], a.bound[2]}, {a.bound[3], a.bound[4], a.bound[5]}, cache->count};
+    uint16_t index[4096];
+    float distance[4096], lo[3], hi[3];
+    /* d_up alone covers the rounding of the lanes' differences only down to 1e-7 of the reach; the slack covers zero. */
+    float limit = d_up((s->reach + 1e-6) * (s->reach + 1e-6) * (1 + 1e-5));
+    set_box(s, lo, hi);
+    uint32_t count = (world->no_simd ? tahr__lanes_cull_scalar : tahr__lanes_cull)(&lanes, lo, hi, limit, index, distance);
+    uint32_t nearest = 0;
+    for (uint32_t i = 1; i < count; i++) {
+        if (distance[i] < distance[nearest]) nearest = i;
+    }
+    if (count > 0) {
+        uint16_t first = index[nearest];
+        index[nearest] = index[0];
+        index[0] = first;
+    }
+    int narrowed = 0;
+    tahr__prim prim;
+    for (uint32_t i = 0; i < count; i++) {
+        if (!concerns(query, a.body[index[i]])) continue;
+        if (narrowed && !still_near(&lanes, index[i], lo, hi, limit)) continue;
+        load(query, &a, index[i], &prim);
+        s->narrowed = 0;
+        s->visit(s, &prim);
+        if (!s->narrowed) continue;
+        narrowed = 1;
+        set_box(s, lo, hi);
+    }
+}
+
+void tahr__search_run(tahr__search *s)
+{
+    const tahr__query *query = s->query;
+    const tahr__native *world = query->world;
+    const tahr__cache *cache = cache_of(query);
+    int held = 0;
+    if (cache && !world->no_cache && cache->gathered && !cache->overflow && (query->mask & ~cache->mask) == 0) {
+        tahr_bounds box = tahr__frame_box_to_world(&query->frame, &s->box, s->reach + 10 * TAHR__SLACK);
+        held = inside(&box, &cache->bounds);
+        if (!held) query->context->escapes++;
+    }
+    if (held) search_cache(s);
+    else tahr__tree_search(s, &world->fixed);
+    tahr__tree_search(s, &world->movable);
+}

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT
+ * native.c: the native backend's table of slots, opening and closing. */
+#include "scene.h"
+
+#include <string.h>
+
+enum { CAPACITY_DEFAULT = 192, CAPACITY_MAX = 4096 };
+/* Grown by half a metre a gather lasts 6 steps of a runner, at 6 times the area (robustness notes, measured). */
+#define MARGIN_DEFAULT 0.5
+
+static void complain(const tahr_host *host, const char *text)
+{
+    host->log.write(host->log.user, TAHR_LOG_ERROR, text);
+}
+
+static tahr_status read_options(const tahr_host *host, const void *options, tahr__native *world)
+{
+    tahr_native_desc d;
+    memset(&d, 0, sizeof d);
+    if (options) {
+        uint32_t size;
+        memcpy(&size, options, sizeof size);
+        if (size < sizeof d) {
+            complain(host, "native: options: struct_size is smaller than tahr_native_desc of version 0.1");
+            return TAHR_E_STRUCT_SIZE;
+        }
+        for (uint32_t i = sizeof d; i < size; i++) {
+            if (((const unsigned char *)options)[i] == 0) continue;
+            complain(host, "native: options: fields of a newer version are set");
+            return TAHR_E_UNSUPPORTED;
+        }
+        memcpy(&d, options, sizeof d);
+    }
+    int counts = d.precision <= TAHR_NATIVE_DOUBLE && d.cache_triangles <= CAPACITY_MAX && d.no_cache <= 1 && d.no_simd <= 1;
+    if (!counts || !(d.cache_margin >= 0 && d.cache_margin <= 1e3)) {
+        complain(host, "native: options: precision, cache_triangles (at most 4096), cache_margin (0 to 1000 m), no_cache or "
+                       "no_simd is out of range");
+        return TAHR_E_ARGUMENT;
+    }
+    world->round = d.precision == TAHR_NATIVE_FLOAT;
+    world->capacity = ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + 3) / 4 * 4;
+    world->no_cache = d.no_cache;
+    world->no_simd = d.no_simd;
+    world->cache_margin = d.cache_margin > 0 ? d.cache_margin : MARGIN_DEFAULT;
+    return TAHR_OK;
+}
+
+static void native_close(void *self)
+{
+    tahr__native *world = self;
+    if (!world) return;
+    const tahr_host *host = world->host;
+    tahr__bodies_close(world);
+    host->allocator.free(host->allocator.user, world, sizeof *world, 64);
+}
+
+static tahr_status native_open(const tahr_host *host, const tahr_world_desc *desc, void **self)
+{
+    tahr__native *world = host->allocator.alloc(host->allocator.user, sizeof *world, 64);
+    if (!world) return TAHR_E_MEMORY;
+    memset(world, 0, sizeof *world);
+    world->host = host;
+    tahr_status status = read_options(host, desc->options, world);
+    if (status == TAHR_OK) status = tahr__bodies_open(world, desc);
+    if (status != TAHR_OK) {
+        native_close(world);
+        return status;
+    }
+    *self = world;
+    return TAHR_OK;
+}
+
+static size_t native_cache_size(void *self)
+{
+    return tahr__cache_bytes(self);
+}
+
+static tahr_status native_prepare(void *self, tahr_query_context *context, const tahr_prepare *announcement)
+{
+    return tahr__cache_prepare(self, context, announcement);
+}
+
+static tahr_status native_place(void *self, const tahr_body_pose *poses, uint32_t count)
+{
+    return tahr__bodies_place(self, poses, count);
+}
+
+const tahr_backend *tahr_backend_v1_native(void)
+{
+    static const tahr_backend backend = {
+        .struct_size = sizeof(tahr_backend),
+        .abi_major = TAHR_ABI_MAJOR,
+        .abi_minor = TAHR_ABI_MINOR,
+        .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
+                        TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_BIT_IDENTICAL,
+        .name = "native",
+        .version = "0.1.0",
+        .open = native_open,
+        .close = native_close,
+        .sweep = tahr__native_sweep,
+        .contacts = tahr__native_contacts,
+        .ray = tahr__native_ray,
+        .cache_size = native_cache_size,
+        .prepare = native_prepare,
+        .place = native_place,
+    };
+    return &backend;
+}

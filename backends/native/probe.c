@@ -1,0 +1,306 @@
+/* SPDX-License-Identifier: MIT
+ * probe.c: one shape against one primitive: distance, and the time at which it falls to the target.
+ *
+ * The distance between convex sets under translation is a convex function of time. Newton's method from the left on a
+ * convex function never passes the root: every iterate is proven free. A plane is reached in one step, a curved contact
+ * quadratically. */
+#include "scene.h"
+
+#include <string.h>
+
+enum { ITERATIONS = 64, TARGETS = 5 };
+
+/* Below this distance (m) the direction between two points is rounding; the last one that was clear is used instead. */
+#define BLURRED 1e-9
+
+uint32_t tahr__prim_feature(const tahr__native *world, const tahr__prim *prim)
+{
+    if (prim->item & TAHR__ITEM_ROUND) return 0;
+    return tahr__triangle_source(&world->bodies[prim->body].mesh.triangles[prim->item]);
+}
+
+int tahr__found_before(const tahr__found *a, const tahr__found *b)
+{
+    if (a->overlap != b->overlap) return a->overlap > b->overlap;
+    if (a->overlap && a->gap != b->gap) return a->gap < b->gap;
+    if (a->t != b->t) return a->t < b->t;
+    if (a->body != b->body) return a->body < b->body;
+    if (a->feature != b->feature) return a->feature < b->feature;
+    return a->item < b->item;
+}
+
+tahr_bounds tahr__query_box(const tahr__query *query, double t)
+{
+    tahr_vec3 end = v_mad(query->start, query->motion, t), half = v_make(0, 0, 0);
+    for (int i = 0; i < query->core.axis_count; i++) half = v_add(half, v_abs(query->core.axis[i]));
+    tahr_bounds box = {v_sub(v_min(query->start, end), half), v_add(v_max(query->start, end), half)};
+    return box;
+}
+
+/* The way out of a box that the core has entered, along one of its faces or across a pair of edges. */
+static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__probe *out)
+{
+    const tahr__body *body = &query->world->bodies[prim->body];
+    tahr__map map = tahr__map_make(&query->frame, body);
+    tahr_vec3 centre = query->start;
+    tahr__core solid;
+    solid.axis_count = 3;
+    solid.axis[0] = v_make(body->half_extents.x, 0, 0);
+    solid.axis[1] = v_make(0, body->half_extents.y, 0);
+    solid.axis[2] = v_make(0, 0, body->half_extents.z);
+    for (int i = 0; i < 3 && map.turned; i++) solid.axis[i] = m_apply(&map.turn, solid.axis[i]);
+    double depth = tahr__core_leave_solid(&query->core, centre, &solid, map.offset, &out->witness.normal);
+    if (depth <= 0) return 0;
+    tahr_vec3 n = out->witness.normal;
+    out->witness.distance = 0;
+    out->witness.feature = TAHR__FACE;
+    out->witness.reserved = 0;
+    out->witness.point = v_mad(centre, n, depth - tahr__core_extent(&query->core, n));
+    out->gap = -depth - query->radius;
+    return 1;
+}
+
+/* Out of a round body whose axis the core crosses: across both axes, or sideways. */
+static double leave_round(const tahr__core *core, const tahr__prim *prim, tahr_vec3 centre, tahr_vec3 *normal)
+{
+    tahr__core axis;
+    axis.axis_count = 1;
+    axis.axis[0] = v_scale(v_sub(prim->v[1], prim->v[0]), 0.5);
+    double depth = tahr__core_leave_solid(core, centre, &axis, v_add(prim->v[0], axis.axis[0]), normal);
+    if (depth >= 0) return depth;
+    /* Nothing has a volume here: any way across the axis will do, up if there is none. */
+    tahr_vec3 along = core->axis_count ? core->axis[0] : axis.axis[0];
+    *normal = v_make(0, 0, 1);
+    if (v_dot(along, along) > 0) {
+        *normal = v_unit(v_cross(fabs(along.x) < fabs(along.z) ? v_make(1, 0, 0) : v_make(0, 0, 1), along));
+    }
+    return 0;
+}
+
+static unsigned sides_of(const tahr__query *query, const tahr__prim *prim)
+{
+    const tahr__body *body = &query->world->bodies[prim->body];
+    const tahr__triangle *t = &body->mesh.triangles[prim->item];
+    if (!(body->flags & TAHR_BODY_TWO_SIDED)) return 1;
+    /* Past its edges only from a triangle that stands alone: beyond an edge with a neighbour lies the neighbour. */
+    int alone = t->ring[0] == prim->item && t->ring[1] == prim->item && t->ring[2] == prim->item;
+    return alone ? 7 : 3;
+}
+
+/* The distance of the core. To a triangle wholly below the lower end of an upright segment that end is the nearest, to one
+ * wholly above it the upper one: exact, and a third of the work. */
+static void measure(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, tahr__witness *out)
+{
+    const tahr_vec3 *v = prim->v;
+    if (query->core.axis_count == 1) {
+        double half = query->core.axis[0].z;
+        tahr_vec3 low = v_make(centre.x, centre.y, centre.z - half), high = v_make(centre.x, centre.y, centre.z + half);
+        int below = v[0].z <= low.z && v[1].z <= low.z && v[2].z <= low.z;
+        if (below || (v[0].z >= high.z && v[1].z >= high.z && v[2].z >= high.z)) {
+            tahr__point_triangle(below ? low : high, v, out);
+            return;
+        }
+    }
+    tahr__core_distance(&query->core, centre, v, out);
+}
+
+/* Signed distance at the start. 0 if the primitive cannot matter (the inside of a box that is not entered). */
+static int probe_start(const tahr__query *query, const tahr__prim *prim, tahr__probe *out)
+{
+    const tahr__core *core = &query->core;
+    tahr_vec3 centre = query->start;
+    if (prim->item & TAHR__ITEM_SOLID) return probe_solid(query, prim, out);
+    out->witness.normal = v_make(0, 0, 0);
+    measure(query, prim, centre, &out->witness);
+    double touch = query->radius + prim->radius;
+    out->gap = out->witness.distance - touch;
+    if (out->witness.distance > 0 || (core->axis_count == 0 && out->witness.feature == TAHR__FACE)) return 1;
+    double depth;
+    if (prim->item & TAHR__ITEM_ROUND) {
+        depth = leave_round(core, prim, centre, &out->witness.normal);
+    } else {
+        const tahr__body *body = &query->world->bodies[prim->body];
+        if (body->type == TAHR_BODY_BOX && core->axis_count > 0) return 0; /* its inside answers */
+        depth = tahr__core_leave_triangle(core, centre, prim->v, sides_of(query, prim), &out->witness.normal);
+        out->witness.feature = TAHR__FACE;
+    }
+    out->gap = -depth - touch;
+    return 1;
+}
+
+/* What the triangle's plane alone says. Never, if the core stays beyond the target on either side of it or behind a
+ * one-sided face: that is all most triangles get. Else a time before which nothing happens, for the distance to the
+ * triangle is at least that to its plane; 0: look at the start. */
+static double earliest(const tahr__query *query, const tahr__prim *prim, double limit)
+{
+    const double never = 2;
+    if (prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) return 0;
+    const tahr__body *body = &query->world->bodies[prim->body];
+    if (body->mesh.triangles[prim->item].source & TAHR__MESH_THIN) return 0;
+    tahr_vec3 n = v_cross(v_sub(prim->v[1], prim->v[0]), v_sub(prim->v[2], prim->v[0]));
+    double reach = query->radius + query->margin, length = v_length(n);
+    double first = v_dot(n, v_sub(query->start, prim->v[0])), change = v_dot(n, query->motion);
+    double extent = tahr__core_extent(&query->core, n);
+    double low = first + d_min(0, change) - extent, high = first + d_max(0, change) + extent;
+    if (low >= reach * length || high <= -reach * length) return never;
+    /* Contacts from so far behind fail the test for one-sided faces (1e-6 of the distance) anyway. */
+    if (!(body->flags & TAHR_BODY_TWO_SIDED) && high < -(1e-5 * reach + 1e-8) * length) return never;
+    /* Half of what counts as arrived is left, so that rounding never makes it late. A target of nothing needs the way there
+     * to know its normal. */
+    double above = first < 0 ? -first : first, gap = above - extent - (reach + 0.5 * TAHR__ARRIVED) * length;
+    double rate = first < 0 ? change : -change;
+    if (!(gap > 0) || !(rate > 0) || reach < 1e-6) return 0;
+    double t = gap / rate;
+    return t > limit ? never : t;
+}
+
+/* Of a box that is left from inside: the face that the way out points through most. */
+static uint32_t solid_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3 normal)
+{
+    tahr__map map = tahr__map_make(&query->frame, &query->world->bodies[prim->body]);
+    tahr_vec3 n = m_unapply(&map.turn, normal), a = v_abs(n);
+    int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    return 2 * (uint32_t)axis + (v_get(n, axis) > 0);
+}
+
+static void found_fill(const tahr__query *query, const tahr__prim *prim, const tahr__probe *probe,
+                       const tahr__contact_normals *normals, tahr__found *out)
+{
+    uint32_t solid = prim->item & TAHR__ITEM_SOLID;
+    out->gap = probe->gap;
+    out->normal = normals->normal;
+    out->face = normals->face;
+    out->point = probe->witness.point;
+    if (prim->radius > 0) out->point = v_mad(out->point, normals->normal, prim->radius);
+    out->overlap = out->unknown = 0;
+    out->body = prim->body;
+    out->item = prim->item;
+    out->feature = solid ? solid_face(query, prim, normals->normal) : tahr__prim_feature(query->world, prim);
+}
+
+/* One primitive under way: where, and the distance it must come down to. */
+typedef struct flight {
+    const tahr__query *query;
+    const tahr__prim *prim;
+    double target, t;
+    tahr__probe probe;
+} flight;
+
+/* Is the surface being approached? Along the true normals, not those of rounded corners. */
+static int approaching(const tahr__query *query, tahr_vec3 normal)
+{
+    return v_dot(query->motion, normal) < -TAHR__PARALLEL * query->motion_length;
+}
+
+/* A contact at the start that is the surface's: does it block? */
+static int blocks_at_start(const flight *f, const tahr__contact_normals *normals, tahr__found *out)
+{
+    const tahr__query *query = f->query;
+    int overlap = f->probe.gap < 0, sensor = (query->world->bodies[f->prim->body].flags & TAHR_BODY_SENSOR) != 0;
+    int leaving_counts = overlap && (sensor || !(query->flags & TAHR_SWEEP_LEAVE_OVERLAP));
+    if (!leaving_counts && !approaching(query, normals->normal)) return 0;
+    out->t = 0;
+    found_fill(query, f->prim, &f->probe, normals, out);
+    out->overlap = (uint32_t)overlap;
+    return 1;
+}
+
+/* Newton from the left until the distance is target. 1: arrived; 0: never; -1: not decided within the cap. */
+static int advance(flight *f, double limit)
+{
+    const tahr__query *query = f->query;
+    for (int i = 0; i < ITERATIONS; i++) {
+        tahr__witness *w = &f->probe.witness;
+        double rest = w->distance - f->target, rate = v_dot(query->motion, w->normal);
+        if (rate >= -TAHR__PARALLEL * query->motion_length) return 0;
+        if (rest <= TAHR__ARRIVED) return 1;
+        double next = f->t + rest / -rate;
+        if (next > limit) return 0;
+        f->t = next;
+        tahr_vec3 before = w->normal;
+        measure(query, f->prim, v_mad(query->start, query->motion, f->t), w);
+        if (w->distance < BLURRED) w->normal = before;
+        query->context->narrow_iterations++;
+    }
+    return -1;
+}
+
+/* What a contact of this surface amounts to. at_start: found without moving. */
+static int judge(const flight *f, const tahr__contact_normals *normals, int at_start, tahr__found *out)
+{
+    if (at_start) {
+        if (blocks_at_start(f, normals, out)) return TAHR__BLOCKED;
+        out->gap = f->probe.gap;
+        return TAHR__BESIDE;
+    }
+    if (!approaching(f->query, normals->normal)) return TAHR__FREE;
+    out->t = f->t;
+    found_fill(f->query, f->prim, &f->probe, normals, out);
+    return TAHR__BLOCKED;
+}
+
+/* Goes on until something is decided. A contact that belongs to a nearer neighbour is not this triangle's: its turn comes
+ * when it is as near as that neighbour was, at the latest when it is as near as anything beside the start (beside, a
+ * gap). The first time it steps back instead: most often the neighbour blocks before. */
+static int fly(flight *f, double limit, const double *beside, tahr__found *out)
+{
+    const tahr__query *query = f->query;
+    double touch = query->radius + f->prim->radius;
+    int at_start = f->probe.gap <= query->margin;
+    for (int i = 0; i < TARGETS; i++, at_start = 0) {
+        int arrived = at_start ? 1 : advance(f, limit);
+        if (arrived == 0) return TAHR__FREE;
+        if (!at_start) f->probe.gap = f->probe.witness.distance - touch;
+        tahr__contact_normals normals;
+        tahr_vec3 centre = v_mad(query->start, query->motion, f->t);
+        int verdict = tahr__resolve(query, f->prim, centre, &f->probe.witness, query->motion, beside != NULL, &normals);
+        if (verdict == TAHR__REJECTED) return TAHR__FREE;
+        if (verdict == TAHR__ACCEPTED || arrived < 0) {
+            int answer = judge(f, &normals, at_start, out);
+            out->unknown = arrived < 0;
+            return answer;
+        }
+        out->t = f->t;
+        if (!beside) return TAHR__LATER;
+        double lowest = touch + d_min(*beside, query->margin);
+        f->target = (i < TARGETS - 2 ? d_max(normals.closer, lowest) : lowest) - 10 * TAHR__ARRIVED;
+        /* The core itself is in something that it may leave: nothing of this surface can be nearer. */
+        if (f->target <= 0) return TAHR__FREE;
+    }
+    return TAHR__FREE;
+}
+
+int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, double limit, const double *beside, tahr__found *out)
+{
+    flight f;
+    f.query = query;
+    f.prim = prim;
+    f.t = earliest(query, prim, limit);
+    if (f.t > 1) return TAHR__FREE;
+    f.target = query->radius + prim->radius + query->margin;
+    query->context->narrow_tests++;
+    query->context->narrow_iterations++;
+    if (f.t > 0) {
+        measure(query, prim, v_mad(query->start, query->motion, f.t), &f.probe.witness);
+        f.probe.gap = query->margin + 1; /* it is beyond the margin, by how much does not matter */
+    } else if (!probe_start(query, prim, &f.probe)) {
+        return TAHR__FREE;
+    }
+    return fly(&f, limit, beside, out);
+}
+
+int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double margin, tahr__found *out)
+{
+    if (earliest(query, prim, 1.0) > 1) return 0;
+    query->context->narrow_tests++;
+    query->context->narrow_iterations++;
+    tahr__probe probe;
+    tahr__contact_normals normals;
+    if (!probe_start(query, prim, &probe) || probe.gap > margin) return 0;
+    tahr_vec3 toward = v_scale(probe.witness.normal, -1);
+    if (tahr__resolve(query, prim, query->start, &probe.witness, toward, 0, &normals) != TAHR__ACCEPTED) return 0;
+    out->t = 0;
+    found_fill(query, prim, &probe, &normals, out);
+    out->overlap = probe.gap < 0;
+    return 1;
+}

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: MIT
+ * scene.h: what the parts of the native backend share: bodies, the local frame of a query, primitives, the search. */
+#ifndef TAHR_NATIVE_SCENE_H
+#define TAHR_NATIVE_SCENE_H
+
+#include "../common/core.h"
+#include "../common/mesh.h"
+
+#include <tahr/native.h>
+
+/* Queries whose gap is within this of the target have arrived (m). A tenth of what the double narrow phase promises. */
+#define TAHR__ARRIVED 1e-10
+/* A motion at less than this slope to a surface is parallel to it: a thousand times the rounding of a motion that was
+ * projected onto the surface in double, and a creep of 1e-12 of the way. */
+#define TAHR__PARALLEL 1e-12
+/* Searches reach farther by this: rounding local coordinates to float moves a corner by up to 3.3e-6 m. */
+#define TAHR__SLACK 1e-5
+
+typedef struct tahr__body {
+    uint32_t type, flags, mask, walkable_rule, surface;
+    uint32_t turned; /* 0: turn is the identity and is skipped, exactly */
+    double walkable_angle;
+    tahr_vec3 position;
+    tahr__mat turn;
+    tahr__mesh mesh;        /* meshes, and boxes as 12 triangles whose sources are the faces -x +x -y +y -z +z */
+    tahr_vec3 half_extents; /* boxes */
+    double radius;          /* spheres and capsules */
+    double reach;           /* capsules: half the length of the axis */
+    tahr_bounds bounds;     /* world */
+} tahr__body;
+
+/* A tree over some of the bodies. */
+typedef struct tahr__group {
+    tahr__bvh tree;
+    uint32_t *order; /* leaf position -> body */
+    tahr__bvh_box *boxes; /* scratch for refitting */
+    uint32_t count;
+} tahr__group;
+
+typedef struct tahr__native {
+    const tahr_host *host;
+    tahr__body *bodies;
+    uint32_t body_count;
+    uint32_t round;    /* local coordinates are rounded to float */
+    uint32_t capacity; /* of a cache, a multiple of 4 */
+    uint32_t no_cache, no_simd;
+    double cache_margin;
+    tahr__group fixed, movable;
+} tahr__native;
+
+/* Where a query is computed: relative to the corner of a 4 m cell, up along +z. Everything in a frame is a pure function
+ * of (vertex, pose, origin, up, precision), which is why cached and fresh answers are the same bits. */
+typedef struct tahr__frame {
+    tahr_vec3 origin, up;
+    tahr__mat turn; /* world to local */
+    uint32_t turned, round;
+} tahr__frame;
+
+/* Body coordinates to local ones: offset + turn * v. */
+typedef struct tahr__map {
+    tahr_vec3 offset;
+    tahr__mat turn;
+    uint32_t turned, round;
+} tahr__map;
+
+/* Which piece of a body a primitive is: a triangle (in leaf order), a round body, or the inside of a box. WIDE marks a
+ * cached triangle that reaches beyond the range where float is good enough. */
+#define TAHR__ITEM_WIDE 0x80000000u
+#define TAHR__ITEM_SOLID 0x40000000u
+#define TAHR__ITEM_ROUND 0x20000000u
+
+typedef struct tahr__prim {
+    tahr_vec3 v[3];
+    double radius;
+    uint32_t body, item;
+} tahr__prim;
+
+/* One character's memory: a header and, behind it, the arrays that tahr__cache_arrays finds. */
+typedef struct tahr__cache {
+    tahr__frame frame;
+    tahr_bounds bounds; /* world; everything static in it has been gathered */
+    uint32_t announced, gathered, overflow, mask, count, reserved;
+} tahr__cache;
+
+typedef struct tahr__query {
+    const tahr__native *world;
+    tahr__cache *cache; /* or NULL */
+    tahr_query_context *context;
+    tahr__frame frame;
+    tahr__core core;
+    tahr_vec3 start, motion; /* local */
+    double motion_length;
+    double radius, margin;
+    uint32_t mask, ignore_body, flags;
+    uint32_t sensors; /* 0: sensor bodies are not looked at */
+} tahr__query;
+
+/* Visits every primitive that may be within reach of box. The visitor may shrink box (and set narrowed) on the way. */
+typedef struct tahr__search {
+    const tahr__query *query;
+    tahr_bounds box; /* local, around the core */
+    double reach;
+    uint32_t narrowed;
+    void (*visit)(struct tahr__search *search, const tahr__prim *prim);
+} tahr__search;
+
+void tahr__search_run(tahr__search *search);
+
+/* frame.c */
+tahr__frame tahr__frame_make(const tahr__native *world, tahr_vec3 position, tahr_vec3 up);
+tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body);
+tahr_vec3 tahr__map_point(const tahr__map *map, tahr_vec3 v);
+void tahr__map_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr_vec3 v[3]);
+tahr_vec3 tahr__frame_to_world(const tahr__frame *frame, tahr_vec3 direction);
+tahr_bounds tahr__frame_box_to_world(const tahr__frame *frame, const tahr_bounds *box, double grow);
+tahr_bounds tahr__frame_box_to_local(const tahr__frame *frame, const tahr_bounds *box);
+/* The primitive of a whole round body, or of the inside of a box. */
+void tahr__prim_round(const tahr__map *map, const tahr__body *body, uint32_t id, tahr__prim *prim);
+void tahr__prim_solid(const tahr__map *map, uint32_t id, tahr__prim *prim);
+tahr_bounds tahr__prim_bounds(const tahr__native *world, const tahr__map *map, const tahr__prim *prim);
+
+/* bodies.c */
+tahr_status tahr__bodies_open(tahr__native *world, const tahr_world_desc *desc);
+void tahr__bodies_close(tahr__native *world);
+tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses, uint32_t count);
+
+/* gather.c */
+size_t tahr__cache_bytes(const tahr__native *world);
+tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
+
+/* tree.c: primitives of a group of bodies, straight from their trees. */
+void tahr__tree_search(tahr__search *search, const tahr__group *group);
+
+/* resolve.c: from a nearest point to a contact. */
+enum { TAHR__REJECTED = 0, TAHR__ACCEPTED = 1, TAHR__NEIGHBOUR = 2 };
+
+typedef struct tahr__contact_normals {
+    tahr_vec3 normal, face; /* local, unit */
+    double closer;          /* with TAHR__NEIGHBOUR: distance of the core to the neighbour that is nearer */
+} tahr__contact_normals;
+
+/* witness: of the core at centre. NEIGHBOUR: the nearest point is an edge or corner, and another triangle at it is nearer;
+ * closer is the distance to that one if measure was asked for. */
+int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
+                  tahr_vec3 motion, int measure, tahr__contact_normals *out);
+
+/* probe.c: one primitive. */
+typedef struct tahr__probe {
+    tahr__witness witness;
+    double gap; /* signed distance between the surfaces */
+} tahr__probe;
+
+/* The earliest blocking of one primitive, local frame. */
+typedef struct tahr__found {
+    double t, gap;
+    tahr_vec3 normal, face, point;
+    uint32_t overlap, unknown;
+    uint32_t body, feature, item;
+} tahr__found;
+
+enum { TAHR__FREE = 0, TAHR__BLOCKED = 1, TAHR__LATER = 2, TAHR__BESIDE = 3 };
+
+/* Does the primitive stop the motion at or before limit (a fraction; what comes later may be missed)? BESIDE: within the
+ * margin at the start (out->gap) and not blocking. LATER, only without beside: not before out->t; ask again with beside,
+ * the smallest gap of all that were BESIDE (the margin if none), when everything has been asked. */
+int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, double limit, const double *beside, tahr__found *out);
+/* 1 if the primitive is within margin of the shape at its start. */
+int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double margin, tahr__found *out);
+uint32_t tahr__prim_feature(const tahr__native *world, const tahr__prim *prim);
+/* Is a before b? Overlaps first, the deepest of them; then (fraction, body, feature). */
+int tahr__found_before(const tahr__found *a, const tahr__found *b);
+tahr_bounds tahr__query_box(const tahr__query *query, double t);
+
+/* sweep.c, contacts.c, ray.c: the slots. */
+void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query_context *context, tahr_vec3 position,
+                       tahr_vec3 up);
+void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat orientation);
+void tahr__fill_hit(const tahr__query *query, const tahr__found *found, tahr_hit *hit);
+tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const tahr_sweep *sweep, tahr_hit *hits,
+                               uint32_t capacity, uint32_t *count);
+tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
+                                  tahr_contact *contacts, uint32_t capacity, uint32_t *count);
+tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr_ray *ray, tahr_hit *hit, uint32_t *count);
+
+#endif

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: MIT
+ * backends.c: the one table of collision engines that this shell was built with. */
+#include "backends.h"
+
+#include <string.h>
+#include <tahr/native.h>
+
+#ifdef TAHR_HAVE_CCD
+const tahr_backend *tahr_backend_v1_ccd(void);
+#endif
+
+static const tahr_native_desc native_float = {.struct_size = sizeof native_float, .precision = TAHR_NATIVE_FLOAT};
+static const tahr_native_desc native_double = {.struct_size = sizeof native_double, .precision = TAHR_NATIVE_DOUBLE};
+
+/* Allowed penetrations: 1 mm, and 5 mm for the boolean test of libccd, whose answers are bisected. */
+static const struct backend_choice choices[] = {
+    {"native", "plain C, float geometry local to a grid cell", tahr_backend_v1_native, &native_float, 0.001},
+    {"native-double", "the same with geometry in double", tahr_backend_v1_native, &native_double, 0.001},
+#ifdef TAHR_HAVE_CCD
+    {"ccd", "libccd, by bisection of swept shapes", tahr_backend_v1_ccd, NULL, 0.005},
+#endif
+};
+
+static const struct {
+    uint32_t bit;
+    const char *name;
+} capabilities[] = {
+    {TAHR_CAP_MARGIN, "margin"},   {TAHR_CAP_CONTACTS, "contacts"},
+    {TAHR_CAP_RAY, "ray"},         {TAHR_CAP_SPHERE, "sphere"},
+    {TAHR_CAP_CAPSULE, "capsule"}, {TAHR_CAP_BOX, "box"},
+    {TAHR_CAP_MESH, "mesh"},       {TAHR_CAP_BIT_IDENTICAL, "bit_identical"},
+};
+
+const struct backend_choice *backend_choice_at(size_t index)
+{
+    return index < sizeof choices / sizeof *choices ? &choices[index] : NULL;
+}
+
+const struct backend_choice *backend_choice_find(const char *name)
+{
+    for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
+        if (strcmp(choices[i].name, name) == 0) {
+            return &choices[i];
+        }
+    }
+    return NULL;
+}
+
+void backend_capabilities(const tahr_backend *backend, void (*visit)(void *user, const char *name), void *user)
+{
+    for (size_t i = 0; i < sizeof capabilities / sizeof *capabilities; i++) {
+        if (backend->capabilities & capabilities[i].bit) {
+            visit(user, capabilities[i].name);
+        }
+    }
+}

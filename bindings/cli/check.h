@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT
+ * check.h: an independent look at what a run did: crossed surfaces and overlaps, by its own grid and its own geometry.
+ * It shares no code with any backend. */
+#ifndef TAHR_CLI_CHECK_H
+#define TAHR_CLI_CHECK_H
+
+#include "level.h"
+
+/* Distances beyond this are not told apart, m. */
+#define CHECK_REACH 0.05
+
+struct checker;
+
+/* Builds the grid over a level, which must stay as it is until checker_close. */
+struct checker *checker_open(const struct level *level);
+void checker_close(struct checker *checker);
+
+/* 1 if the segment between two centres crosses a triangle, or touches the inside of a round body. */
+int checker_crosses(struct checker *checker, tahr_vec3 from, tahr_vec3 to);
+
+/* Signed distance from a capsule or sphere to the nearest surface, at most CHECK_REACH. Negative: an overlap, and how
+ * far the shape's axis would have to be moved away from that surface. Boxes are taken as their inner capsule. */
+double checker_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up);
+
+#endif

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: MIT
+ * info.c: `tahr info`: version, ABI, presets, collision engines and what they can do. */
+#include "info.h"
+
+#include "backends.h"
+#include "say.h"
+
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+#include <tahr/tahr.h>
+
+static void print_capability(void *user, const char *name)
+{
+    (void)user;
+    printf(" %s", name);
+}
+
+static void append_capability(void *user, const char *name)
+{
+    json_array_append_new(user, json_string(name));
+}
+
+static void info_words(void)
+{
+    printf("tahr %s, ABI %d.%d\n", tahr_version(), TAHR_ABI_MAJOR, TAHR_ABI_MINOR);
+    printf("presets:");
+    for (int32_t id = 1; strcmp(tahr_preset_name(id), "?") != 0; id++) {
+        printf(" %s", tahr_preset_name(id));
+    }
+    puts("\nbackends:");
+    for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
+        const struct backend_choice *choice = backend_choice_at(i);
+        const tahr_backend *backend = choice->get();
+        printf("  %-14s %s %s, ABI %u.%u: %s\n                ", choice->name, backend->name, backend->version,
+               (unsigned)backend->abi_major, (unsigned)backend->abi_minor, choice->about);
+        backend_capabilities(backend, print_capability, NULL);
+        putchar('\n');
+    }
+}
+
+static void info_json(void)
+{
+    json_t *root = json_object(), *presets = json_array(), *backends = json_array();
+    char abi[32];
+    snprintf(abi, sizeof abi, "%d.%d", TAHR_ABI_MAJOR, TAHR_ABI_MINOR);
+    for (int32_t id = 1; strcmp(tahr_preset_name(id), "?") != 0; id++) {
+        json_array_append_new(presets, json_string(tahr_preset_name(id)));
+    }
+    for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
+        const struct backend_choice *choice = backend_choice_at(i);
+        const tahr_backend *backend = choice->get();
+        json_t *entry = json_object(), *able = json_array();
+        char backend_abi[32];
+        snprintf(backend_abi, sizeof backend_abi, "%u.%u", (unsigned)backend->abi_major, (unsigned)backend->abi_minor);
+        backend_capabilities(backend, append_capability, able);
+        json_object_set_new(entry, "name", json_string(choice->name));
+        json_object_set_new(entry, "engine", json_string(backend->name));
+        json_object_set_new(entry, "version", json_string(backend->version));
+        json_object_set_new(entry, "abi", json_string(backend_abi));
+        json_object_set_new(entry, "capabilities", able);
+        json_array_append_new(backends, entry);
+    }
+    json_object_set_new(root, "version", json_string(tahr_version()));
+    json_object_set_new(root, "abi", json_string(abi));
+    json_object_set_new(root, "presets", presets);
+    json_object_set_new(root, "backends", backends);
+    json_dumpf(root, stdout, JSON_INDENT(2));
+    putchar('\n');
+    json_decref(root);
+}
+
+int info_command(int argc, char **argv)
+{
+    int json = argc > 1 && strcmp(argv[1], "--json") == 0;
+    if (argc > 1 + json) {
+        say_error("tahr info: unexpected argument '%s'; known is --json", argv[1 + json]);
+        return EXIT_USAGE;
+    }
+    if (json) {
+        info_json();
+    } else {
+        info_words();
+    }
+    return EXIT_GOOD;
+}

@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: MIT
+ * level.c: bodies of a level, kept twice: as the world wants them and as plain triangles for the checker and the
+ * plot. */
+#include "level.h"
+
+#include "say.h"
+#include "vec.h"
+
+#include <stdlib.h>
+
+static void include_point(struct level *level, tahr_vec3 p, double reach)
+{
+    tahr_bounds *b = &level->bounds;
+    if (level->triangle_count + level->round_count == 0) {
+        b->min = (tahr_vec3){p.x - reach, p.y - reach, p.z - reach};
+        b->max = (tahr_vec3){p.x + reach, p.y + reach, p.z + reach};
+    }
+    b->min = (tahr_vec3){least(b->min.x, p.x - reach), least(b->min.y, p.y - reach), least(b->min.z, p.z - reach)};
+    b->max = (tahr_vec3){most(b->max.x, p.x + reach), most(b->max.y, p.y + reach), most(b->max.z, p.z + reach)};
+}
+
+static void add_triangle(struct level *level, tahr_vec3 a, tahr_vec3 b, tahr_vec3 c)
+{
+    size_t first = level->triangle_count * 3;
+    level->corners = memory_grow(level->corners, &level->corner_capacity, first + 3, sizeof *level->corners);
+    include_point(level, a, 0);
+    include_point(level, b, 0);
+    include_point(level, c, 0);
+    level->corners[first] = a;
+    level->corners[first + 1] = b;
+    level->corners[first + 2] = c;
+    level->triangle_count++;
+}
+
+static tahr_body_desc *add_body(struct level *level, uint32_t type)
+{
+    level->bodies = memory_grow(level->bodies, &level->body_capacity, level->body_count + 1, sizeof *level->bodies);
+    tahr_body_desc *body = &level->bodies[level->body_count++];
+    tahr_body_desc_init(body, sizeof *body, type);
+    return body;
+}
+
+void level_add_mesh(struct level *level, double *vertices, uint32_t vertex_count, uint32_t *indices,
+                    uint32_t triangle_count)
+{
+    tahr_body_desc *body = add_body(level, TAHR_BODY_MESH);
+    body->flags = TAHR_BODY_TWO_SIDED;
+    body->vertices = vertices;
+    body->indices = indices;
+    body->vertex_count = vertex_count;
+    body->triangle_count = triangle_count;
+    for (uint32_t t = 0; t < triangle_count; t++) {
+        tahr_vec3 p[3];
+        for (int k = 0; k < 3; k++) {
+            const double *v = vertices + 3 * (size_t)indices[3 * (size_t)t + (size_t)k];
+            p[k] = (tahr_vec3){v[0], v[1], v[2]};
+        }
+        add_triangle(level, p[0], p[1], p[2]);
+    }
+}
+
+static tahr_vec3 rotate(tahr_quat q, tahr_vec3 v)
+{
+    tahr_vec3 axis = {q.x, q.y, q.z};
+    tahr_vec3 t = vec_scale(vec_cross(axis, v), 2);
+    return vec_add(vec_add(v, vec_scale(t, q.w)), vec_cross(axis, t));
+}
+
+void level_add_box(struct level *level, tahr_vec3 center, tahr_vec3 half_extents, tahr_quat orientation)
+{
+    /* Corner i has bit 0 for +x, bit 1 for +y, bit 2 for +z; two triangles per face. */
+    static const int faces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    tahr_vec3 corner[8];
+    tahr_body_desc *body = add_body(level, TAHR_BODY_BOX);
+    body->pose = (tahr_pose){center, orientation};
+    body->half_extents = half_extents;
+    for (int i = 0; i < 8; i++) {
+        tahr_vec3 local = {i & 1 ? half_extents.x : -half_extents.x, i & 2 ? half_extents.y : -half_extents.y,
+                           i & 4 ? half_extents.z : -half_extents.z};
+        corner[i] = vec_add(center, rotate(orientation, local));
+    }
+    for (int i = 0; i < 12; i++) {
+        add_triangle(level, corner[faces[i][0]], corner[faces[i][1]], corner[faces[i][2]]);
+    }
+}
+
+static void add_round(struct level *level, tahr_vec3 a, tahr_vec3 b, double radius)
+{
+    include_point(level, a, radius);
+    include_point(level, b, radius);
+    level->rounds = memory_grow(level->rounds, &level->round_capacity, level->round_count + 1, sizeof *level->rounds);
+    level->rounds[level->round_count++] = (struct level_round){a, b, radius};
+}
+
+void level_add_capsule(struct level *level, tahr_vec3 center, double radius, double half_height)
+{
+    tahr_body_desc *body = add_body(level, TAHR_BODY_CAPSULE);
+    tahr_vec3 half_axis = {0, 0, half_height - radius};
+    body->pose.position = center;
+    body->radius = radius;
+    body->half_height = half_height;
+    add_round(level, vec_sub(center, half_axis), vec_add(center, half_axis), radius);
+}
+
+void level_add_sphere(struct level *level, tahr_vec3 center, double radius)
+{
+    tahr_body_desc *body = add_body(level, TAHR_BODY_SPHERE);
+    body->pose.position = center;
+    body->radius = radius;
+    add_round(level, center, center, radius);
+}
+
+void level_close(struct level *level)
+{
+    for (size_t i = 0; i < level->body_count; i++) {
+        free((void *)level->bodies[i].vertices);
+        free((void *)level->bodies[i].indices);
+    }
+    free(level->bodies);
+    free(level->corners);
+    free(level->rounds);
+    free(level->name);
+    *level = (struct level){0};
+}

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: MIT
+ * level.h: a level as the shell holds it: bodies for the world, and the same geometry for the checker and the plot. Z
+ * up. */
+#ifndef TAHR_CLI_LEVEL_H
+#define TAHR_CLI_LEVEL_H
+
+#include <tahr/tahr.h>
+
+/* A sphere (a equals b) or a capsule, by the ends of its axis. */
+struct level_round {
+    tahr_vec3 a, b;
+    double radius;
+};
+
+/* What the plot writes on the map. */
+struct level_label {
+    const char *text;
+    double x, y;
+};
+
+struct level {
+    char *name;
+    tahr_body_desc *bodies;
+    size_t body_count, body_capacity;
+    tahr_vec3 *corners; /* three per triangle, of meshes and of boxes, world */
+    size_t triangle_count, corner_capacity;
+    struct level_round *rounds;
+    size_t round_count, round_capacity;
+    const struct level_label *labels; /* static memory */
+    size_t label_count;
+    tahr_bounds bounds;
+};
+
+/* Reads a file with Assimp, triangulates it, turns Y up to Z up if up_axis is 'y', welds equal vertices. One two-sided
+ * mesh body, because the winding of level files cannot be relied on. 0, or -1 after a message that names the file. */
+int level_load(struct level *level, const char *path, char up_axis);
+
+/* The bundled level: about 60 x 40 m of everything that a character meets. */
+void level_playground(struct level *level);
+
+/* Adding bodies; the level owns the arrays of a mesh from then on. */
+void level_add_mesh(struct level *level, double *vertices, uint32_t vertex_count, uint32_t *indices,
+                    uint32_t triangle_count);
+void level_add_box(struct level *level, tahr_vec3 center, tahr_vec3 half_extents, tahr_quat orientation);
+void level_add_capsule(struct level *level, tahr_vec3 center, double radius, double half_height);
+void level_add_sphere(struct level *level, tahr_vec3 center, double radius);
+
+void level_close(struct level *level);
+
+#endif

@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: MIT
+ * options.c: the options of `tahr run`, read strictly: every message names the option and the value. */
+#include "options.h"
+
+#include "say.h"
+
+#include <errno.h>
+#include <getopt.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <tahr/config.h>
+
+enum {
+    OPTION_LEVEL = 256,
+    OPTION_UP,
+    OPTION_CHARACTERS,
+    OPTION_SECONDS,
+    OPTION_RATE,
+    OPTION_SEED,
+    OPTION_PRESET,
+    OPTION_BACKEND,
+    OPTION_ROUTE,
+    OPTION_CSV,
+    OPTION_PLOT,
+    OPTION_CHECK,
+    OPTION_JSON,
+    OPTION_HELP
+};
+
+static const struct option known[] = {{"level", required_argument, NULL, OPTION_LEVEL},
+                                      {"up", required_argument, NULL, OPTION_UP},
+                                      {"characters", required_argument, NULL, OPTION_CHARACTERS},
+                                      {"seconds", required_argument, NULL, OPTION_SECONDS},
+                                      {"rate", required_argument, NULL, OPTION_RATE},
+                                      {"seed", required_argument, NULL, OPTION_SEED},
+                                      {"preset", required_argument, NULL, OPTION_PRESET},
+                                      {"backend", required_argument, NULL, OPTION_BACKEND},
+                                      {"route", required_argument, NULL, OPTION_ROUTE},
+                                      {"csv", required_argument, NULL, OPTION_CSV},
+                                      {"plot", required_argument, NULL, OPTION_PLOT},
+                                      {"check", required_argument, NULL, OPTION_CHECK},
+                                      {"json", no_argument, NULL, OPTION_JSON},
+                                      {"help", no_argument, NULL, OPTION_HELP},
+                                      {NULL, 0, NULL, 0}};
+
+void options_help(void)
+{
+    fputs("usage: tahr run [options]\n"
+          "\n"
+          "Drives characters through a level and reports how they fared.\n"
+          "\n"
+          "  --level FILE       OBJ, glTF or what else Assimp reads; without it the bundled playground\n"
+          "  --up y|z           which axis of the file points up (y); shown and written is always Z up: (x, -z, y)\n"
+          "  --characters N     1 to 100000 wandering characters (16)\n"
+          "  --seconds S        simulated time (10)\n"
+          "  --rate HZ          steps per second, 1 to 100000 (60)\n"
+          "  --seed K           of spawn points and headings (1)\n"
+          "  --preset NAME      settings of the characters: precise\n"
+          "  --backend NAME     collision engine, one of",
+          stdout);
+    for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
+        printf("%s %s", i ? "," : "", backend_choice_at(i)->name);
+    }
+    fputs(" (native)\n"
+          "  --route FILE       one character with timed inputs instead of wandering, as JSON:\n"
+          "                     {\"start\": [x, y, z], \"inputs\": [{\"time\": 0, \"move\": [1, 0, 0], \"jump\": "
+          "true}, ...]}\n"
+          "                     or the list alone. An entry holds until the next one; what it does not name is off.\n"
+          "                     move: direction, length 0 to 1; jump; facing: direction; start: centre of the capsule\n"
+          "  --csv FILE         one row per character and step\n"
+          "  --plot FILE        .svg or .png: the level from above with the paths, and the heights below\n"
+          "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling and overlaps\n"
+          "  --json             the summary as one JSON object\n"
+          "\n"
+          "Exit code: 0 all well, 1 a check failed or the run could not go on, 2 wrong usage.\n",
+          stdout);
+}
+
+static int bad_value(const char *option, const char *value, const char *wanted)
+{
+    say_error("--%s '%s': %s", option, value, wanted);
+    return -1;
+}
+
+static int read_number(const char *option, const char *text, double low, double high, double *value)
+{
+    char *end = NULL;
+    errno = 0;
+    double x = strtod(text, &end);
+    if (end == text || *end != '\0' || errno != 0 || !(x >= low && x <= high)) {
+        char wanted[80];
+        snprintf(wanted, sizeof wanted, "expected a number from %g to %g", low, high);
+        return bad_value(option, text, wanted);
+    }
+    *value = x;
+    return 0;
+}
+
+static int read_whole(const char *option, const char *text, uint64_t low, uint64_t high, uint64_t *value)
+{
+    char *end = NULL;
+    errno = 0;
+    unsigned long long x = text[0] >= '0' && text[0] <= '9' ? strtoull(text, &end, 10) : 0;
+    if (end == NULL || *end != '\0' || errno != 0 || x < low || x > high) {
+        char wanted[80];
+        snprintf(wanted, sizeof wanted, "expected a whole number from %llu to %llu", (unsigned long long)low,
+                 (unsigned long long)high);
+        return bad_value(option, text, wanted);
+    }
+    *value = x;
+    return 0;
+}
+
+static int read_preset(const char *text, int32_t *preset)
+{
+    char wanted[200] = "known are:";
+    for (int32_t id = 1; strcmp(tahr_preset_name(id), "?") != 0; id++) {
+        size_t used = strlen(wanted);
+        if (strcmp(tahr_preset_name(id), text) == 0) {
+            *preset = id;
+            return 0;
+        }
+        snprintf(wanted + used, sizeof wanted - used, "%s %s", id > 1 ? "," : "", tahr_preset_name(id));
+    }
+    return bad_value("preset", text, wanted);
+}
+
+static int read_backend(const char *text, const struct backend_choice **choice)
+{
+    char wanted[200] = "known are:";
+    *choice = backend_choice_find(text);
+    if (*choice != NULL) {
+        return 0;
+    }
+    for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
+        size_t used = strlen(wanted);
+        snprintf(wanted + used, sizeof wanted - used, "%s %s", i ? "," : "", backend_choice_at(i)->name);
+    }
+    return bad_value("backend", text, wanted);
+}
+
+static int read_check(const char *text, enum check_mode *mode)
+{
+    static const char *const names[] = {[CHECK_OFF] = "off", [CHECK_SAMPLED] = "sampled", [CHECK_ALL] = "all"};
+    for (int i = CHECK_OFF; i <= CHECK_ALL; i++) {
+        if (strcmp(names[i], text) == 0) {
+            *mode = (enum check_mode)i;
+            return 0;
+        }
+    }
+    return bad_value("check", text, "expected all, sampled or off");
+}
+
+static int read_up(const char *text, char *up)
+{
+    if (strcmp(text, "y") != 0 && strcmp(text, "z") != 0) {
+        return bad_value("up", text, "expected y or z");
+    }
+    *up = text[0];
+    return 0;
+}
+
+static int read_option(struct options *o, int option, const char *value)
+{
+    uint64_t whole = o->characters;
+    int failed = 0;
+    switch (option) {
+    case OPTION_LEVEL: o->level = value; return 0;
+    case OPTION_UP: return read_up(value, &o->up);
+    case OPTION_CHARACTERS:
+        failed = read_whole("characters", value, 1, 100000, &whole);
+        o->characters = (uint32_t)whole;
+        return failed;
+    case OPTION_SECONDS: return read_number("seconds", value, 1e-6, 1e6, &o->seconds);
+    case OPTION_RATE: return read_number("rate", value, 1, 1e5, &o->rate);
+    case OPTION_SEED: return read_whole("seed", value, 0, INT64_MAX, &o->seed);
+    case OPTION_PRESET: return read_preset(value, &o->preset);
+    case OPTION_BACKEND: return read_backend(value, &o->backend);
+    case OPTION_ROUTE: o->route = value; return 0;
+    case OPTION_CSV: o->csv = value; return 0;
+    case OPTION_PLOT: o->plot = value; return 0;
+    case OPTION_CHECK: return read_check(value, &o->check);
+    default: o->json = 1; return 0;
+    }
+}
+
+static int complain_unknown(const char *argument, int option)
+{
+    if (option == ':') {
+        say_error("option '%s' needs a value", argument);
+        return -1;
+    }
+    fprintf(stderr, "tahr: unknown option '%s'; known are:", argument);
+    for (size_t i = 0; known[i].name != NULL; i++) {
+        fprintf(stderr, " --%s", known[i].name);
+    }
+    fputc('\n', stderr);
+    return -1;
+}
+
+/* What single options cannot see. */
+static int check_together(struct options *o, int characters_given, int up_given)
+{
+    size_t length = o->plot != NULL ? strlen(o->plot) : 0;
+    if (o->plot != NULL &&
+        (length < 5 || (strcmp(o->plot + length - 4, ".svg") != 0 && strcmp(o->plot + length - 4, ".png") != 0))) {
+        return bad_value("plot", o->plot, "expected a name that ends in .svg or .png");
+    }
+    if (o->route != NULL && characters_given && o->characters != 1) {
+        say_error("--characters %u: a --route drives one character", o->characters);
+        return -1;
+    }
+    if (o->level == NULL && up_given) {
+        say_error("--up %c: only for a --level; the playground is Z up", o->up);
+        return -1;
+    }
+    if (o->csv != NULL && o->plot != NULL && strcmp(o->csv, o->plot) == 0) {
+        say_error("--csv and --plot both write '%s'", o->csv);
+        return -1;
+    }
+    if (o->seconds * o->rate < 0.5 || o->seconds * o->rate > 4e9) {
+        say_error("--seconds %g at --rate %g: that is %.3g steps; expected 1 to 4e9", o->seconds, o->rate,
+                  o->seconds * o->rate);
+        return -1;
+    }
+    o->characters = o->route != NULL ? 1 : o->characters;
+    return 0;
+}
+
+int options_parse(struct options *options, int argc, char **argv)
+{
+    int characters_given = 0, up_given = 0, option;
+    *options = (struct options){.up = 'y',
+                                .characters = 16,
+                                .seconds = 10,
+                                .rate = 60,
+                                .seed = 1,
+                                .preset = TAHR_PRESET_PRECISE,
+                                .backend = backend_choice_at(0),
+                                .check = CHECK_SAMPLED};
+    opterr = 0;
+    while ((option = getopt_long(argc, argv, ":", known, NULL)) != -1) {
+        if (option == '?' || option == ':') {
+            return complain_unknown(argv[optind - 1], option);
+        }
+        if (option == OPTION_HELP) {
+            options_help();
+            return 1;
+        }
+        if (read_option(options, option, optarg) != 0) {
+            return -1;
+        }
+        characters_given |= option == OPTION_CHARACTERS;
+        up_given |= option == OPTION_UP;
+    }
+    if (optind < argc) {
+        say_error("unexpected argument '%s'; a level is given with --level FILE", argv[optind]);
+        return -1;
+    }
+    return check_together(options, characters_given, up_given);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT
+ * options.h: what the user asked `tahr run` for. */
+#ifndef TAHR_CLI_OPTIONS_H
+#define TAHR_CLI_OPTIONS_H
+
+#include "backends.h"
+
+enum check_mode { CHECK_OFF, CHECK_SAMPLED, CHECK_ALL };
+
+struct options {
+    const char *level; /* NULL: the bundled playground */
+    char up;           /* 'y' or 'z' */
+    uint32_t characters;
+    double seconds;
+    double rate; /* Hz */
+    uint64_t seed;
+    int32_t preset;
+    const struct backend_choice *backend;
+    const char *route; /* NULL: wandering */
+    const char *csv;
+    const char *plot;
+    enum check_mode check;
+    int json;
+};
+
+/* 0: go on; 1: help was asked for and shown; -1: wrong usage, said so. */
+int options_parse(struct options *options, int argc, char **argv);
+
+/* The help of `tahr run`. */
+void options_help(void);
+
+#endif

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: MIT
+ * progress.c: tells characters that get nowhere although they could. */
+#include "progress.h"
+
+#include "vec.h"
+#include "wander.h"
+
+#define PROGRESS 0.2  /* m */
+#define PATIENCE 10.0 /* s */
+#define HEADINGS 5
+#define DIRECTIONS 16
+#define FREE_STEP 0.1 /* m */
+
+void progress_start(struct progress *progress, const tahr_state *state, double time)
+{
+    *progress = (struct progress){.anchor = state->position, .since = time};
+}
+
+/* With margin 0: whether the true shape could go there. */
+static int could_move(tahr_world *world, const tahr_config *config, const tahr_state *state)
+{
+    tahr_sweep query = {.shape = config->shape,
+                        .position = state->position,
+                        .up = state->up,
+                        .orientation = state->orientation,
+                        .mask = config->mask,
+                        .ignore_body = TAHR_NO_BODY};
+    for (int i = 0; i < DIRECTIONS; i++) {
+        tahr_hit hit;
+        uint32_t count = 0;
+        query.motion = vec_scale(unit_vector((double)i / DIRECTIONS), FREE_STEP);
+        if (tahr_world_sweep(world, &query, &hit, 1, &count) == TAHR_OK && count == 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int progress_watch(struct progress *progress, tahr_world *world, const tahr_config *config, const tahr_state *state,
+                   const tahr_input *input, int heading_is_new, double time)
+{
+    tahr_vec3 gone = vec_sub(state->position, progress->anchor);
+    if (vec_dot(gone, gone) >= PROGRESS * PROGRESS || vec_dot(input->move, input->move) == 0) {
+        progress_start(progress, state, time);
+        return 0;
+    }
+    progress->headings += heading_is_new != 0;
+    if (time - progress->since < PATIENCE || progress->headings < HEADINGS) {
+        return 0;
+    }
+    progress_start(progress, state, time);
+    return could_move(world, config, state);
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT
+ * run.h: characters walk through a level and are watched. */
+#ifndef TAHR_CLI_RUN_H
+#define TAHR_CLI_RUN_H
+
+#include "level.h"
+#include "options.h"
+#include "stats.h"
+#include "trace.h"
+
+/* Where something went wrong. */
+struct finding {
+    const char *what; /* static text */
+    uint32_t character;
+    uint64_t step;
+    double time;        /* s */
+    tahr_vec3 position; /* of the character's centre, m */
+};
+
+enum { MAX_FINDINGS = 20 };
+
+/* What a run found. */
+struct result {
+    uint64_t steps; /* of all characters */
+    struct times times;
+    double clock_cost; /* ns */
+    uint64_t sweeps, contact_queries, rays, triangle_tests, gathers, escapes;
+    uint32_t most_queries; /* in one step */
+    uint64_t grounded;     /* steps that ended walking */
+    uint64_t climbed, descended, jumps, landings, fell_out, stuck, bad_states;
+    uint64_t depenetrated, crushed, unknown, query_caps;
+    double time_lost; /* s */
+    uint64_t checked, tunnels;
+    double least_clearance; /* m; CHECK_REACH if nothing came closer */
+    double deepest;         /* m, deepest penetration of the true shape */
+    uint64_t state_hash;
+    uint64_t world_bytes;
+    double load_seconds, open_seconds, wall_seconds;
+    int failed;                            /* a check did not hold */
+    struct finding findings[MAX_FINDINGS]; /* the first ones */
+    size_t finding_count;
+};
+
+/* `tahr run`. Returns an exit code. */
+int run_command(int argc, char **argv);
+
+#endif

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: MIT
+ * spawn.c: places on a level where characters can stand: rays from above through every layer of it. */
+#include "spawn.h"
+
+#include "say.h"
+#include "vec.h"
+#include "wander.h"
+
+/* Layers of one column that are looked at, and how far below a hit the next ray starts, m. */
+#define MAX_LAYERS 16
+#define LAYER_STEP 0.01
+
+/* Columns tried before giving up: a level of which 1 % is walkable still fills up. */
+static uint64_t most_columns(uint32_t count)
+{
+    return 4096 + 256 * (uint64_t)count;
+}
+
+/* The walkable limit as a cosine, without libm, whose last bits differ between machines. */
+static double cosine_of(double angle)
+{
+    return unit_vector(angle / 6.283185307179586).x;
+}
+
+/* Whether the shape fits above a hit with a skin of air on all sides; *place is its centre. */
+static int fits(tahr_world *world, const tahr_config *config, const tahr_hit *hit, double ground_z, tahr_vec3 *place)
+{
+    const tahr_shape *shape = &config->shape;
+    tahr_contact contact;
+    uint32_t count = 0;
+    double clearance = config->skin * config->floor_target;
+    /* The lower cap touches a slope beside its lowest point: lift it by the slant. */
+    place->z = ground_z + (shape->radius + clearance) / hit->normal.z - shape->radius + shape->half_height;
+    tahr_contact_query query = {.shape = *shape,
+                                .position = *place,
+                                .up = {0, 0, 1},
+                                .orientation = {0, 0, 0, 1},
+                                .margin = config->skin,
+                                .mask = config->mask,
+                                .ignore_body = TAHR_NO_BODY};
+    tahr_status status = tahr_world_contacts(world, &query, &contact, 1, &count);
+    return status == TAHR_OK && count == 0;
+}
+
+/* Whether a face looks up by its winding. Rooms are modelled from inside: their ceilings, which can be stood on from
+ * outside because meshes are two-sided, look down. */
+static int looks_up(const struct level *level, const tahr_hit *hit)
+{
+    const tahr_body_desc *body = hit->body < level->body_count ? &level->bodies[hit->body] : NULL;
+    tahr_vec3 p[3];
+    if (body == NULL || body->type != TAHR_BODY_MESH || hit->feature >= body->triangle_count) {
+        return 1;
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *v = body->vertices + 3 * (size_t)body->indices[3 * (size_t)hit->feature + (size_t)k];
+        p[k] = (tahr_vec3){v[0], v[1], v[2]};
+    }
+    return vec_cross(vec_sub(p[1], p[0]), vec_sub(p[2], p[0])).z > 0;
+}
+
+/* The places of one column, from above: those on faces that look up, or if there are none, the others. Returns their
+ * number, or -1 when the backend fails. */
+static int search_column(tahr_world *world, const struct level *level, const tahr_config *config, tahr_vec3 *places,
+                         tahr_vec3 at)
+{
+    const double lowest = level->bounds.min.z - 1, limit = cosine_of(config->walkable_angle);
+    int found = 0, proper = 0; /* found: on faces of the better kind so far */
+    at.z = level->bounds.max.z + 1;
+    for (int layer = 0; layer < MAX_LAYERS && at.z > lowest; layer++) {
+        tahr_ray ray = {.origin = at, .motion = {0, 0, lowest - at.z}, .mask = config->mask, .ignore_body = TAHR_NO_BODY};
+        tahr_hit hit = {0};
+        uint32_t count = 0;
+        tahr_status status = tahr_world_ray(world, &ray, &hit, &count);
+        if (status < 0) {
+            say_error("cannot look for spawn points: %s", tahr_status_message(status));
+            return -1;
+        }
+        if (count == 0 || !hit.blocking) {
+            break;
+        }
+        double ground_z = at.z + ray.motion.z * hit.fraction;
+        tahr_vec3 place = at;
+        int up = looks_up(level, &hit);
+        if (hit.normal.z >= limit && up >= proper && fits(world, config, &hit, ground_z, &place)) {
+            found = up > proper ? 0 : found;
+            proper = up;
+            places[found++] = place;
+        }
+        at.z = ground_z - LAYER_STEP;
+    }
+    return found;
+}
+
+int spawn_find(tahr_world *world, const struct level *level, const tahr_config *config, uint64_t seed,
+               tahr_vec3 *places, uint32_t count)
+{
+    /* The R2 sequence (M. Roberts, 2018) covers the plane evenly for any number of points: fractions of the inverse
+     * powers of the plastic number. The seed moves its start. */
+    const double step_x = 0.7548776662466927, step_y = 0.5698402909980532;
+    const tahr_bounds *bounds = &level->bounds;
+    struct pcg random;
+    uint32_t found = 0;
+    pcg_start(&random, seed, UINT32_MAX);
+    double u = pcg_unit(&random), v = pcg_unit(&random);
+    for (uint64_t column = 0; column < most_columns(count) && found < count; column++) {
+        tahr_vec3 layers[MAX_LAYERS];
+        u = u + step_x - floor(u + step_x);
+        v = v + step_y - floor(v + step_y);
+        tahr_vec3 at = {bounds->min.x + u * (bounds->max.x - bounds->min.x),
+                        bounds->min.y + v * (bounds->max.y - bounds->min.y), 0};
+        int number = search_column(world, level, config, layers, at);
+        if (number < 0) {
+            return -1;
+        }
+        if (number > 0) {
+            places[found++] = layers[(uint32_t)(pcg_unit(&random) * number)];
+        }
+    }
+    if (found == 0) {
+        say_error("level '%s' has no walkable place that a character fits in", level->name);
+        return -1;
+    }
+    for (uint32_t i = found; i < count; i++) {
+        places[i] = places[i - found];
+    }
+    return 0;
+}

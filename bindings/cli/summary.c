@@ -1,0 +1,194 @@
+/* SPDX-License-Identifier: MIT
+ * summary.c: what a run found, in words or as JSON. */
+#include "summary.h"
+
+#include "check.h"
+
+#include <inttypes.h>
+#include <jansson.h>
+#include <stdio.h>
+
+static double per_step(const struct result *r, uint64_t count)
+{
+    return r->steps ? (double)count / (double)r->steps : 0;
+}
+
+static void words_check(const struct options *o, const struct result *r)
+{
+    if (o->check == CHECK_OFF) {
+        puts("  check      off");
+        return;
+    }
+    printf("  check      %" PRIu64 " steps looked at: ", r->checked);
+    if (r->tunnels) {
+        printf("TUNNELLED %" PRIu64 " times, ", r->tunnels);
+    } else {
+        printf("no tunnelling, ");
+    }
+    if (r->deepest > 0) {
+        printf("deepest penetration %.3g mm (%.3g mm allowed)\n", r->deepest * 1e3,
+               o->backend->penetration_allowed * 1e3);
+    } else if (r->least_clearance < CHECK_REACH) {
+        printf("no penetration (closest to anything %.4g mm)\n", r->least_clearance * 1e3);
+    } else {
+        puts("no penetration");
+    }
+}
+
+static void words_oddities(const struct result *r)
+{
+    if (r->bad_states) {
+        printf("  BAD        %" PRIu64 " steps ended in a state that is not finite\n", r->bad_states);
+    }
+    if (r->unknown || r->crushed || r->query_caps || r->depenetrated) {
+        printf("  odd        %" PRIu64 " pushed out of overlaps, %" PRIu64 " crushed, %" PRIu64 " undecided\n",
+               r->depenetrated, r->crushed, r->unknown);
+        printf("             %" PRIu64 " stopped at the query cap, %.3g s not simulated\n", r->query_caps, r->time_lost);
+    }
+}
+
+static void words_findings(const struct result *r)
+{
+    for (size_t i = 0; i < r->finding_count; i++) {
+        const struct finding *f = &r->findings[i];
+        printf("  at         %s: character %u, step %" PRIu64 ", %.4g s, (%.6g, %.6g, %.6g)\n", f->what, f->character,
+               f->step, f->time, f->position.x, f->position.y, f->position.z);
+    }
+}
+
+void summary_words(const struct options *o, const struct level *level, const struct result *r)
+{
+    printf("%s: %u character%s, %g s at %g Hz, backend %s, preset %s\n", level->name, o->characters,
+           o->characters == 1 ? "" : "s", o->seconds, o->rate, o->backend->name, tahr_preset_name(o->preset));
+    printf("  level      %zu bodies, %zu triangles, %.1f x %.1f x %.1f m; %.2f MB in the world, opened in %.3g s\n",
+           level->body_count, level->triangle_count, level->bounds.max.x - level->bounds.min.x,
+           level->bounds.max.y - level->bounds.min.y, level->bounds.max.z - level->bounds.min.z,
+           (double)r->world_bytes / 1e6, r->open_seconds);
+    printf("  time       %" PRIu64 " steps, %.3g us median, %.3g us p99, %.3g us worst (the clock itself %.0f ns)\n",
+           r->steps, times_quantile(&r->times, 0.5) / 1e3, times_quantile(&r->times, 0.99) / 1e3,
+           (double)r->times.greatest / 1e3, r->clock_cost);
+    printf("  queries    %.2f sweeps, %.2f contact queries, %.1f triangle tests per step; at most %u queries in one\n",
+           per_step(r, r->sweeps), per_step(r, r->contact_queries), per_step(r, r->triangle_tests), r->most_queries);
+    printf("  movement   %.1f %% on the ground, %" PRIu64 " steps climbed, %" PRIu64 " descended, %" PRIu64
+           " jumps, %" PRIu64 " landings\n",
+           100 * per_step(r, r->grounded), r->climbed, r->descended, r->jumps, r->landings);
+    printf("  trouble    %" PRIu64 " fell out of the level, %" PRIu64 " stuck for good\n", r->fell_out, r->stuck);
+    words_oddities(r);
+    words_check(o, r);
+    words_findings(r);
+    printf("  state      hash %016" PRIx64 "\n", r->state_hash);
+    if (o->csv != NULL) {
+        printf("  wrote      %s\n", o->csv);
+    }
+    if (o->plot != NULL) {
+        printf("  wrote      %s\n", o->plot);
+    }
+    printf("%s\n", r->failed ? "FAILED" : "ok");
+}
+
+static void put_count(json_t *object, const char *key, uint64_t value)
+{
+    json_object_set_new(object, key, json_integer((json_int_t)value));
+}
+
+static void put_real(json_t *object, const char *key, double value)
+{
+    json_object_set_new(object, key, json_real(value));
+}
+
+static void put_text(json_t *object, const char *key, const char *value)
+{
+    json_t *text = json_string(value);
+    json_object_set_new(object, key, text != NULL ? text : json_string("?")); /* a file name need not be UTF-8 */
+}
+
+static void put_run(json_t *object, const struct options *o, const struct level *level)
+{
+    static const char *const checks[] = {[CHECK_OFF] = "off", [CHECK_SAMPLED] = "sampled", [CHECK_ALL] = "all"};
+    put_text(object, "level", level->name);
+    put_text(object, "backend", o->backend->name);
+    put_text(object, "preset", tahr_preset_name(o->preset));
+    put_count(object, "characters", o->characters);
+    put_real(object, "seconds", o->seconds);
+    put_real(object, "rate", o->rate);
+    put_count(object, "seed", o->seed);
+    put_text(object, "check", checks[o->check]);
+    put_count(object, "bodies", level->body_count);
+    put_count(object, "triangles", level->triangle_count);
+}
+
+static void put_cost(json_t *object, const struct result *r)
+{
+    put_count(object, "steps", r->steps);
+    put_real(object, "ns_median", times_quantile(&r->times, 0.5));
+    put_real(object, "ns_p99", times_quantile(&r->times, 0.99));
+    put_real(object, "ns_mean", times_mean(&r->times));
+    put_count(object, "ns_max", r->times.greatest);
+    put_real(object, "ns_clock", r->clock_cost);
+    put_real(object, "sweeps_per_step", per_step(r, r->sweeps));
+    put_real(object, "contact_queries_per_step", per_step(r, r->contact_queries));
+    put_real(object, "rays_per_step", per_step(r, r->rays));
+    put_real(object, "triangle_tests_per_step", per_step(r, r->triangle_tests));
+    put_real(object, "gathers_per_step", per_step(r, r->gathers));
+    put_real(object, "escapes_per_step", per_step(r, r->escapes));
+    put_count(object, "most_queries", r->most_queries);
+    put_count(object, "world_bytes", r->world_bytes);
+    put_real(object, "load_seconds", r->load_seconds);
+    put_real(object, "open_seconds", r->open_seconds);
+    put_real(object, "wall_seconds", r->wall_seconds);
+}
+
+static void put_behaviour(json_t *object, const struct result *r)
+{
+    char hash[17];
+    snprintf(hash, sizeof hash, "%016" PRIx64, r->state_hash);
+    put_real(object, "grounded", per_step(r, r->grounded));
+    put_count(object, "steps_climbed", r->climbed);
+    put_count(object, "steps_descended", r->descended);
+    put_count(object, "jumps", r->jumps);
+    put_count(object, "landings", r->landings);
+    put_count(object, "fell_out", r->fell_out);
+    put_count(object, "stuck", r->stuck);
+    put_count(object, "bad_states", r->bad_states);
+    put_count(object, "depenetrated", r->depenetrated);
+    put_count(object, "crushed", r->crushed);
+    put_count(object, "unknown", r->unknown);
+    put_count(object, "query_caps", r->query_caps);
+    put_real(object, "time_lost", r->time_lost);
+    put_count(object, "checked", r->checked);
+    put_count(object, "tunnels", r->tunnels);
+    put_real(object, "deepest_penetration", r->deepest);
+    put_real(object, "least_clearance", r->least_clearance);
+    put_text(object, "state_hash", hash);
+    json_object_set_new(object, "ok", json_boolean(!r->failed));
+}
+
+static void put_findings(json_t *object, const struct result *r)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < r->finding_count; i++) {
+        const struct finding *f = &r->findings[i];
+        json_t *entry = json_object();
+        put_text(entry, "what", f->what);
+        put_count(entry, "character", f->character);
+        put_count(entry, "step", f->step);
+        put_real(entry, "time", f->time);
+        put_real(entry, "x", f->position.x);
+        put_real(entry, "y", f->position.y);
+        put_real(entry, "z", f->position.z);
+        json_array_append_new(list, entry);
+    }
+    json_object_set_new(object, "findings", list);
+}
+
+void summary_json(const struct options *options, const struct level *level, const struct result *result)
+{
+    json_t *object = json_object();
+    put_run(object, options, level);
+    put_cost(object, result);
+    put_behaviour(object, result);
+    put_findings(object, result);
+    json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
+    putchar('\n');
+    json_decref(object);
+}

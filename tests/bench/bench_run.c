@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT
+ * bench_run.c: steps characters and times each step.
+ *
+ * Median and 99th percentile come from single steps by the monotonic clock: on a machine shared with others the few steps
+ * that are interrupted do not move them. The mean comes from the processor time of the thread, for the same reason. */
+#include "bench_run.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "scene_wander.h"
+
+enum { WARM_UP_TICKS = 30, CLOCK_SAMPLES = 2001 };
+
+static const double DT = 1.0 / 60;
+
+typedef struct crowd {
+    uint32_t count;
+    tahr_mover **movers;
+    tahr_state *states;
+    scene_wanderer *wanderers;
+    uint64_t seed;
+    tahr_config config;
+} crowd;
+
+static uint64_t nanoseconds(clockid_t clock)
+{
+    struct timespec t;
+    clock_gettime(clock, &t);
+    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+double bench_clock_cost(void)
+{
+    uint32_t samples[CLOCK_SAMPLES];
+    for (int i = 0; i < CLOCK_SAMPLES; i++) {
+        uint64_t before = nanoseconds(CLOCK_MONOTONIC);
+        samples[i] = (uint32_t)(nanoseconds(CLOCK_MONOTONIC) - before);
+    }
+    qsort(samples, CLOCK_SAMPLES, sizeof samples[0], by_value);
+    return samples[CLOCK_SAMPLES / 2];
+}
+
+static void *count_alloc(void *user, size_t size, size_t alignment)
+{
+    bench_opened *opened = user;
+    void *memory = aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    opened->held += memory ? size : 0;
+    return memory;
+}
+
+static void count_free(void *user, void *memory, size_t size, size_t alignment)
+{
+    bench_opened *opened = user;
+    (void)alignment;
+    opened->held -= memory ? size : 0;
+    free(memory);
+}
+
+static void complain(void *user, int32_t level, const char *message)
+{
+    (void)user;
+    if (level == TAHR_LOG_ERROR) {
+        fprintf(stderr, "%s\n", message);
+    }
+}
+
+tahr_status bench_open(bench_opened *opened, const bench_world *world, const scene_backend *backend)
+{
+    tahr_native_desc native = {.struct_size = sizeof native, .precision = backend->precision};
+    tahr_allocator allocator = {opened, count_alloc, count_free};
+    tahr_log log = {NULL, complain};
+    tahr_world_desc desc;
+    memset(opened, 0, sizeof *opened);
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = &world->body;
+    desc.body_count = 1;
+    desc.allocator = &allocator;
+    desc.log = &log;
+    desc.options = backend->native ? &native : NULL;
+    uint64_t before = nanoseconds(CLOCK_THREAD_CPUTIME_ID);
+    tahr_status status = tahr_world_open(backend->get(), &desc, &opened->world);
+    opened->build_seconds = 1e-9 * (double)(nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before);
+    opened->bytes = tahr_world_memory(opened->world);
+    return status;
+}
+
+void bench_close(bench_opened *opened)
+{
+    tahr_world_close(opened->world);
+    opened->world = NULL;
+}
+
+static void crowd_free(crowd *c)
+{
+    for (uint32_t i = 0; c->movers && i < c->count; i++) {
+        tahr_mover_destroy(c->movers[i]);
+    }
+    free(c->movers);
+    free(c->states);
+    free(c->wanderers);
+}
+
+static int crowd_make(crowd *c, bench_opened *opened, const tahr_bounds *spawn, char *error)
+{
+    c->movers = calloc(c->count, sizeof *c->movers);
+    c->states = calloc(c->count, sizeof *c->states);
+    c->wanderers = calloc(c->count, sizeof *c->wanderers);
+    if (!c->movers || !c->states || !c->wanderers) {
+        snprintf(error, 256, "out of memory");
+        return 0;
+    }
+    tahr_config_init(&c->config, sizeof c->config, TAHR_PRESET_PRECISE);
+    for (uint32_t i = 0; i < c->count; i++) {
+        tahr_status status = tahr_mover_create(opened->world, &c->config, &c->movers[i]);
+        if (status < 0 || !scene_wander_spawn(opened->world, &c->config, spawn, &c->seed, &c->states[i])) {
+            snprintf(error, 256, "character %u: %s", i, status < 0 ? tahr_status_name(status) : "no place to start at");
+            return 0;
+        }
+        scene_wander_start(&c->wanderers[i], 1, i);
+    }
+    return 1;
+}
+
+static void count(bench_result *r, const tahr_report *report, const tahr_state *state)
+{
+    r->sweeps += report->sweeps;
+    r->contact_queries += report->contact_queries;
+    r->rays += report->rays;
+    r->triangle_tests += (double)report->triangle_tests;
+    r->iterations += (double)report->narrow_iterations;
+    r->gathers += (double)report->gathers;
+    r->escapes += (double)report->escapes;
+    r->walking += state->mode == TAHR_MODE_WALKING;
+    r->steps++;
+}
+
+/* One step of everybody. times may be NULL: not counted then. */
+static int tick(crowd *c, tahr_world *world, const tahr_bounds *spawn, bench_result *r, uint32_t *times)
+{
+    for (uint32_t i = 0; i < c->count; i++) {
+        tahr_report report = {.struct_size = sizeof report};
+        const tahr_input *input = scene_wander_next(&c->wanderers[i], DT);
+        uint64_t before = nanoseconds(CLOCK_MONOTONIC);
+        tahr_status status = tahr_mover_step(c->movers[i], input, DT, &c->states[i], &report);
+        uint64_t after = nanoseconds(CLOCK_MONOTONIC);
+        if (status < 0) {
+            return 0;
+        }
+        if (times) {
+            times[i] = after - before < UINT32_MAX ? (uint32_t)(after - before) : UINT32_MAX;
+            count(r, &report, &c->states[i]);
+        }
+        if (c->states[i].position.z < spawn->min.z - 10) {
+            r->lost++;
+            if (!scene_wander_spawn(world, &c->config, spawn, &c->seed, &c->states[i])) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+static void summarize(bench_result *r, uint32_t *times, double cpu)
+{
+    double *sums[8] = {&r->sweeps, &r->contact_queries, &r->rays, &r->triangle_tests, &r->iterations, &r->gathers, &r->escapes,
+                       &r->walking};
+    double cost = bench_clock_cost(), n = (double)r->steps;
+    qsort(times, r->steps, sizeof times[0], by_value);
+    r->ns_median = (double)times[r->steps / 2] - cost;
+    r->ns_p99 = (double)times[r->steps - 1 - r->steps / 100] - cost;
+    r->ns_cpu = cpu / n - 2 * cost;
+    for (int i = 0; i < 8; i++) {
+        *sums[i] /= n;
+    }
+}
+
+int bench_run(bench_opened *opened, const bench_world *world, uint32_t characters, uint32_t ticks, bench_result *result,
+              char *error)
+{
+    uint64_t held = opened->held;
+    crowd c = {.count = characters, .seed = 17};
+    uint32_t *times = malloc(sizeof *times * characters * ticks);
+    memset(result, 0, sizeof *result);
+    result->characters = characters;
+    int ok = times != NULL && crowd_make(&c, opened, &world->spawn, error);
+    result->bytes_per_mover = (opened->held - held) / characters;
+    for (uint32_t t = 0; ok && t < WARM_UP_TICKS; t++) {
+        ok = tick(&c, opened->world, &world->spawn, result, NULL);
+    }
+    uint64_t before = nanoseconds(CLOCK_THREAD_CPUTIME_ID);
+    for (uint32_t t = 0; ok && t < ticks; t++) {
+        ok = tick(&c, opened->world, &world->spawn, result, times + (size_t)t * characters);
+    }
+    uint64_t cpu = nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before;
+    if (ok) {
+        summarize(result, times, (double)cpu);
+    } else if (!error[0]) {
+        snprintf(error, 256, times ? "a step failed" : "out of memory");
+    }
+    crowd_free(&c);
+    free(times);
+    return ok;
+}

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: MIT
+ * tahr_bench.c: the benchmark: wandering characters on every world and backend, as a table and as CSV. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench_run.h"
+
+typedef struct options {
+    const char *csv, *world, *backend;
+    uint32_t characters; /* 0: all counts */
+} options;
+
+typedef struct plan {
+    uint32_t characters, ticks;
+} plan;
+
+enum { PLANS = 3 };
+
+/* Enough steps for a 99th percentile, few enough for the whole run to stay under three minutes. */
+static const plan NATIVE_PLANS[PLANS] = {{1, 20000}, {256, 300}, {10000, 20}};
+static const plan OTHER_PLANS[PLANS] = {{1, 600}, {16, 60}, {0, 0}};
+
+static int usage(const char *wrong)
+{
+    fprintf(stderr,
+            "tahr_bench: '%s' is no option or lacks its value\n"
+            "  --csv FILE (build/bench.csv)  --world NAME  --backend NAME  --characters N\n",
+            wrong);
+    return 2;
+}
+
+static int known(const options *o)
+{
+    int world = o->world == NULL, backend = o->backend == NULL;
+    for (int i = 0; i < BENCH_WORLDS; i++) {
+        world = world || strcmp(o->world, bench_world_name(i)) == 0;
+    }
+    for (int i = 0; i < SCENE_BACKEND_COUNT; i++) {
+        backend = backend || strcmp(o->backend, SCENE_BACKENDS[i].name) == 0;
+    }
+    if (!world || !backend) {
+        fprintf(stderr, "tahr_bench: no such %s: '%s'\n", world ? "backend" : "world", world ? o->backend : o->world);
+    }
+    return world && backend;
+}
+
+static int read_options(options *o, int argc, char **argv)
+{
+    *o = (options){.csv = "build/bench.csv"};
+    for (int i = 1; i < argc; i++) {
+        const char **text = strcmp(argv[i], "--csv") == 0       ? &o->csv
+                            : strcmp(argv[i], "--world") == 0   ? &o->world
+                            : strcmp(argv[i], "--backend") == 0 ? &o->backend
+                                                                : NULL;
+        char *end = NULL;
+        if (i + 1 < argc && text) {
+            *text = argv[++i];
+        } else if (i + 1 < argc && strcmp(argv[i], "--characters") == 0) {
+            unsigned long n = strtoul(argv[++i], &end, 10);
+            if (*end || n < 1 || n > 100000) {
+                return usage("--characters");
+            }
+            o->characters = (uint32_t)n;
+        } else {
+            return usage(argv[i]);
+        }
+    }
+    return known(o) ? 0 : 2;
+}
+
+static void print_row(FILE *csv, const bench_world *w, const scene_backend *b, const bench_result *r)
+{
+    printf("%-11s %-13s %6u %9.0f %9.0f %9.0f %7.2f %8.2f %6.3f %8.2f %8.2f %8.4f %5.0f%%\n", w->name, b->name, r->characters,
+           r->ns_median, r->ns_p99, r->ns_cpu, r->sweeps, r->contact_queries, r->rays, r->triangle_tests, r->iterations,
+           r->gathers, 100 * r->walking);
+    fflush(stdout);
+    fprintf(csv, "%s,%s,%u,%llu,%.1f,%.1f,%.1f,%.4f,%.4f,%.4f,%.3f,%.3f,%.5f,%.5f,%.4f,%llu,%llu\n", w->name, b->name,
+            r->characters, (unsigned long long)r->steps, r->ns_median, r->ns_p99, r->ns_cpu, r->sweeps, r->contact_queries,
+            r->rays, r->triangle_tests, r->iterations, r->gathers, r->escapes, r->walking,
+            (unsigned long long)r->bytes_per_mover, (unsigned long long)r->lost);
+}
+
+static void print_build(const bench_world *w, const scene_backend *b, const bench_opened *opened)
+{
+    if (w->mesh.triangle_count > 0) {
+        printf("%-11s %-13s %u triangles, opened in %.0f ms, %.1f bytes per triangle\n", w->name, b->name,
+               w->mesh.triangle_count, 1e3 * opened->build_seconds, (double)opened->bytes / w->mesh.triangle_count);
+        fflush(stdout);
+    }
+}
+
+static int measure_backend(FILE *csv, const bench_world *w, const scene_backend *b, const options *o)
+{
+    static bench_opened opened; /* the allocator points at it */
+    const plan *plans = b->native ? NATIVE_PLANS : OTHER_PLANS;
+    fprintf(stderr, "%s on %s ...\n", w->name, b->name);
+    tahr_status status = bench_open(&opened, w, b);
+    if (status < 0) {
+        printf("%-11s %-13s cannot be opened: %s\n", w->name, b->name, tahr_status_name(status));
+        return 0;
+    }
+    print_build(w, b, &opened);
+    int ok = 1;
+    for (int i = 0; i < PLANS; i++) {
+        plan p = plans[i];
+        char error[256] = "";
+        bench_result result;
+        if (o->characters) { /* about as many steps as the plan for one character has */
+            p = (plan){i == 0 ? o->characters : 0, plans[0].ticks / o->characters + 20};
+        }
+        if (p.characters == 0) {
+            continue;
+        }
+        if (bench_run(&opened, w, p.characters, p.ticks, &result, error)) {
+            print_row(csv, w, b, &result);
+        } else {
+            printf("%-11s %-13s %6u failed: %s\n", w->name, b->name, p.characters, error);
+            ok = 0;
+        }
+    }
+    bench_close(&opened);
+    return ok;
+}
+
+static int measure(FILE *csv, const options *o)
+{
+    int ok = 1;
+    for (int i = 0; i < BENCH_WORLDS; i++) {
+        bench_world world;
+        if (o->world && strcmp(o->world, bench_world_name(i)) != 0) {
+            continue;
+        }
+        bench_world_make(&world, i);
+        if (world.missing[0]) {
+            printf("skipped: %s %s\n", world.name, world.missing);
+        }
+        for (int b = 0; !world.missing[0] && b < SCENE_BACKEND_COUNT; b++) {
+            if (!o->backend || strcmp(o->backend, SCENE_BACKENDS[b].name) == 0) {
+                ok = measure_backend(csv, &world, &SCENE_BACKENDS[b], o) && ok;
+            }
+        }
+        bench_world_free(&world);
+    }
+    return ok;
+}
+
+int main(int argc, char **argv)
+{
+    options o;
+    int wrong = read_options(&o, argc, argv);
+    if (wrong) {
+        return wrong;
+    }
+    FILE *csv = fopen(o.csv, "w");
+    if (!csv) {
+        fprintf(stderr, "tahr_bench: '%s' cannot be written\n", o.csv);
+        return 1;
+    }
+    printf("60 Hz; reading the clock costs %.0f ns, subtracted; columns from 'sweeps' to 'gathers' are per step\n",
+           bench_clock_cost());
+    printf("%-11s %-13s %6s %9s %9s %9s %7s %8s %6s %8s %8s %8s %6s\n", "world", "backend", "chars", "ns median", "ns p99",
+           "ns cpu", "sweeps", "contacts", "rays", "tests", "iters", "gathers", "walk");
+    fprintf(csv, "world,backend,characters,steps,ns_median,ns_p99,ns_cpu_mean,sweeps,contact_queries,rays,triangle_tests,"
+                 "narrow_iterations,gathers,escapes,walking,bytes_per_mover,respawned\n");
+    int ok = measure(csv, &o);
+    if (fclose(csv) != 0) {
+        fprintf(stderr, "tahr_bench: '%s' could not be written in full\n", o.csv);
+        ok = 0;
+    }
+    fprintf(stderr, "written: %s\n", o.csv);
+    return !ok;
+}

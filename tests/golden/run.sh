@@ -1,0 +1,39 @@
+#!/bin/sh
+# run.sh: compiles the library from its sources with one compiler and one set of flags, runs golden_hash.c on it and
+# compares the line with hash.txt. Usage: run.sh LABEL; LABEL is one of those below. Prints the difference on failure.
+set -eu
+label=$1
+emulator=
+case $label in
+gcc-O0) compiler=gcc flags=-O0 ;;
+gcc-O3) compiler=gcc flags=-O3 ;;
+gcc-O3-native) compiler=gcc flags="-O3 -march=native" ;;
+clang-O0) compiler=clang flags=-O0 ;;
+clang-O3) compiler=clang flags=-O3 ;;
+musl-gcc-O2) compiler=musl-gcc flags="-O2 -static" ;;
+aarch64-gcc-O2) compiler=aarch64-linux-gnu-gcc flags=-O2 emulator="qemu-aarch64 -L /usr/aarch64-linux-gnu" ;;
+*) echo "run.sh: unknown label '$label'" >&2; exit 2 ;;
+esac
+# shellcheck disable=SC2086
+for tool in $compiler ${emulator%% *}; do
+    command -v "$tool" >/dev/null 2>&1 && continue
+    echo "SKIP: golden_$label: $tool is not installed"
+    exit 77
+done
+if [ ! -f tests/golden/golden_hash.c ]; then
+    echo "SKIP: golden_$label: there is no tests/golden/golden_hash.c"
+    exit 77
+fi
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+# shellcheck disable=SC2086
+"$compiler" -std=c11 -ffp-contract=off -fno-math-errno $flags -Iinclude -Ibackends tests/golden/golden_hash.c \
+    src/*.c backends/common/*.c backends/native/*.c -o "$folder/golden_hash" -lm
+# shellcheck disable=SC2086
+$emulator "$folder/golden_hash" >"$folder/hash"
+if ! diff tests/golden/hash.txt "$folder/hash"; then
+    echo "golden_$label: other bits than tests/golden/hash.txt (left: expected, right: this build)"
+    exit 1
+fi
+cat "$folder/hash"

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: MIT
+ * test_scenes.c: every scene on every backend at every rate, as a table; the first violated expectation of each is shown.
+ *
+ * Arguments narrow it down: test_scenes [scene [backend [rate]]], for example "test_scenes wall native-double 60". */
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene_check.h"
+
+enum { MAX_FILES = 128 };
+
+typedef struct filter {
+    const char *scene, *backend;
+    double rate;
+} filter;
+
+typedef struct tally {
+    int runs, failures;
+} tally;
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static int list_scenes(char **files)
+{
+    DIR *folder = opendir(TAHR_SOURCE_DIR "/tests/scenes");
+    struct dirent *entry;
+    int count = 0;
+    while (folder && count < MAX_FILES && (entry = readdir(folder)) != NULL) {
+        size_t n = strlen(entry->d_name);
+        if (n > 5 && strcmp(entry->d_name + n - 5, ".json") == 0) {
+            size_t size = sizeof TAHR_SOURCE_DIR "/tests/scenes/" + n;
+            files[count] = malloc(size);
+            if (!files[count]) {
+                abort();
+            }
+            snprintf(files[count++], size, "%s/tests/scenes/%s", TAHR_SOURCE_DIR, entry->d_name);
+        }
+    }
+    if (folder) {
+        closedir(folder);
+    }
+    qsort(files, (size_t)count, sizeof *files, by_name);
+    return count;
+}
+
+static void run_scene(scene *s, const filter *only, tally *total)
+{
+    char failures[64][300];
+    int failed = 0;
+    printf("%-28s", s->name);
+    for (int b = 0; b < SCENE_BACKEND_COUNT; b++) {
+        const scene_backend *backend = &SCENE_BACKENDS[b];
+        if (only->backend && strcmp(only->backend, backend->name) != 0) {
+            continue;
+        }
+        printf("  %s", backend->name);
+        for (int i = 0; i < s->rate_count; i++) {
+            char failure[256];
+            if (only->rate > 0 && only->rate != s->rates[i]) {
+                continue;
+            }
+            total->runs++;
+            if (scene_check(s, backend, s->rates[i], failure)) {
+                printf(" ok");
+                continue;
+            }
+            printf(" %g!", s->rates[i]);
+            if (failed < 64) {
+                snprintf(failures[failed++], sizeof failures[0], "%s %g Hz: %.255s", backend->name, s->rates[i], failure);
+            }
+            total->failures++;
+        }
+    }
+    printf("\n");
+    for (int i = 0; i < failed; i++) {
+        printf("    %s\n", failures[i]);
+    }
+    fflush(stdout);
+}
+
+static void run_file(const char *path, const filter *only, tally *total)
+{
+    static scene s; /* large: 32 bodies and 64 inputs */
+    char error[256] = "";
+    int count = scene_count(path, error);
+    if (count < 0) {
+        printf("%s\n", error);
+        total->failures++;
+    }
+    for (int variant = 0; variant < count; variant++) {
+        if (scene_read(&s, path, variant)) {
+            run_scene(&s, only, total);
+        } else {
+            printf("%-28s  unreadable: %s\n", s.name, s.error);
+            total->failures++;
+        }
+        scene_free(&s);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    char *files[MAX_FILES];
+    filter only = {argc > 1 ? argv[1] : NULL, argc > 2 ? argv[2] : NULL, argc > 3 ? atof(argv[3]) : 0};
+    tally total = {0, 0};
+    int count = list_scenes(files);
+    for (int i = 0; i < count; i++) {
+        const char *name = strrchr(files[i], '/') + 1;
+        if (!only.scene || (strncmp(name, only.scene, strlen(only.scene)) == 0 && name[strlen(only.scene)] == '.')) {
+            run_file(files[i], &only, &total);
+        }
+        free(files[i]);
+    }
+    printf("%d runs, %d failures\n", total.runs, total.failures);
+    return total.failures > 0 || total.runs == 0;
+}

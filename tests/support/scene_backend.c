@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT
+ * scene_backend.c: the backends of this build, with the accuracy that each promises. */
+#include "scene_backend.h"
+
+#include <stdio.h>
+
+#ifdef TAHR_HAVE_CCD
+#include <tahr/ccd.h>
+#endif
+
+/* The thresholds of Tahr's acceptance table: native keeps skin - 1e-5 m, double sweeps are within 1e-9 m and float ones
+ * within 2e-6 m; ccd keeps half the skin, is within 1e-4 m, and may enter 5 mm where native may enter 1 mm. */
+const scene_backend SCENE_BACKENDS[] = {
+    {"native", tahr_backend_v1_native, 1, TAHR_NATIVE_FLOAT, 1.0, 1e-5, 2e-6, 1e-3},
+    {"native-double", tahr_backend_v1_native, 1, TAHR_NATIVE_DOUBLE, 1.0, 1e-5, 1e-9, 1e-3},
+#ifdef TAHR_HAVE_CCD
+    {"ccd", tahr_backend_v1_ccd, 0, 0, 0.5, 0, 1e-4, 5e-3},
+#endif
+};
+const int SCENE_BACKEND_COUNT = (int)(sizeof SCENE_BACKENDS / sizeof SCENE_BACKENDS[0]);
+
+static void complain(void *user, int32_t level, const char *message)
+{
+    (void)user;
+    if (level == TAHR_LOG_ERROR) {
+        fprintf(stderr, "%s\n", message);
+    }
+}
+
+tahr_status scene_backend_open(const scene_backend *backend, const tahr_body_desc *bodies, uint32_t count,
+                               const tahr_native_desc *options, tahr_world **world)
+{
+    tahr_log log = {NULL, complain};
+    tahr_native_desc native = {.struct_size = sizeof native};
+    tahr_world_desc desc;
+    tahr_world_desc_init(&desc, sizeof desc);
+    if (options) {
+        native = *options;
+    }
+    native.struct_size = sizeof native;
+    native.precision = backend->precision;
+    desc.bodies = bodies;
+    desc.body_count = count;
+    desc.log = &log;
+    desc.options = backend->native ? &native : NULL;
+    return tahr_world_open(backend->get(), &desc, world);
+}

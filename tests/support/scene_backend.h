@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ * scene_backend.h: the backends that scenes are run on, and what each of them promises. */
+#ifndef TAHR_TEST_SCENE_BACKEND_H
+#define TAHR_TEST_SCENE_BACKEND_H
+
+#include <tahr/native.h>
+#include <tahr/tahr.h>
+
+typedef struct scene_backend {
+    const char *name;
+    const tahr_backend *(*get)(void);
+    int native; /* takes a tahr_native_desc */
+    uint32_t precision;
+    double clearance;   /* of skin: what must stay free after every move */
+    double slack;       /* m, below that */
+    double gap_error;   /* m, of a sweep */
+    double penetration; /* m, deepest allowed while wandering */
+} scene_backend;
+
+enum { SCENE_MAX_BACKENDS = 3 };
+
+/* The backends of this build. */
+extern const scene_backend SCENE_BACKENDS[];
+extern const int SCENE_BACKEND_COUNT;
+
+/* Opens bodies on a backend. options, for native backends only, may be NULL; its precision is overwritten. */
+tahr_status scene_backend_open(const scene_backend *backend, const tahr_body_desc *bodies, uint32_t count,
+                               const tahr_native_desc *options, tahr_world **world);
+
+#endif

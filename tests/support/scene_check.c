@@ -1,0 +1,327 @@
+/* SPDX-License-Identifier: MIT
+ * scene_check.c: every kind of expectation but "slide". */
+#include "scene_check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+int scene_violated(scene_case *c, double time, const char *what, double value, double limit)
+{
+    if (!c->failure[0]) {
+        snprintf(c->failure, sizeof c->failure, "t=%.6g: %s is %.12g, expected %.12g (off by %.3g)", time, what, value, limit,
+                 value - limit);
+    }
+    return 0;
+}
+
+double scene_member(scene_case *c, const char *key, double fallback)
+{
+    json_t *value = json_object_get(c->item, key);
+    if (value && !scene_number(c->scene, value, &fallback)) {
+        snprintf(c->failure, sizeof c->failure, "%.250s", c->scene->error);
+    }
+    return fallback;
+}
+
+static const char *text(const scene_case *c, const char *key)
+{
+    const char *value = json_string_value(json_object_get(c->item, key));
+    return value ? value : "?";
+}
+
+int scene_in_window(scene_case *c, const scene_sample *sample)
+{
+    double from = scene_member(c, "from", 0), to = scene_member(c, "to", 1e9);
+    return sample->time >= from - 1e-9 && sample->time <= to + 1e-9;
+}
+
+static double axis_of(tahr_vec3 v, char axis)
+{
+    return axis == 'x' ? v.x : axis == 'y' ? v.y : v.z;
+}
+
+static int compare(scene_case *c, double time, const char *what, tahr_vec3 value, tahr_vec3 wanted)
+{
+    double tolerance = scene_member(c, "tolerance", 1e-9);
+    const char *axes = json_object_get(c->item, "axes") ? text(c, "axes") : "xyz";
+    for (; *axes; axes++) {
+        char name[64];
+        snprintf(name, sizeof name, "%s %c", what, *axes);
+        if (!(fabs(axis_of(value, *axes) - axis_of(wanted, *axes)) <= tolerance)) {
+            return scene_violated(c, time, name, axis_of(value, *axes), axis_of(wanted, *axes));
+        }
+    }
+    return 1;
+}
+
+/* "position", "velocity": at a time. */
+static int check_vector(scene_case *c)
+{
+    double at = scene_member(c, "at", c->scene->duration);
+    int velocity = text(c, "kind")[0] == 'v';
+    tahr_vec3 wanted;
+    if (!scene_vec3(c->scene, json_object_get(c->item, "is"), &wanted)) {
+        snprintf(c->failure, sizeof c->failure, "%.250s", c->scene->error);
+        return 0;
+    }
+    for (int i = 0; i < c->record->count; i++) {
+        const scene_sample *s = &c->record->samples[i];
+        if (fabs(s->time - at) < 1e-9) {
+            return compare(c, at, text(c, "kind"), velocity ? s->state.velocity : s->state.position, wanted);
+        }
+    }
+    return scene_violated(c, at, "no step ends there; time", c->scene->duration, at);
+}
+
+static int check_mode(scene_case *c)
+{
+    for (int i = 1; i < c->record->count; i++) {
+        const scene_sample *s = &c->record->samples[i];
+        if (scene_in_window(c, s) && strcmp(tahr_mode_name(s->state.mode), text(c, "is")) != 0) {
+            return scene_violated(c, s->time, "mode", s->state.mode, TAHR_MODE_WALKING);
+        }
+    }
+    return 1;
+}
+
+static int check_step_speed(scene_case *c)
+{
+    double speed = scene_member(c, "speed", 0);
+    for (int i = 1; i < c->record->count; i++) {
+        const scene_sample *s = &c->record->samples[i];
+        double dx = s->state.position.x - s[-1].state.position.x, dy = s->state.position.y - s[-1].state.position.y;
+        /* 1e-12 m: the coordinates themselves are rounded */
+        if (sqrt(dx * dx + dy * dy) > speed * s->dt * (1 + 1e-9) + 1e-12) {
+            return scene_violated(c, s->time, "horizontal speed of a step", sqrt(dx * dx + dy * dy) / s->dt, speed);
+        }
+    }
+    return 1;
+}
+
+/* When a coordinate first passes a value, between two steps as if moving evenly. */
+static double passes(const scene_case *c, char axis, double value)
+{
+    for (int i = 1; i < c->record->count; i++) {
+        const scene_sample *s = &c->record->samples[i];
+        double a = axis_of(s[-1].state.position, axis) - value, b = axis_of(s->state.position, axis) - value;
+        if ((a <= 0 && b > 0) || (a >= 0 && b < 0)) {
+            return s->time - s->dt * b / (b - a);
+        }
+    }
+    return -1;
+}
+
+static int check_crossing(scene_case *c)
+{
+    char axis = text(c, "axis")[0];
+    double start = passes(c, axis, scene_member(c, "begin", 0)), end = passes(c, axis, scene_member(c, "end", 0));
+    double seconds = scene_member(c, "seconds", 0), relative = scene_member(c, "relative", 0.02);
+    if (start < 0 || end < 0) {
+        double reached = axis_of(c->record->samples[c->record->count - 1].state.position, axis);
+        return scene_violated(c, c->scene->duration, "never got there: coordinate", reached, scene_member(c, "end", 0));
+    }
+    if (!(fabs(end - start - seconds) <= relative * seconds)) {
+        return scene_violated(c, end, "duration of the crossing", end - start, seconds);
+    }
+    return 1;
+}
+
+/* "event": the n-th of a type, its time, place and value as far as given. Times are relative to 1 s or the time itself. */
+static int check_event(scene_case *c)
+{
+    int skip = (int)scene_member(c, "n", 0);
+    double tolerance = scene_member(c, "tolerance", 1e-9);
+    for (int i = 0; i < c->record->event_count; i++) {
+        const tahr_event *e = &c->record->events[i];
+        if (strcmp(tahr_event_name(e->type), text(c, "type")) != 0 || skip-- > 0) {
+            continue;
+        }
+        double time = scene_member(c, "time", e->time), value = scene_member(c, "value", e->value);
+        double time_tolerance = scene_member(c, "time_tolerance", tolerance * fmax(1, time));
+        tahr_vec3 place = e->position;
+        json_t *wanted = json_object_get(c->item, "place");
+        if (!(fabs(e->time - time) <= time_tolerance)) {
+            return scene_violated(c, e->time, "time of the event", e->time, time);
+        }
+        if (!(fabs(e->value - value) <= tolerance * fmax(1, fabs(value)))) {
+            return scene_violated(c, e->time, "value of the event", e->value, value);
+        }
+        return !wanted || (scene_vec3(c->scene, wanted, &place) && compare(c, e->time, "place", e->position, place));
+    }
+    snprintf(c->failure, sizeof c->failure, "no event of type %.40s", text(c, "type"));
+    return 0;
+}
+
+static int check_events(scene_case *c)
+{
+    double count = 0, wanted = scene_member(c, "count", 0), last = 0;
+    double from = scene_member(c, "from", -1), to = scene_member(c, "to", 1e9);
+    for (int i = 0; i < c->record->event_count; i++) {
+        const tahr_event *e = &c->record->events[i];
+        if (strcmp(tahr_event_name(e->type), text(c, "type")) == 0 && e->time >= from && e->time <= to) {
+            count++;
+            last = e->time;
+        }
+    }
+    return count == wanted ? 1 : scene_violated(c, last, text(c, "type"), count, wanted);
+}
+
+static double measure(const scene_case *c, const scene_sample *s, const char *of)
+{
+    const tahr_state *t = &s->state;
+    if (strcmp(of, "x") == 0) return t->position.x;
+    if (strcmp(of, "y") == 0) return t->position.y;
+    if (strcmp(of, "z") == 0) return t->position.z;
+    if (strcmp(of, "clearance") == 0) return s->clearance;
+    if (strcmp(of, "sweeps") == 0) return s->sweeps;
+    if (strcmp(of, "queries") == 0) return s->queries;
+    if (strcmp(of, "step_offset") == 0) return s->step_offset;
+    if (strcmp(of, "rise") == 0) return t->velocity.z;
+    if (strcmp(of, "speed") == 0) return sqrt(t->velocity.x * t->velocity.x + t->velocity.y * t->velocity.y);
+    if (strcmp(of, "path_speed") == 0 && s > c->record->samples) {
+        double x = t->position.x - s[-1].state.position.x, y = t->position.y - s[-1].state.position.y;
+        double z = t->position.z - s[-1].state.position.z;
+        return sqrt(x * x + y * y + z * z) / s->dt;
+    }
+    return NAN;
+}
+
+static int check_range(scene_case *c)
+{
+    const char *of = text(c, "of");
+    double low = scene_member(c, "min", -INFINITY), high = scene_member(c, "max", INFINITY);
+    for (int i = 1; i < c->record->count; i++) {
+        const scene_sample *s = &c->record->samples[i];
+        double value = measure(c, s, of);
+        if (scene_in_window(c, s) && !(value >= low && value <= high)) {
+            return scene_violated(c, s->time, of, value, value < low ? low : high);
+        }
+    }
+    return 1;
+}
+
+/* Every state in the window has the bits of the first one. */
+static int check_idle(scene_case *c)
+{
+    const scene_sample *first = NULL;
+    for (int i = 1; i < c->record->count; i++) {
+        const scene_sample *s = &c->record->samples[i];
+        if (!scene_in_window(c, s)) {
+            continue;
+        }
+        if (first && memcmp(&first->state, &s->state, sizeof s->state) != 0) {
+            return scene_violated(c, s->time, "state changed by one bit or more; z", s->state.position.z, first->state.position.z);
+        }
+        first = first ? first : s;
+    }
+    return 1;
+}
+
+static int check_same_path(scene_case *c)
+{
+    scene_record other = {0};
+    tahr_vec3 offset;
+    double tolerance = scene_member(c, "tolerance", 1e-6);
+    scene_vec3(c->scene, json_object_get(c->item, "offset"), &offset);
+    memcpy(other.cuts, c->record->cuts, sizeof other.cuts);
+    other.cut_count = c->record->cut_count;
+    int ok = scene_run(c->scene, c->backend, c->rate, offset, &other);
+    if (!ok) {
+        snprintf(c->failure, sizeof c->failure, "shifted: %.200s", other.error);
+    }
+    for (int i = 0; ok && i < c->record->count; i++) {
+        tahr_vec3 a = c->record->samples[i].state.position, b = other.samples[i].state.position;
+        double x = b.x - offset.x - a.x, y = b.y - offset.y - a.y, z = b.z - offset.z - a.z;
+        if (!(sqrt(x * x + y * y + z * z) <= tolerance)) {
+            ok = scene_violated(c, c->record->samples[i].time, "distance to the unshifted path", sqrt(x * x + y * y + z * z), 0);
+        }
+    }
+    scene_record_free(&other);
+    return ok;
+}
+
+static const struct {
+    const char *kind;
+    int (*check)(scene_case *c);
+} KINDS[] = {
+    {"position", check_vector}, {"velocity", check_vector}, {"mode", check_mode},   {"step_speed", check_step_speed},
+    {"crossing", check_crossing}, {"event", check_event},   {"events", check_events}, {"range", check_range},
+    {"idle", check_idle},       {"same_path", check_same_path}, {"slide", scene_check_slide},
+};
+
+static int check_one(scene_case *c)
+{
+    for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
+        if (strcmp(KINDS[k].kind, text(c, "kind")) == 0) {
+            return KINDS[k].check(c) && !c->failure[0];
+        }
+    }
+    snprintf(c->failure, sizeof c->failure, "no such kind of expectation: %.60s", text(c, "kind"));
+    return 0;
+}
+
+/* In every scene: once free, at least skin stays free after every move, and nobody is crushed. */
+static int check_always(scene_case *c)
+{
+    double needed = c->backend->clearance * c->scene->config.skin - c->backend->slack;
+    int was_free = 0;
+    for (int i = 0; i < c->record->count; i++) {
+        const scene_sample *s = &c->record->samples[i];
+        if (was_free && !(s->clearance >= needed)) {
+            return scene_violated(c, s->time, "clearance", s->clearance, c->backend->clearance * c->scene->config.skin);
+        }
+        if (s->flags & TAHR_REPORT_CRUSHED) {
+            return scene_violated(c, s->time, "crushed", 1, 0);
+        }
+        was_free = was_free || s->clearance >= needed;
+    }
+    return 1;
+}
+
+static void find_cuts(scene *s, scene_record *r)
+{
+    size_t i;
+    json_t *item;
+    json_array_foreach(s->expect, i, item)
+    {
+        json_t *at = json_object_get(item, "at");
+        double time;
+        if (at && scene_number(s, at, &time)) {
+            scene_record_cut(r, time);
+        }
+    }
+}
+
+int scene_check(scene *s, const scene_backend *backend, double rate, char *failure)
+{
+    scene_record record = {0};
+    scene_case c = {.scene = s, .backend = backend, .rate = rate, .record = &record};
+    json_t *item;
+    size_t i;
+    scene_names_set(&s->names, "gap", backend->gap_error);
+    scene_names_set(&s->names, "dt", 1 / rate);
+    find_cuts(s, &record);
+    int ok = scene_run(s, backend, rate, (tahr_vec3){0, 0, 0}, &record);
+    if (!ok) {
+        snprintf(c.failure, sizeof c.failure, "%.250s", record.error);
+    }
+    if (ok) {
+        scene_names_set(&s->names, "x0", record.samples[0].state.position.x);
+        scene_names_set(&s->names, "y0", record.samples[0].state.position.y);
+        scene_names_set(&s->names, "z0", record.samples[0].state.position.z);
+    }
+    ok = ok && check_always(&c);
+    json_array_foreach(s->expect, i, item)
+    {
+        c.item = item;
+        ok = ok && check_one(&c);
+    }
+    if (ok && json_array_size(s->expect) == 0) {
+        snprintf(c.failure, sizeof c.failure, "the scene expects nothing");
+        ok = 0;
+    }
+    memcpy(failure, c.failure, sizeof c.failure);
+    scene_record_free(&record);
+    return ok;
+}

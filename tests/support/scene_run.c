@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: MIT
+ * scene_run.c: the loop of a scene: settle, step, look how close everything is. */
+#include "scene_run.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { EVENTS_PER_STEP = 64, SETTLE_STEPS = 30 };
+
+typedef struct runner {
+    scene *scene;
+    tahr_world *world;
+    tahr_mover *mover;
+    tahr_state state;
+    tahr_event events[EVENTS_PER_STEP];
+    scene_record *record;
+} runner;
+
+void scene_record_cut(scene_record *r, double time)
+{
+    int i = r->cut_count;
+    if (i == (int)(sizeof r->cuts / sizeof r->cuts[0])) {
+        return;
+    }
+    for (; i > 0 && r->cuts[i - 1] > time; i--) {
+        r->cuts[i] = r->cuts[i - 1];
+    }
+    r->cuts[i] = time;
+    r->cut_count++;
+}
+
+void scene_record_free(scene_record *r)
+{
+    free(r->samples);
+    free(r->events);
+    memset(r, 0, sizeof *r);
+}
+
+static int fail(scene_record *r, double time, const char *what, const char *detail)
+{
+    snprintf(r->error, sizeof r->error, "t=%.6g: %s: %s", time, what, detail);
+    return 0;
+}
+
+static void *room(void *items, size_t size, int count, int *capacity)
+{
+    if (count < *capacity) {
+        return items;
+    }
+    *capacity = *capacity ? 2 * *capacity : 256;
+    void *more = realloc(items, size * (size_t)*capacity);
+    if (!more) {
+        abort();
+    }
+    return more;
+}
+
+static double clearance(runner *run)
+{
+    enum { CONTACTS = 64 };
+    tahr_contact contacts[CONTACTS];
+    const tahr_config *c = &run->scene->config;
+    uint32_t count = 0;
+    double nearest = 2 * c->skin;
+    tahr_contact_query query = {.shape = c->shape, .position = run->state.position, .up = run->state.up,
+                                .orientation = run->state.orientation, .margin = 2 * c->skin, .mask = c->mask,
+                                .ignore_body = TAHR_NO_BODY};
+    if (tahr_world_contacts(run->world, &query, contacts, CONTACTS, &count) < 0) {
+        return -1e9;
+    }
+    for (uint32_t i = 0; i < count && i < CONTACTS; i++) {
+        if (!contacts[i].sensor && contacts[i].distance < nearest) {
+            nearest = contacts[i].distance;
+        }
+    }
+    return nearest;
+}
+
+static void keep(runner *run, double time, double dt, const tahr_report *report, const tahr_input *input)
+{
+    scene_record *r = run->record;
+    r->samples = room(r->samples, sizeof *r->samples, r->count, &r->capacity);
+    scene_sample *sample = &r->samples[r->count++];
+    memset(sample, 0, sizeof *sample);
+    sample->time = time;
+    sample->dt = dt;
+    sample->state = run->state;
+    sample->clearance = clearance(run);
+    if (!report) {
+        return;
+    }
+    sample->input = *input;
+    sample->sweeps = report->sweeps;
+    sample->queries = report->sweeps + report->contact_queries + report->rays;
+    sample->flags = report->flags;
+    sample->step_offset = report->step_offset;
+    for (uint32_t i = 0; i < report->event_count; i++) {
+        r->events = room(r->events, sizeof *r->events, r->event_count, &r->event_capacity);
+        r->events[r->event_count] = run->events[i];
+        r->events[r->event_count++].time += time - dt;
+    }
+}
+
+static int take_step(runner *run, const tahr_input *input, double dt, double time, int settling)
+{
+    tahr_report report = {.struct_size = sizeof report, .events = run->events, .event_capacity = EVENTS_PER_STEP};
+    tahr_status status = tahr_mover_step(run->mover, input, dt, &run->state, &report);
+    if (status < 0) {
+        return fail(run->record, time, "step", tahr_status_name(status));
+    }
+    if (report.flags & (TAHR_REPORT_UNKNOWN | TAHR_REPORT_QUERY_CAP | TAHR_REPORT_TRUNCATED)) {
+        return fail(run->record, time, "flag", tahr_status_name(status));
+    }
+    if (!settling) {
+        keep(run, time + dt, dt, &report, input);
+    }
+    return 1;
+}
+
+static int settle(runner *run)
+{
+    tahr_input none = {.struct_size = sizeof none};
+    for (int i = 0; run->scene->settle && i < SETTLE_STEPS; i++) {
+        if (!take_step(run, &none, 1.0 / 60, 0, 1)) {
+            return 0;
+        }
+    }
+    if (run->scene->settle && run->state.mode != TAHR_MODE_WALKING) {
+        return fail(run->record, 0, "settling", "the start is not on a floor");
+    }
+    run->state.velocity = run->scene->velocity;
+    keep(run, 0, 0, NULL, NULL);
+    return 1;
+}
+
+static const tahr_input *input_at(const scene *s, double time)
+{
+    static const tahr_input NONE = {.struct_size = sizeof NONE};
+    const tahr_input *input = &NONE;
+    for (int i = 0; i < s->input_count && s->inputs[i].time <= time + 1e-9; i++) {
+        input = &s->inputs[i].input;
+    }
+    return input;
+}
+
+static int walk(runner *run, double rate)
+{
+    const scene_record *r = run->record;
+    double time = 0;
+    long tick = 0;
+    int cut = 0;
+    while (time < run->scene->duration - 1e-9) {
+        double next = (double)(tick + 1) / rate;
+        while (cut < r->cut_count && r->cuts[cut] <= time + 1e-9) {
+            cut++;
+        }
+        if (cut < r->cut_count && r->cuts[cut] < next - 1e-9) {
+            next = r->cuts[cut];
+        } else {
+            tick++;
+        }
+        if (!take_step(run, input_at(run->scene, time), next - time, time, 0)) {
+            return 0;
+        }
+        time = next;
+    }
+    return 1;
+}
+
+static tahr_vec3 plus(tahr_vec3 a, tahr_vec3 b)
+{
+    return (tahr_vec3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+int scene_run(scene *s, const scene_backend *backend, double rate, tahr_vec3 offset, scene_record *r)
+{
+    runner run = {.scene = s, .record = r};
+    tahr_body_desc bodies[SCENE_MAX_BODIES];
+    tahr_vec3 start = plus(s->position, offset);
+    tahr_status status;
+    for (uint32_t i = 0; i < s->body_count; i++) {
+        bodies[i] = s->bodies[i];
+        bodies[i].pose.position = plus(bodies[i].pose.position, offset);
+    }
+    for (int i = 0; i < s->input_count; i++) {
+        scene_record_cut(r, s->inputs[i].time);
+    }
+    scene_record_cut(r, s->duration);
+    status = scene_backend_open(backend, bodies, s->body_count, NULL, &run.world);
+    if (status < 0) {
+        return fail(r, 0, "opening the world", tahr_status_name(status));
+    }
+    status = tahr_mover_create(run.world, &s->config, &run.mover);
+    tahr_state_init(&run.state, &s->config, &start);
+    int ok = status < 0 ? fail(r, 0, "creating the mover", tahr_status_name(status)) : settle(&run) && walk(&run, rate);
+    tahr_mover_destroy(run.mover);
+    tahr_world_close(run.world);
+    return ok;
+}

@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: MIT
+ * test_callbacks.c: what the core derives for users who have only a sweep that says where. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "fake_world.h"
+
+/* The least that a user may write: blocking, fraction, normal; or start_overlap, depth, normal. */
+static tahr_status bare_sweep(void *user, const tahr_sweep *q, tahr_hit *hit)
+{
+    tahr_hit full;
+    memset(&full, 0, sizeof full);
+    fake_sweep(user, q, &full);
+    hit->blocking = full.blocking;
+    hit->start_overlap = full.start_overlap;
+    hit->fraction = full.fraction;
+    hit->normal = full.normal;
+    hit->depth = full.depth;
+    return TAHR_OK;
+}
+
+static tahr_world *open_bare(fake_world *w)
+{
+    tahr_callbacks c = {.struct_size = sizeof c, .user = w, .sweep = bare_sweep};
+    tahr_world *world = NULL;
+    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_OK);
+    return world;
+}
+
+static void a_bare_sweep_walks_climbs_and_jumps_like_a_full_one(void **unused)
+{
+    fake_world w;
+    rig r;
+    (void)unused;
+    fake_world_init(&w);
+    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_add_box(&w, fake_vec(2, -5, -1), fake_vec(40, 5, 0.3));
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
+    tahr_world *world = open_bare(&w);
+    tahr_mover *mover = NULL;
+    assert_int_equal(tahr_mover_create(world, &r.config, &mover), TAHR_OK);
+    tahr_state bare = r.state;
+    for (int i = 0; i < 150; i++) {
+        r.input.move = fake_vec(i > 20, 0, 0);
+        r.input.jump = i == 100;
+        rig_step(&r, 1.0 / 60);
+        assert_int_equal(tahr_mover_step(mover, &r.input, 1.0 / 60, &bare, NULL), TAHR_OK);
+        if (i < 30) { /* on the edge of the step the derived face is the contact's, and the way over it another one */
+            assert_near(bare.position.x, r.state.position.x, 1e-9);
+            assert_near(bare.position.z, r.state.position.z, 1e-9);
+        }
+        assert_true(fake_clearance(&w, &r.config.shape, bare.position) > 0.01 - 1e-7);
+    }
+    assert_true(bare.position.z > 1.19);
+    tahr_mover_destroy(mover);
+    tahr_world_close(world);
+    rig_close(&r);
+}
+
+static void missing_contacts_come_from_a_sweep_that_goes_nowhere(void **unused)
+{
+    fake_world w;
+    (void)unused;
+    fake_world_init(&w);
+    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    tahr_world *world = open_bare(&w);
+    tahr_mover *mover = NULL;
+    tahr_config c = fake_config();
+    tahr_state s;
+    tahr_input input = {.struct_size = sizeof input};
+    tahr_vec3 at = {0, 0, 0.8};
+    assert_int_equal(tahr_mover_create(world, &c, &mover), TAHR_OK);
+    tahr_state_init(&s, &c, &at);
+    assert_int_equal(tahr_mover_step(mover, &input, 1.0 / 60, &s, NULL), TAHR_OK);
+    assert_near(fake_clearance(&w, &c.shape, s.position), 0.0125, 0.0025 + 1e-9);
+    tahr_mover_destroy(mover);
+    tahr_world_close(world);
+}
+
+static void missing_ray_is_a_thin_sphere(void **unused)
+{
+    fake_world w;
+    tahr_ray q = {.origin = {0, 0, 2}, .motion = {0, 0, -4}, .mask = 0xFFFFFFFFu, .ignore_body = TAHR_NO_BODY};
+    tahr_hit hit;
+    uint32_t count = 0;
+    (void)unused;
+    fake_world_init(&w);
+    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    tahr_world *world = open_bare(&w);
+    assert_int_equal(tahr_world_ray(world, &q, &hit, &count), TAHR_OK);
+    assert_int_equal(count, 1);
+    assert_near(hit.fraction, 0.5, 1e-3);
+    assert_near(hit.surface_normal.z, 1, 0);
+    q.motion.z = 4;
+    assert_int_equal(tahr_world_ray(world, &q, &hit, &count), TAHR_OK);
+    assert_int_equal(count, 0);
+    tahr_world_close(world);
+}
+
+static void derived_point_lies_on_the_surface(void **unused)
+{
+    fake_world w;
+    tahr_sweep q = {.shape = {TAHR_SHAPE_CAPSULE, 0, 0.35, 0.9, 0, 0},
+                    .position = {1, 2, 2},
+                    .up = {0, 0, 1},
+                    .orientation = {0, 0, 0, 1},
+                    .motion = {0, 0, -4},
+                    .margin = 0.01,
+                    .mask = 0xFFFFFFFFu,
+                    .ignore_body = TAHR_NO_BODY};
+    tahr_hit hit;
+    uint32_t count = 0;
+    (void)unused;
+    fake_world_init(&w);
+    fake_add_slope(&w, 30);
+    tahr_world *world = open_bare(&w);
+    assert_int_equal(tahr_world_sweep(world, &q, &hit, 1, &count), TAHR_OK);
+    assert_int_equal(count, 1);
+    assert_near(hit.point.z, hit.point.x * tan(acos(-1.0) / 6), 1e-12);
+    assert_near(hit.distance, 0.01, 0);
+    tahr_world_close(world);
+}
+
+static tahr_status refusing_sweep(void *user, const tahr_sweep *q, tahr_hit *hit)
+{
+    (void)user, (void)q, (void)hit;
+    return TAHR_E_MEMORY;
+}
+
+static void a_negative_status_ends_the_step(void **unused)
+{
+    tahr_callbacks c = {.struct_size = sizeof c, .sweep = refusing_sweep};
+    tahr_world *world = NULL;
+    tahr_mover *mover = NULL;
+    tahr_config config = fake_config();
+    tahr_state s, before;
+    tahr_input input = {.struct_size = sizeof input};
+    tahr_vec3 at = {0, 0, 1};
+    (void)unused;
+    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_OK);
+    assert_int_equal(tahr_mover_create(world, &config, &mover), TAHR_OK);
+    tahr_state_init(&s, &config, &at);
+    before = s;
+    assert_int_equal(tahr_mover_step(mover, &input, 0.1, &s, NULL), TAHR_E_BACKEND);
+    assert_memory_equal(&s, &before, sizeof s);
+    tahr_mover_destroy(mover);
+    tahr_world_close(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_bare_sweep_walks_climbs_and_jumps_like_a_full_one),
+                                       cmocka_unit_test(missing_contacts_come_from_a_sweep_that_goes_nowhere),
+                                       cmocka_unit_test(missing_ray_is_a_thin_sphere),
+                                       cmocka_unit_test(derived_point_lies_on_the_surface),
+                                       cmocka_unit_test(a_negative_status_ends_the_step)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: MIT
+ * test_slide.c: bending a motion, making walls level, forgetting what was left behind. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "fake_world.h"
+#include "slide.h"
+
+static void slide_leaves_every_plane_and_never_lengthens(void **unused)
+{
+    double a = 0.3;
+    tahr__plane planes[3] = {
+        {.normal = {0, 0, 1}}, {.normal = {-cos(a), sin(a), 0}, .feature = 1}, {.normal = {-0.6, 0, 0.8}, .feature = 2}};
+    (void)unused;
+    for (uint32_t count = 1; count <= 3; count++) {
+        vec3 x = tahr__slide(planes, count, vec(3, 0.5, -1));
+        for (uint32_t i = 0; i < count; i++) {
+            assert_true(dot(planes[i].normal, x) > 0);
+        }
+        assert_true(length(x) <= length(vec(3, 0.5, -1)) * (1 + 1e-9));
+    }
+}
+
+static void no_plane_keeps_the_motion_and_a_dead_end_stops_it(void **unused)
+{
+    tahr__plane wall = {.normal = {-1, 0, 0}};
+    (void)unused;
+    assert_true(vec_equal(tahr__slide(NULL, 0, vec(1, 2, 3)), vec(1, 2, 3)));
+    assert_true(vec_equal(tahr__slide(&wall, 1, vec(1, 0, 0)), vec(0, 0, 0)));
+    assert_true(vec_equal(tahr__slide(&wall, 1, vec(1, 1e-9, 0)), vec(0, 0, 0)));
+}
+
+static void planes_are_forgotten_beyond_a_skin(void **unused)
+{
+    tahr_config c = fake_config();
+    tahr__step step;
+    tahr__plane planes[2] = {{.normal = {1, 0, 0}, .anchor = {0, 0, 0}},
+                             {.normal = {0, 1, 0}, .anchor = {0, 0, 0}, .feature = 1}};
+    uint32_t count = 2;
+    (void)unused;
+    memset(&step, 0, sizeof step);
+    step.config = &c;
+    step.state.position = vec(0.009, 0.009, 0);
+    tahr__planes_forget(&step, planes, &count);
+    assert_int_equal(count, 2);
+    step.state.position = vec(0.009, 0.011, 0);
+    tahr__planes_forget(&step, planes, &count);
+    assert_int_equal(count, 1);
+    assert_true(planes[0].normal.x == 1);
+}
+
+static void leaning_walls_become_level_and_parallel_ceilings_nothing(void **unused)
+{
+    tahr__step step;
+    tahr__plane wall = {.normal = {-0.8, 0, 0.6}}, ceiling = {.normal = {0, 0, -1}};
+    (void)unused;
+    memset(&step, 0, sizeof step);
+    step.state.up = vec(0, 0, 1);
+    assert_int_equal(tahr__level_wall(&step, vec(0, 0, 1), &wall), 1);
+    assert_near(wall.normal.x, -1, 1e-15);
+    assert_near(wall.normal.z, 0, 0);
+    assert_int_equal(tahr__level_wall(&step, vec(0, 0, 1), &ceiling), 0);
+    ceiling.normal = vec(0, 0, -1); /* going up a ramp runs into a level ceiling */
+    assert_int_equal(tahr__level_wall(&step, vec(-0.6, 0, 0.8), &ceiling), 1);
+    assert_near(ceiling.normal.x, -1, 1e-15);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(slide_leaves_every_plane_and_never_lengthens),
+                                       cmocka_unit_test(no_plane_keeps_the_motion_and_a_dead_end_stops_it),
+                                       cmocka_unit_test(planes_are_forgotten_beyond_a_skin),
+                                       cmocka_unit_test(leaning_walls_become_level_and_parallel_ceilings_nothing)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

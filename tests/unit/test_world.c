@@ -1,0 +1,315 @@
+/* SPDX-License-Identifier: MIT
+ * test_world.c: opening, placing and closing worlds; wrong descriptions are refused by name. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "fake_world.h"
+
+static int opened, closed, placed;
+static tahr_status open_answer;
+
+static tahr_status stub_open(const tahr_host *host, const tahr_world_desc *desc, void **self)
+{
+    (void)desc;
+    assert_true(host->struct_size >= sizeof *host && host->abi == TAHR_ABI && host->allocator.alloc &&
+                host->allocator.free && host->log.write);
+    opened++;
+    if (open_answer == TAHR_OK) {
+        *self = &opened;
+    }
+    return open_answer;
+}
+
+static void stub_close(void *self)
+{
+    assert_true(self == &opened);
+    closed++;
+}
+
+static tahr_status stub_sweep(void *self, tahr_query_context *c, const tahr_sweep *q, tahr_hit *h, uint32_t n,
+                              uint32_t *count)
+{
+    (void)self, (void)c, (void)q, (void)h, (void)n;
+    *count = 0;
+    return TAHR_OK;
+}
+
+static tahr_status stub_contacts(void *self, tahr_query_context *c, const tahr_contact_query *q, tahr_contact *h,
+                                 uint32_t n, uint32_t *count)
+{
+    (void)self, (void)c, (void)q, (void)h, (void)n;
+    *count = 0;
+    return TAHR_OK;
+}
+
+static tahr_status stub_ray(void *self, tahr_query_context *c, const tahr_ray *q, tahr_hit *h, uint32_t *count)
+{
+    (void)self, (void)c, (void)q, (void)h;
+    *count = 0;
+    return TAHR_OK;
+}
+
+static tahr_status stub_place(void *self, const tahr_body_pose *poses, uint32_t count)
+{
+    (void)self, (void)poses;
+    placed += (int)count;
+    return TAHR_OK;
+}
+
+static tahr_backend stub(void)
+{
+    tahr_backend b = {.struct_size = sizeof b,
+                      .abi_major = TAHR_ABI_MAJOR,
+                      .abi_minor = TAHR_ABI_MINOR,
+                      .capabilities = TAHR_CAP_CAPSULE,
+                      .name = "stub",
+                      .version = "0",
+                      .open = stub_open,
+                      .close = stub_close,
+                      .sweep = stub_sweep,
+                      .contacts = stub_contacts,
+                      .ray = stub_ray,
+                      .place = stub_place};
+    opened = closed = placed = 0;
+    open_answer = TAHR_OK;
+    return b;
+}
+
+static const double vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+static const uint32_t indices[] = {0, 1, 2};
+
+static tahr_body_desc mesh(void)
+{
+    tahr_body_desc b;
+    assert_int_equal(tahr_body_desc_init(&b, sizeof b, TAHR_BODY_MESH), TAHR_OK);
+    b.vertices = vertices;
+    b.indices = indices;
+    b.vertex_count = 3;
+    b.triangle_count = 1;
+    return b;
+}
+
+static void descriptions_start_zero_and_check_their_size(void **unused)
+{
+    tahr_world_desc d;
+    tahr_body_desc b;
+    (void)unused;
+    assert_int_equal(tahr_world_desc_init(NULL, sizeof d), TAHR_E_NULL);
+    assert_int_equal(tahr_world_desc_init(&d, sizeof d - 1), TAHR_E_STRUCT_SIZE);
+    assert_int_equal(tahr_body_desc_init(NULL, sizeof b, TAHR_BODY_BOX), TAHR_E_NULL);
+    assert_int_equal(tahr_body_desc_init(&b, sizeof b - 1, TAHR_BODY_BOX), TAHR_E_STRUCT_SIZE);
+    assert_int_equal(tahr_world_desc_init(&d, sizeof d), TAHR_OK);
+    assert_true(d.struct_size == sizeof d && d.body_count == 0 && !d.bodies && !d.allocator && !d.log && !d.options);
+    assert_int_equal(tahr_body_desc_init(&b, sizeof b, TAHR_BODY_BOX), TAHR_OK);
+    assert_true(b.type == TAHR_BODY_BOX && b.mask == 0xFFFFFFFFu && b.pose.orientation.w == 1);
+}
+
+/* Opens a world of one body: the status, and the body and field in the message. */
+static void expect_body(tahr_body_desc body, tahr_status status, const char *field)
+{
+    tahr_backend backend = stub();
+    fake_log log;
+    tahr_log l = fake_log_of(&log);
+    tahr_world_desc desc;
+    tahr_world *world = (tahr_world *)&log;
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.log = &l;
+    desc.bodies = &body;
+    desc.body_count = 1;
+    tahr_status got = tahr_world_open(&backend, &desc, &world);
+    if (got != status) {
+        fail_msg("%s: %s instead of %s", field, tahr_status_name(got), tahr_status_name(status));
+    }
+    assert_true(world == (tahr_world *)&log);
+    assert_int_equal(opened, 0);
+    assert_non_null(strstr(log.text, "bodies[0]"));
+    assert_non_null(strstr(log.text, field));
+}
+
+static void bad_bodies_are_named(void **unused)
+{
+    const double bad[] = {NAN, INFINITY, -1, 0, 1e9};
+    tahr_body_desc b = mesh();
+    (void)unused;
+    b.vertices = NULL;
+    expect_body(b, TAHR_E_ARGUMENT, "vertices");
+    b = mesh(), b.indices = NULL;
+    expect_body(b, TAHR_E_ARGUMENT, "indices");
+    b = mesh(), b.triangle_count = 0;
+    expect_body(b, TAHR_E_GEOMETRY, "triangles");
+    b = mesh(), b.type = 9;
+    expect_body(b, TAHR_E_ARGUMENT, "type");
+    b = mesh(), b.flags = 64;
+    expect_body(b, TAHR_E_ARGUMENT, "flags");
+    b = mesh(), b.walkable_rule = 4;
+    expect_body(b, TAHR_E_ARGUMENT, "walkable_rule");
+    b = mesh(), b.walkable_angle = NAN;
+    expect_body(b, TAHR_E_ARGUMENT, "walkable");
+    b = mesh(), b.pose.position.y = NAN;
+    expect_body(b, TAHR_E_ARGUMENT, "pose.position");
+    b = mesh(), b.pose.position.y = 2e7;
+    expect_body(b, TAHR_E_ARGUMENT, "pose.position");
+    b = mesh(), b.pose.orientation.x = 1;
+    expect_body(b, TAHR_E_ARGUMENT, "pose.orientation");
+    b = mesh(), b.pose.orientation.w = NAN;
+    expect_body(b, TAHR_E_ARGUMENT, "pose.orientation");
+    b = mesh(), b.struct_size = 4;
+    expect_body(b, TAHR_E_STRUCT_SIZE, "bodies[0]");
+    for (int i = 0; i < 5; i++) {
+        tahr_body_desc_init(&b, sizeof b, TAHR_BODY_BOX);
+        b.half_extents = fake_vec(1, bad[i], 1);
+        expect_body(b, TAHR_E_ARGUMENT, "half_extents");
+        tahr_body_desc_init(&b, sizeof b, TAHR_BODY_SPHERE);
+        b.radius = bad[i];
+        expect_body(b, TAHR_E_ARGUMENT, "radius");
+        tahr_body_desc_init(&b, sizeof b, TAHR_BODY_CAPSULE);
+        b.radius = 1;
+        b.half_height = bad[i] == 1e9 ? 0.5 : bad[i];
+        expect_body(b, TAHR_E_ARGUMENT, "half_height");
+    }
+}
+
+static void open_checks_backend_and_description(void **unused)
+{
+    tahr_backend b = stub();
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    fake_log log;
+    tahr_log l = fake_log_of(&log);
+    (void)unused;
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.log = &l;
+    assert_int_equal(tahr_world_open(NULL, &desc, &world), TAHR_E_NULL);
+    assert_int_equal(tahr_world_open(&b, NULL, &world), TAHR_E_NULL);
+    assert_int_equal(tahr_world_open(&b, &desc, NULL), TAHR_E_NULL);
+    desc.struct_size = 8;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_STRUCT_SIZE);
+    desc.struct_size = sizeof desc;
+    desc.body_count = 3;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_NULL);
+    desc.body_count = 0;
+    b.struct_size = 8;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_STRUCT_SIZE);
+    b = stub(), b.abi_minor = 99;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_ABI);
+    b = stub(), b.abi_major = 3;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_ABI);
+    b = stub(), b.sweep = NULL;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_NULL);
+    b = stub(), b.name = NULL;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_NULL);
+    tahr_allocator broken = {NULL, NULL, NULL};
+    b = stub(), desc.allocator = &broken;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_NULL);
+    desc.allocator = NULL;
+    open_answer = TAHR_E_GEOMETRY;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_GEOMETRY);
+    assert_null(world);
+    assert_int_equal(closed, 0);
+    b = stub();
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_OK);
+    assert_string_equal(tahr_world_backend_name(world), "stub");
+    tahr_world_close(world);
+    assert_int_equal(closed, 1);
+    tahr_world_close(NULL);
+}
+
+static void set_checks_every_pose_before_it_moves_one(void **unused)
+{
+    tahr_backend b = stub();
+    tahr_body_desc bodies[2];
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    tahr_body_pose poses[2];
+    (void)unused;
+    tahr_world_desc_init(&desc, sizeof desc);
+    bodies[0] = bodies[1] = mesh();
+    bodies[0].flags = bodies[1].flags = TAHR_BODY_MOVABLE;
+    desc.bodies = bodies;
+    desc.body_count = 2;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_OK);
+    memset(poses, 0, sizeof poses);
+    poses[0].pose.orientation.w = poses[1].pose.orientation.w = 1;
+    poses[1].body = 1;
+    uint64_t revision = tahr_world_revision(world);
+    assert_int_equal(tahr_world_set(NULL, poses, 2), TAHR_E_NULL);
+    assert_int_equal(tahr_world_set(world, NULL, 2), TAHR_E_NULL);
+    poses[1].body = 2;
+    assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_NOT_FOUND);
+    poses[1].body = 1, poses[1].flags = 1;
+    assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_ARGUMENT);
+    poses[1].flags = 0, poses[1].pose.position.x = NAN;
+    assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_ARGUMENT);
+    poses[1].pose.position.x = 0, poses[1].pose.orientation.w = 0;
+    assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_ARGUMENT);
+    assert_int_equal(placed, 0);
+    assert_int_equal(tahr_world_revision(world), revision);
+    poses[1].pose.orientation.w = 1;
+    assert_int_equal(tahr_world_set(world, poses, 2), TAHR_OK);
+    assert_int_equal(placed, 2);
+    assert_int_equal(tahr_world_revision(world), revision + 1);
+    tahr_world_close(world);
+}
+
+static void fixed_bodies_cannot_be_placed(void **unused)
+{
+    tahr_backend b = stub();
+    tahr_body_desc body = mesh();
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    tahr_body_pose pose;
+    (void)unused;
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = &body;
+    desc.body_count = 1;
+    b.place = NULL;
+    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_OK);
+    memset(&pose, 0, sizeof pose);
+    pose.pose.orientation.w = 1;
+    assert_int_equal(tahr_world_set(world, &pose, 1), TAHR_E_UNSUPPORTED);
+    tahr_world_close(world);
+}
+
+static void callbacks_are_checked(void **unused)
+{
+    fake_world fake;
+    tahr_callbacks c = {.struct_size = sizeof c, .user = &fake, .sweep = fake_sweep};
+    tahr_world *world = NULL;
+    (void)unused;
+    fake_world_init(&fake);
+    assert_int_equal(tahr_world_open_callbacks(NULL, NULL, &world), TAHR_E_NULL);
+    assert_int_equal(tahr_world_open_callbacks(&c, NULL, NULL), TAHR_E_NULL);
+    c.sweep = NULL;
+    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_E_NULL);
+    c.sweep = fake_sweep, c.flags = 1;
+    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_E_UNSUPPORTED);
+    c.flags = 0, c.struct_size = 4;
+    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_E_STRUCT_SIZE);
+    assert_null(world);
+    c.struct_size = sizeof c;
+    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_OK);
+    assert_string_equal(tahr_world_backend_name(world), "callbacks");
+    uint64_t revision = tahr_world_revision(world);
+    assert_int_equal(tahr_world_touch(world), TAHR_OK);
+    assert_int_equal(tahr_world_revision(world), revision + 1);
+    assert_int_equal(tahr_world_touch(NULL), TAHR_E_NULL);
+    assert_int_equal(tahr_world_revision(NULL), 0);
+    tahr_world_close(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(descriptions_start_zero_and_check_their_size),
+                                       cmocka_unit_test(bad_bodies_are_named),
+                                       cmocka_unit_test(open_checks_backend_and_description),
+                                       cmocka_unit_test(set_checks_every_pose_before_it_moves_one),
+                                       cmocka_unit_test(fixed_bodies_cannot_be_placed),
+                                       cmocka_unit_test(callbacks_are_checked)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
