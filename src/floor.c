@@ -74,9 +74,18 @@ static double clearance(const tahr__step *step, const tahr_hit *hit, double rang
     return skin - (skin - hit->distance) / rate;
 }
 
+/* An upright capsule that moves along its own axis enters new space with its lower cap alone: a sphere there is the same
+ * sweep and a fraction of the geometry. What overlaps higher up is found by the sweep of the move. */
 static void sweep_down(tahr__step *step, const tahr_shape *shape, double range, tahr_hit *hit)
 {
-    tahr__sweep(step, shape, step->state.position, scale(step->state.up, -range), step->config->skin, 0, hit);
+    vec3 up = step->state.up, from = step->state.position;
+    tahr_shape cap = *shape;
+    if (shape->type == TAHR_SHAPE_CAPSULE && (step->world->backend->capabilities & TAHR_CAP_SPHERE)) {
+        cap.type = TAHR_SHAPE_SPHERE;
+        cap.half_height = shape->radius;
+        from = add_scaled(from, up, shape->radius - shape->half_height);
+    }
+    tahr__sweep(step, &cap, from, scale(up, -range), step->config->skin, 0, hit);
 }
 
 /* The same face as a moment ago keeps the benefit of the hysteresis. */

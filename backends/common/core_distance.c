@@ -132,6 +132,14 @@ static void against_edges(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3], tahr__
     }
 }
 
+/* Is this end of a segment its nearest point? The distance is convex along the segment, so the slope at the end tells;
+ * 1e-13 m per metre is less than the rounding of the distance itself. */
+static int is_nearest_end(const tahr__witness *w, tahr_vec3 inward)
+{
+    double slope = v_dot(w->normal, inward);
+    return !(w->distance > 0) || slope >= 0 || slope * slope <= 1e-26 * v_dot(inward, inward);
+}
+
 void tahr__segment_triangle(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3], tahr__witness *out)
 {
     tahr_vec3 n = v_cross(v_sub(v[1], v[0]), v_sub(v[2], v[0]));
@@ -142,18 +150,14 @@ void tahr__segment_triangle(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3], tahr
         out->point = v_mad(a, v_sub(b, a), ha / (ha - hb));
         return;
     }
+    /* The end nearer to the plane first: most often it is the nearest point, and the rest is not looked at. */
+    tahr_vec3 near = fabs(hb) < fabs(ha) ? b : a, far = fabs(hb) < fabs(ha) ? a : b;
+    tahr__point_triangle(near, v, out);
+    if (is_nearest_end(out, v_sub(far, near))) return;
     tahr__witness w = *out;
-    tahr__point_triangle(a, v, out);
-    tahr__point_triangle(b, v, &w);
-    double low = fabs(ha), high = fabs(hb), same_side = ha * hb;
-    if (w.distance < out->distance) {
-        *out = w;
-        low = fabs(hb);
-        high = fabs(ha);
-    }
-    /* Nearest end over the face, and the segment leads away from the plane: nothing between the ends can be nearer. */
-    if (out->feature == TAHR__FACE && same_side >= 0 && high >= low) return;
-    against_edges(a, b, v, out);
+    tahr__point_triangle(far, v, &w);
+    keep_nearer(out, &w);
+    if (!is_nearest_end(&w, v_sub(near, far))) against_edges(a, b, v, out);
 }
 
 /* Nearest point of the box to p; the normal points from p, a corner of the triangle, to the box. */

@@ -8,9 +8,13 @@
 /* A box that is far from everything, for unused lanes. */
 #define NOWHERE 1e30f
 
-/* The arrays behind a cache's header: six float bounds, body, item, nine coordinates (float or double). */
+/* Lanes keep a plane whose distance is within this of the reach (m): single precision over the 32 m in which triangles
+ * have a plane at all is off by 1e-5 m. */
+#define PLANE_SLACK 4e-5
+
+/* The arrays behind a cache's header: six float bounds, a plane, body, item, nine coordinates (float or double). */
 typedef struct arrays {
-    float *bound[6];
+    float *bound[6], *plane[4];
     uint32_t *body, *item;
     void *corners;
 } arrays;
@@ -27,7 +31,7 @@ static size_t header_bytes(void)
 
 size_t tahr__cache_bytes(const tahr__native *world)
 {
-    size_t each = 6 * sizeof(float) + 2 * sizeof(uint32_t) + 9 * corner_bytes(world);
+    size_t each = 10 * sizeof(float) + 2 * sizeof(uint32_t) + 9 * corner_bytes(world);
     return header_bytes() + (world->no_cache ? 0 : each * world->capacity);
 }
 
@@ -37,7 +41,8 @@ static arrays arrays_of(const tahr__native *world, tahr__cache *cache)
     /* The header ends on a multiple of 64, capacity is a multiple of 4: every array is aligned for its type. */
     float *f = (float *)(void *)((unsigned char *)cache + header_bytes());
     for (int i = 0; i < 6; i++) a.bound[i] = f + (size_t)i * world->capacity;
-    a.body = (uint32_t *)(void *)(f + (size_t)6 * world->capacity);
+    for (int i = 0; i < 4; i++) a.plane[i] = f + (size_t)(6 + i) * world->capacity;
+    a.body = (uint32_t *)(void *)(f + (size_t)10 * world->capacity);
     a.item = a.body + world->capacity;
     a.corners = a.item + world->capacity;
     return a;
@@ -53,6 +58,19 @@ typedef struct gather {
     arrays arrays;
     tahr__cache *cache;
 } gather;
+
+/* Its plane for the lanes, if it is a triangle near enough for single precision to tell. */
+static void store_plane(const arrays *a, uint32_t n, const tahr__prim *prim, int usable)
+{
+    for (int i = 0; i < 4; i++) a->plane[i][n] = 0;
+    if (!usable || (prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID))) return;
+    tahr_vec3 normal = v_cross(v_sub(prim->v[1], prim->v[0]), v_sub(prim->v[2], prim->v[0]));
+    double length = v_length(normal);
+    if (!(length > 1e-6)) return; /* m2: of less area the direction may be rounding */
+    normal = v_scale(normal, 1 / length);
+    for (int i = 0; i < 3; i++) a->plane[i][n] = (float)v_get(normal, i);
+    a->plane[3][n] = (float)v_dot(normal, prim->v[0]);
+}
 
 static void store(tahr__search *search, const tahr__prim *prim)
 {
@@ -72,11 +90,13 @@ static void store(tahr__search *search, const tahr__prim *prim)
     if (prim->item & TAHR__ITEM_SOLID) map = tahr__map_make(&search->query->frame, &world->bodies[prim->body]);
     tahr_bounds b = tahr__prim_bounds(world, &map, prim);
     uint32_t wide = 0;
+    int near = 1;
     for (int i = 0; i < 3; i++) {
         g->arrays.bound[i][n] = d_down(v_get(b.min, i));
         g->arrays.bound[3 + i][n] = d_up(v_get(b.max, i));
         for (int k = 0; k < 3; k++) {
             double x = v_get(prim->v[i], k);
+            near = near && fabs(x) <= 32;
             if (world->round) {
                 ((float *)g->arrays.corners)[9 * n + 3 * (uint32_t)i + (uint32_t)k] = (float)x;
                 if (d_round_to_float(x) != x) wide = TAHR__ITEM_WIDE;
@@ -85,6 +105,7 @@ static void store(tahr__search *search, const tahr__prim *prim)
             }
         }
     }
+    store_plane(&g->arrays, n, prim, near);
     g->arrays.body[n] = prim->body;
     g->arrays.item[n] = prim->item | wide;
     g->cache->count = n + 1;
@@ -183,22 +204,47 @@ static int concerns(const tahr__query *query, uint32_t id)
     return query->sensors || !(body->flags & TAHR_BODY_SENSOR);
 }
 
-static void set_box(const tahr__search *s, float lo[3], float hi[3])
+static void set_box(const tahr__search *s, tahr__lanes_query *q)
 {
     for (int i = 0; i < 3; i++) {
-        lo[i] = d_down(v_get(s->box.min, i));
-        hi[i] = d_up(v_get(s->box.max, i));
+        q->lo[i] = d_down(v_get(s->box.min, i));
+        q->hi[i] = d_up(v_get(s->box.max, i));
     }
 }
 
-/* Distance of a cached box to the search box; the same formula as the lanes. */
-static int still_near(const tahr__lanes *lanes, uint32_t n, const float lo[3], const float hi[3], float limit)
+static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
 {
-    const float *const *l = lanes->lo, *const *h = lanes->hi;
-    tahr__lanes one = {{l[0] + n, l[1] + n, l[2] + n}, {h[0] + n, h[1] + n, h[2] + n}, 1};
-    uint16_t index;
-    float distance;
-    return tahr__lanes_cull_scalar(&one, lo, hi, limit, &index, &distance) != 0;
+    const tahr__query *query = s->query;
+    /* d_up alone covers the rounding of the lanes' differences only down to 1e-7 of the reach; the slack covers zero. */
+    q->limit = d_up((s->reach + 1e-6) * (s->reach + 1e-6) * (1 + 1e-5));
+    set_box(s, q);
+    for (int i = 0; i < 3; i++) {
+        q->start[i] = (float)v_get(query->start, i);
+        q->motion[i] = (float)v_get(query->motion, i);
+    }
+    q->half = query->core.axis_count == 1 ? (float)query->core.axis[0].z : 0;
+    /* Boxes are not upright segments: their planes are looked at in double. */
+    q->reach = query->core.axis_count < 2 ? (float)(s->reach + PLANE_SLACK) : 1e30f;
+}
+
+/* Begins with the box that is nearest to the core at its start: most often it holds the hit, which then rules out what
+ * lies beyond. Any order gives the same answer. */
+static void first_the_nearest(const tahr__lanes *lanes, const tahr__query *query, uint16_t *index, uint32_t count)
+{
+    tahr_bounds box = tahr__query_box(query, 0);
+    float lo[3] = {(float)box.min.x, (float)box.min.y, (float)box.min.z};
+    float hi[3] = {(float)box.max.x, (float)box.max.y, (float)box.max.z};
+    uint32_t nearest = 0;
+    float least = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        float distance = tahr__lanes_distance(lanes, index[i], lo, hi);
+        if (i > 0 && distance >= least) continue;
+        least = distance;
+        nearest = i;
+    }
+    uint16_t first = index[nearest];
+    index[nearest] = index[0];
+    index[0] = first;
 }
 
 static void search_cache(tahr__search *s)
@@ -207,33 +253,27 @@ static void search_cache(tahr__search *s)
     const tahr__native *world = query->world;
     tahr__cache *cache = cache_of(query);
     arrays a = arrays_of(world, cache);
-    tahr__lanes lanes = {{a.bound[0], a.bound[1], a.bound[2]}, {a.bound[3], a.bound[4], a.bound[5]}, cache->count};
+    tahr__lanes lanes = {{a.bound[0], a.bound[1], a.bound[2]},
+                         {a.bound[3], a.bound[4], a.bound[5]},
+                         {a.plane[0], a.plane[1], a.plane[2]},
+                         a.plane[3],
+                         cache->count};
     uint16_t index[4096];
-    float distance[4096], lo[3], hi[3];
-    /* d_up alone covers the rounding of the lanes' differences only down to 1e-7 of the reach; the slack covers zero. */
-    float limit = d_up((s->reach + 1e-6) * (s->reach + 1e-6) * (1 + 1e-5));
-    set_box(s, lo, hi);
-    uint32_t count = (world->no_simd ? tahr__lanes_cull_scalar : tahr__lanes_cull)(&lanes, lo, hi, limit, index, distance);
-    uint32_t nearest = 0;
-    for (uint32_t i = 1; i < count; i++) {
-        if (distance[i] < distance[nearest]) nearest = i;
-    }
-    if (count > 0) {
-        uint16_t first = index[nearest];
-        index[nearest] = index[0];
-        index[0] = first;
-    }
+    tahr__lanes_query q;
+    lanes_query(s, &q);
+    uint32_t count = (world->no_simd ? tahr__lanes_cull_scalar : tahr__lanes_cull)(&lanes, &q, index);
+    if (count > 1) first_the_nearest(&lanes, query, index, count);
     int narrowed = 0;
     tahr__prim prim;
     for (uint32_t i = 0; i < count; i++) {
         if (!concerns(query, a.body[index[i]])) continue;
-        if (narrowed && !still_near(&lanes, index[i], lo, hi, limit)) continue;
+        if (narrowed && !(tahr__lanes_distance(&lanes, index[i], q.lo, q.hi) <= q.limit)) continue;
         load(query, &a, index[i], &prim);
         s->narrowed = 0;
         s->visit(s, &prim);
         if (!s->narrowed) continue;
         narrowed = 1;
-        set_box(s, lo, hi);
+        set_box(s, &q);
     }
 }
 

@@ -128,12 +128,38 @@ static int probe_start(const tahr__query *query, const tahr__prim *prim, tahr__p
     return 1;
 }
 
-/* What the triangle's plane alone says. Never, if the core stays beyond the target on either side of it or behind a
- * one-sided face: that is all most triangles get. Else a time before which nothing happens, for the distance to the
- * triangle is at least that to its plane; 0: look at the start. */
+#define NEVER 2.0
+
+/* Core and triangle are `gap` apart along an axis (less the target; times its length) and come nearer by `rate` over the
+ * whole motion: moves the time before which nothing happens. Returns 0 if that is beyond the limit. */
+static int apart(double gap, double rate, double limit, double *t)
+{
+    if (gap > limit * rate) return 0; /* also: not coming nearer */
+    if (gap > *t * rate) *t = gap / rate;
+    return 1;
+}
+
+/* The upright planes through the edges, which together with the face on either side bound the sum of triangle and upright
+ * core. turn: 1 if the face looks up, -1 if down. */
+static int apart_sideways(const tahr__query *query, const tahr_vec3 v[3], double turn, double limit, double *t)
+{
+    double reach = query->radius + query->margin + 0.5 * TAHR__ARRIVED;
+    for (int i = 0; i < 3; i++) {
+        tahr_vec3 e = v_sub(v[(i + 1) % 3], v[i]);
+        double x = turn * e.y, y = -turn * e.x, out = x * (query->start.x - v[i].x) + y * (query->start.y - v[i].y);
+        if (!(out > 0)) continue;
+        double wide2 = x * x + y * y;
+        if (out * out <= reach * reach * wide2) continue; /* no root where it decides nothing */
+        if (!apart(out - reach * sqrt(wide2), -(x * query->motion.x + y * query->motion.y), limit, t)) return 0;
+    }
+    return 1;
+}
+
+/* What planes alone say. NEVER, if the core stays beyond the target on one side of a plane, or behind a one-sided face:
+ * that is all most triangles get. Else a time before which nothing happens, for the distance to the triangle is at least
+ * that to any plane that separates; 0: look at the start. */
 static double earliest(const tahr__query *query, const tahr__prim *prim, double limit)
 {
-    const double never = 2;
     if (prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) return 0;
     const tahr__body *body = &query->world->bodies[prim->body];
     if (body->mesh.triangles[prim->item].source & TAHR__MESH_THIN) return 0;
@@ -142,16 +168,18 @@ static double earliest(const tahr__query *query, const tahr__prim *prim, double 
     double first = v_dot(n, v_sub(query->start, prim->v[0])), change = v_dot(n, query->motion);
     double extent = tahr__core_extent(&query->core, n);
     double low = first + d_min(0, change) - extent, high = first + d_max(0, change) + extent;
-    if (low >= reach * length || high <= -reach * length) return never;
+    if (low >= reach * length || high <= -reach * length) return NEVER;
     /* Contacts from so far behind fail the test for one-sided faces (1e-6 of the distance) anyway. */
-    if (!(body->flags & TAHR_BODY_TWO_SIDED) && high < -(1e-5 * reach + 1e-8) * length) return never;
-    /* Half of what counts as arrived is left, so that rounding never makes it late. A target of nothing needs the way there
-     * to know its normal. */
-    double above = first < 0 ? -first : first, gap = above - extent - (reach + 0.5 * TAHR__ARRIVED) * length;
-    double rate = first < 0 ? change : -change;
-    if (!(gap > 0) || !(rate > 0) || reach < 1e-6) return 0;
-    double t = gap / rate;
-    return t > limit ? never : t;
+    if (!(body->flags & TAHR_BODY_TWO_SIDED) && high < -(1e-5 * reach + 1e-8) * length) return NEVER;
+    double above = first < 0 ? -first : first, rate = first < 0 ? change : -change, t = 0;
+    /* Half of what counts as arrived is left, so that rounding never makes it late. */
+    double gap = above - extent - (reach + 0.5 * TAHR__ARRIVED) * length;
+    /* Touching the margin from outside and not coming nearer: a walker at rest on its clearance. */
+    if (rate <= 0 && gap >= -TAHR__ARRIVED * length) return NEVER;
+    if (reach < 1e-6) return 0; /* a target of nothing needs the way there to know its normal */
+    if (gap > 0 && !apart(gap, rate, limit, &t)) return NEVER;
+    if (query->core.axis_count < 2 && !apart_sideways(query, prim->v, n.z < 0 ? -1 : 1, limit, &t)) return NEVER;
+    return t;
 }
 
 /* Of a box that is left from inside: the face that the way out points through most. */

@@ -9,7 +9,7 @@
 #include <tahr/native.h>
 #include <tahr/tahr.h>
 
-enum { CHARACTERS = 16, WORLDS = 2, STEPS = 2000, CELLS = 24, MAX_VERTICES = 1024, MAX_TRIANGLES = 2048, MOVABLE = 2, BODIES = 7 };
+enum { CHARACTERS = 16, WORLDS = 2, STEPS = 1400, CELLS = 24, MAX_VERTICES = 1024, MAX_TRIANGLES = 2048, MOVABLE = 2, BODIES = 7 };
 
 typedef struct mesh {
     double vertices[3 * MAX_VERTICES];

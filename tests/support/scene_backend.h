@@ -15,6 +15,8 @@ typedef struct scene_backend {
     double slack;       /* m, below that */
     double gap_error;   /* m, of a sweep */
     double penetration; /* m, deepest allowed while wandering */
+    double drift;       /* m, off the exact path after sliding to rest between surfaces */
+    double rest;        /* m, a character at rest may move; 0: not by one bit */
 } scene_backend;
 
 enum { SCENE_MAX_BACKENDS = 3 };

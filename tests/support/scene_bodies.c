@@ -133,6 +133,21 @@ static void read_pose(scene *s, json_t *item, tahr_pose *pose)
     pose->orientation = (tahr_quat){sin(tilt) * sin(turn), sin(tilt) * cos(turn), cos(tilt) * sin(turn), cos(tilt) * cos(turn)};
 }
 
+/* "walkable": "increase", "decrease" (with "walkable_angle", degrees) or "never". */
+static int read_walkable(scene *s, json_t *item, tahr_body_desc *body)
+{
+    static const char *const RULES[] = {"default", "increase", "decrease", "never"};
+    const char *rule = json_string_value(json_object_get(item, "walkable"));
+    for (uint32_t i = 0; rule && i < sizeof RULES / sizeof RULES[0]; i++) {
+        if (strcmp(rule, RULES[i]) == 0) {
+            body->walkable_rule = i;
+            rule = NULL;
+        }
+    }
+    body->walkable_angle = 0.017453292519943295 * number(s, item, "walkable_angle", 0);
+    return rule ? bad(s, "no such rule", rule) : 1;
+}
+
 static void read_flags(json_t *item, tahr_body_desc *body)
 {
     body->flags |= json_is_true(json_object_get(item, "sensor")) ? (uint32_t)TAHR_BODY_SENSOR : 0u;
@@ -156,6 +171,9 @@ int scene_bodies_read(scene *s)
         }
         read_pose(s, item, &body->pose);
         read_flags(item, body);
+        if (!read_walkable(s, item, body)) {
+            return 0;
+        }
     }
     return !s->error[0];
 }

@@ -33,6 +33,8 @@ static const struct {
     FIELD(REAL, turn_rate),
     {"radius", offsetof(tahr_config, shape) + offsetof(tahr_shape, radius), REAL},
     {"half_height", offsetof(tahr_config, shape) + offsetof(tahr_shape, half_height), REAL},
+    {"half_x", offsetof(tahr_config, shape) + offsetof(tahr_shape, half_x), REAL},
+    {"half_y", offsetof(tahr_config, shape) + offsetof(tahr_shape, half_y), REAL},
 };
 
 static int bad(scene *s, const char *what, const char *where)
@@ -125,6 +127,23 @@ static int read_names(scene *s, int variant)
     return 1;
 }
 
+/* "shape": "capsule", "box" (as wide and high as the preset's capsule) or "sphere" (of its radius); other fields may
+ * change it afterwards. */
+static int read_shape(scene *s, json_t *value)
+{
+    tahr_shape *shape = &s->config.shape;
+    const char *name = json_string_value(value);
+    name = name ? name : "?";
+    if (strcmp(name, "box") == 0) {
+        *shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.35, .half_y = 0.35};
+    } else if (strcmp(name, "sphere") == 0) {
+        *shape = (tahr_shape){.type = TAHR_SHAPE_SPHERE, .radius = 0.35, .half_height = 0.35};
+    } else if (strcmp(name, "capsule") != 0) {
+        return bad(s, "no such shape", name);
+    }
+    return 1;
+}
+
 static int read_config(scene *s)
 {
     json_t *value;
@@ -134,6 +153,12 @@ static int read_config(scene *s)
     {
         size_t i = 0, count = sizeof CONFIG_FIELDS / sizeof CONFIG_FIELDS[0];
         double number;
+        if (strcmp(name, "shape") == 0) {
+            if (!read_shape(s, value)) {
+                return 0;
+            }
+            continue;
+        }
         while (i < count && strcmp(CONFIG_FIELDS[i].name, name) != 0) {
             i++;
         }

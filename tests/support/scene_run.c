@@ -15,7 +15,28 @@ typedef struct runner {
     tahr_state state;
     tahr_event events[EVENTS_PER_STEP];
     scene_record *record;
+    const tahr_pose *frame;
+    tahr_config config; /* in the frame */
 } runner;
+
+tahr_vec3 scene_turn(tahr_quat q, tahr_vec3 v)
+{
+    /* v + 2 w (q x v) + 2 q x (q x v) */
+    tahr_vec3 a = {q.y * v.z - q.z * v.y, q.z * v.x - q.x * v.z, q.x * v.y - q.y * v.x};
+    tahr_vec3 b = {q.y * a.z - q.z * a.y, q.z * a.x - q.x * a.z, q.x * a.y - q.y * a.x};
+    return (tahr_vec3){v.x + 2 * (q.w * a.x + b.x), v.y + 2 * (q.w * a.y + b.y), v.z + 2 * (q.w * a.z + b.z)};
+}
+
+tahr_vec3 scene_turn_back(tahr_quat q, tahr_vec3 v)
+{
+    return scene_turn((tahr_quat){-q.x, -q.y, -q.z, q.w}, v);
+}
+
+static tahr_quat after(tahr_quat a, tahr_quat b)
+{
+    return (tahr_quat){a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+                       a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
 
 void scene_record_cut(scene_record *r, double time)
 {
@@ -105,7 +126,9 @@ static void keep(runner *run, double time, double dt, const tahr_report *report,
 static int take_step(runner *run, const tahr_input *input, double dt, double time, int settling)
 {
     tahr_report report = {.struct_size = sizeof report, .events = run->events, .event_capacity = EVENTS_PER_STEP};
-    tahr_status status = tahr_mover_step(run->mover, input, dt, &run->state, &report);
+    tahr_input turned = *input;
+    turned.move = scene_turn(run->frame->orientation, input->move);
+    tahr_status status = tahr_mover_step(run->mover, &turned, dt, &run->state, &report);
     if (status < 0) {
         return fail(run->record, time, "step", tahr_status_name(status));
     }
@@ -129,7 +152,7 @@ static int settle(runner *run)
     if (run->scene->settle && run->state.mode != TAHR_MODE_WALKING) {
         return fail(run->record, 0, "settling", "the start is not on a floor");
     }
-    run->state.velocity = run->scene->velocity;
+    run->state.velocity = scene_turn(run->frame->orientation, run->scene->velocity);
     keep(run, 0, 0, NULL, NULL);
     return 1;
 }
@@ -168,31 +191,39 @@ static int walk(runner *run, double rate)
     return 1;
 }
 
-static tahr_vec3 plus(tahr_vec3 a, tahr_vec3 b)
+static tahr_vec3 into(const tahr_pose *frame, tahr_vec3 v)
 {
-    return (tahr_vec3){a.x + b.x, a.y + b.y, a.z + b.z};
+    tahr_vec3 t = scene_turn(frame->orientation, v);
+    return (tahr_vec3){t.x + frame->position.x, t.y + frame->position.y, t.z + frame->position.z};
 }
 
-int scene_run(scene *s, const scene_backend *backend, double rate, tahr_vec3 offset, scene_record *r)
+static tahr_status open_scene(runner *run, const scene_backend *backend)
 {
-    runner run = {.scene = s, .record = r};
+    const scene *s = run->scene;
     tahr_body_desc bodies[SCENE_MAX_BODIES];
-    tahr_vec3 start = plus(s->position, offset);
-    tahr_status status;
     for (uint32_t i = 0; i < s->body_count; i++) {
         bodies[i] = s->bodies[i];
-        bodies[i].pose.position = plus(bodies[i].pose.position, offset);
+        bodies[i].pose.position = into(run->frame, bodies[i].pose.position);
+        bodies[i].pose.orientation = after(run->frame->orientation, bodies[i].pose.orientation);
     }
+    return scene_backend_open(backend, bodies, s->body_count, NULL, &run->world);
+}
+
+int scene_run(scene *s, const scene_backend *backend, double rate, const tahr_pose *frame, scene_record *r)
+{
+    runner run = {.scene = s, .record = r, .frame = frame, .config = s->config};
+    tahr_vec3 start = into(frame, s->position);
+    run.config.gravity = scene_turn(frame->orientation, s->config.gravity);
     for (int i = 0; i < s->input_count; i++) {
         scene_record_cut(r, s->inputs[i].time);
     }
     scene_record_cut(r, s->duration);
-    status = scene_backend_open(backend, bodies, s->body_count, NULL, &run.world);
+    tahr_status status = open_scene(&run, backend);
     if (status < 0) {
         return fail(r, 0, "opening the world", tahr_status_name(status));
     }
-    status = tahr_mover_create(run.world, &s->config, &run.mover);
-    tahr_state_init(&run.state, &s->config, &start);
+    status = tahr_mover_create(run.world, &run.config, &run.mover);
+    tahr_state_init(&run.state, &run.config, &start);
     int ok = status < 0 ? fail(r, 0, "creating the mover", tahr_status_name(status)) : settle(&run) && walk(&run, rate);
     tahr_mover_destroy(run.mover);
     tahr_world_close(run.world);

@@ -25,9 +25,14 @@ typedef struct scene_record {
     char error[256]; /* what went wrong, or empty */
 } scene_record;
 
-/* Everything in the scene, start and bodies, is shifted by offset. Returns 0 if the run ended early: r->error says why. */
-int scene_run(scene *s, const scene_backend *backend, double rate, tahr_vec3 offset, scene_record *r);
+/* Everything in the scene, start, bodies, gravity and inputs, is taken into a frame: turned and then shifted. Returns 0
+ * if the run ended early: r->error says why. */
+int scene_run(scene *s, const scene_backend *backend, double rate, const tahr_pose *frame, scene_record *r);
 void scene_record_free(scene_record *r);
+
+/* The vector turned by a unit quaternion, and the other way round. */
+tahr_vec3 scene_turn(tahr_quat q, tahr_vec3 v);
+tahr_vec3 scene_turn_back(tahr_quat q, tahr_vec3 v);
 
 /* A step must end at this time. Call before scene_run, on a zeroed record. */
 void scene_record_cut(scene_record *r, double time);

@@ -20,9 +20,10 @@ static void flat(fake_world *w)
     fake_add_plane(w, fake_vec(0, 0, 1), 0);
 }
 
-/* Steps until an event of the type; [out] its time since the first of these steps. */
+/* Steps until an event of the type; [out] its time since the first of these steps. Fails if there is none. */
 static const tahr_event *await(rig *r, uint32_t type, double dt, double *time)
 {
+    *time = INFINITY; /* the compiler does not know that fail_msg does not return */
     for (int i = 0; i < 20000; i++) {
         double before = i * dt;
         rig_step(r, dt);
