@@ -21,7 +21,8 @@ struct tahr_world {
     tahr_host host;
     tahr_log log;
     tahr__memory memory;
-    uint64_t revision;
+    uint64_t revision;   /* never 0; a pure function of the poses of all bodies and of the touches */
+    uint64_t *pose_hash; /* per body: its share of the revision */
     uint32_t body_count;
 };
 

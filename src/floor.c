@@ -19,17 +19,22 @@ static double cosine(double angle)
     return c;
 }
 
-int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable)
+double tahr__walkable_limit(const tahr__step *step, const tahr_hit *hit, int was_walkable)
 {
     double limit = was_walkable ? step->limits->walkable_hysteresis : step->limits->walkable;
-    double up = dot(hit->surface_normal, step->state.up);
-    int walkable = hit->blocking && !hit->start_overlap && hit->walkable_rule != TAHR_WALKABLE_NEVER;
     if (hit->walkable_rule == TAHR_WALKABLE_INCREASE) {
         limit = min_of(limit, cosine(hit->walkable_angle));
     } else if (hit->walkable_rule == TAHR_WALKABLE_DECREASE) {
         limit = max_of(limit, cosine(hit->walkable_angle));
     }
-    limit = max_of(limit, VERTICAL);
+    return max_of(limit, VERTICAL);
+}
+
+int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable)
+{
+    double limit = tahr__walkable_limit(step, hit, was_walkable);
+    double up = dot(hit->surface_normal, step->state.up);
+    int walkable = hit->blocking && !hit->start_overlap && hit->walkable_rule != TAHR_WALKABLE_NEVER;
     return tahr__decide(step, TAHR_RULE_WALKABLE, walkable && up >= limit, hit, up, limit, "cosine of the face's slope");
 }
 
@@ -173,7 +178,7 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
     if (!ok && !surface) {
         ok = wedge(step, floor);
     }
-    floor->flags |= ok ? TAHR_FLOOR_WALKABLE : 0u;
+    floor->flags |= (ok ? TAHR_FLOOR_WALKABLE : 0u) | (surface ? TAHR_FLOOR_FACE : 0u);
     tahr__decide(step, TAHR_RULE_FLOOR, ok, &hit, floor->distance, range, "floor distance");
 }
 
@@ -181,13 +186,13 @@ void tahr__keep_floor(tahr__step *step, const tahr_floor *floor)
 {
     step->state.floor = *floor;
     step->state.floor_position = step->state.position;
-    step->state.floor_revision = step->world->revision + 1;
+    step->state.floor_revision = step->world->revision;
     step->state.flags &= ~(uint32_t)TAHR_STATE_FLOOR_MOVED;
 }
 
 int tahr__floor_is_current(const tahr__step *step)
 {
-    return step->state.floor_revision == step->world->revision + 1 && vec_equal(step->state.floor_position, step->state.position);
+    return step->state.floor_revision == step->world->revision && vec_equal(step->state.floor_position, step->state.position);
 }
 
 /* The floor goes with the character, so that the next move starts from it; a character that stands looks again. */

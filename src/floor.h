@@ -8,6 +8,9 @@
 /* Walkable test. was_walkable widens the limit by the hysteresis. No query. */
 int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable);
 
+/* Cosine of the steepest slope that this face may have to be walkable. No query. */
+double tahr__walkable_limit(const tahr__step *step, const tahr_hit *hit, int was_walkable);
+
 /* Floor under the character's position, looked for down to `reach` metres (plus the clearance band). A hit of a vertical
  * sweep that ended here may be supplied instead of the first sweep. 1 sweep; at most TAHR__FLOOR_QUERIES. */
 void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor);

@@ -66,8 +66,7 @@ static void carry_floor(walk *w, const tahr__step *step)
 {
     const tahr_floor *floor = &step->state.floor;
     w->ramp_count = 0;
-    if (floor_is_walkable(floor) && !(floor->flags & TAHR_FLOOR_WEDGED) &&
-        dot(floor->surface_normal, step->state.up) >= step->limits->walkable_hysteresis) {
+    if (floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE)) {
         carry(w, floor->surface_normal);
     }
 }
@@ -146,8 +145,7 @@ static void find_slope(walk *w, tahr__step *step)
         return;
     }
     tahr__ray(step, step->state.position, scale(up, -(step->config->shape.half_height + step->config->snap_distance)), &hit);
-    double cosine = dot(hit.surface_normal, up);
-    w->slope = hit.blocking && cosine >= step->limits->walkable_hysteresis ? hit.surface_normal : up;
+    w->slope = tahr__is_walkable(step, &hit, 1) ? hit.surface_normal : up;
 }
 
 /* Lifts a level displacement onto all faces that carry, with its length along the slope that sets the speed. */
@@ -173,9 +171,9 @@ static vec3 along_floor(const walk *w, const tahr__step *step, vec3 level)
 /* A walkable face in the way: go on along it. Its contact normal must be walkable too; the lip of a step is not a ramp. */
 static int take_ramp(tahr__step *step, walk *w, const tahr_hit *hit)
 {
-    double up = dot(hit->normal, step->state.up);
-    if (up < step->limits->walkable || !tahr__is_walkable(step, hit, 0)) {
-        return tahr__decide(step, TAHR_RULE_RAMP, 0, hit, up, step->limits->walkable, "too steep to go on along");
+    double up = dot(hit->normal, step->state.up), limit = tahr__walkable_limit(step, hit, 0);
+    if (up < limit || !tahr__is_walkable(step, hit, 0)) {
+        return tahr__decide(step, TAHR_RULE_RAMP, 0, hit, up, limit, "too steep to go on along");
     }
     for (uint32_t i = 0; i < w->ramp_count; i++) {
         if (dot(w->ramps[i], hit->normal) > 1 - 1e-14) { /* rounding touched it again: keep off a little more each time */
@@ -186,7 +184,7 @@ static int take_ramp(tahr__step *step, walk *w, const tahr_hit *hit)
     if (w->ramp_count < TAHR__MAX_PLANES) {
         carry(w, hit->normal);
     }
-    return tahr__decide(step, TAHR_RULE_RAMP, 1, hit, up, step->limits->walkable, "a walkable face");
+    return tahr__decide(step, TAHR_RULE_RAMP, 1, hit, up, limit, "a walkable face");
 }
 
 /* A step is taken half a foot at a time, so that a long slice climbs one tread after the other. */
@@ -328,7 +326,7 @@ void tahr__leave_floor(tahr__step *step)
     vec3 v = step_level(step, step->state.velocity);
     double size2 = length_squared(v);
     step->state.velocity = v;
-    if (floor_is_walkable(floor) && size2 > 0 && dot(floor->surface_normal, step->state.up) >= step->limits->walkable_hysteresis) {
+    if (floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE) && size2 > 0) {
         double rise = dot(floor->surface_normal, v) / dot(floor->surface_normal, step->state.up);
         step->state.velocity = scale(v, sqrt(size2 / (size2 + rise * rise)));
     }

@@ -157,8 +157,49 @@ static tahr_status new_world(const char *function, const tahr_world_desc *desc, 
 
 static void free_world(tahr_world *world, size_t extra)
 {
+    tahr_allocator counting = world->host.allocator;
+    counting.free(counting.user, world->pose_hash, world->body_count * sizeof *world->pose_hash, 8);
     tahr_allocator user = world->memory.user;
     user.free(user.user, world, sizeof *world + extra, 64);
+}
+
+/* FNV-1a over the words of a pose. */
+static uint64_t hash_pose(uint32_t body, const tahr_pose *pose)
+{
+    uint64_t words[sizeof *pose / 8], hash = 0xCBF29CE484222325u ^ body;
+    memcpy(words, pose, sizeof words);
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        for (int byte = 0; byte < 8; byte++) {
+            hash = (hash ^ (words[i] & 0xFF)) * 0x100000001B3u;
+            words[i] >>= 8;
+        }
+    }
+    return hash;
+}
+
+/* The sum of the shares: putting bodies back gives the old number back, which a rollback needs to repeat bit for bit. */
+static void move_revision(tahr_world *world, uint64_t by)
+{
+    world->revision += by;
+    world->revision += world->revision == 0;
+}
+
+static tahr_status keep_poses(tahr_world *world, const tahr_world_desc *desc)
+{
+    tahr_allocator a = world->host.allocator;
+    if (desc->body_count == 0) {
+        return TAHR_OK;
+    }
+    world->pose_hash = a.alloc(a.user, desc->body_count * sizeof *world->pose_hash, 8);
+    if (!world->pose_hash) {
+        return tahr__complain(&world->log, TAHR_E_MEMORY, "tahr_world_open", "allocator", "returned NULL");
+    }
+    world->body_count = desc->body_count;
+    for (uint32_t i = 0; i < desc->body_count; i++) {
+        world->pose_hash[i] = hash_pose(i, &desc->bodies[i].pose);
+        move_revision(world, world->pose_hash[i]);
+    }
+    return TAHR_OK;
 }
 
 tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *desc, tahr_world **out)
@@ -188,13 +229,15 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
     if (status < 0) {
         return status;
     }
-    status = backend->open(&world->host, desc, &world->self);
+    status = keep_poses(world, desc);
+    if (status >= 0) {
+        status = backend->open(&world->host, desc, &world->self);
+    }
     if (status < 0) {
         free_world(world, 0);
         return status;
     }
     world->backend = backend;
-    world->body_count = desc->body_count;
     *out = world;
     return TAHR_OK;
 }
@@ -256,8 +299,10 @@ tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint3
         }
     }
     tahr_status status = world->backend->place(world->self, poses, count);
-    if (status >= 0) {
-        world->revision++;
+    for (uint32_t i = 0; i < count && status >= 0; i++) {
+        uint64_t *share = &world->pose_hash[poses[i].body], old = *share;
+        *share = hash_pose(poses[i].body, &poses[i].pose);
+        move_revision(world, *share - old);
     }
     return status;
 }
@@ -267,7 +312,7 @@ tahr_status tahr_world_touch(tahr_world *world)
     if (!world) {
         return TAHR_E_NULL;
     }
-    world->revision++;
+    move_revision(world, 1);
     return TAHR_OK;
 }
 

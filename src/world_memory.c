@@ -43,7 +43,7 @@ static void *counting_alloc(void *user, size_t size, size_t alignment)
 static void counting_free(void *user, void *memory, size_t size, size_t alignment)
 {
     tahr__memory *m = user;
-    if (memory) {
+    if (memory) { /* nothing was counted for NULL */
         m->bytes -= size;
         m->user.free(m->user.user, memory, size, alignment);
     }

@@ -19,7 +19,8 @@ enum {
     TAHR_FLOOR_WALKABLE = 1 << 1, /* and can be stood on */
     TAHR_FLOOR_PERCHING = 1 << 2, /* held up at the rim of the shape; a floor further in allows it */
     TAHR_FLOOR_WEDGED = 1 << 3,   /* held by several faces, each too steep to stand on */
-    TAHR_FLOOR_RIM = 1 << 4       /* something touches the rim of the shape; the floor was found by a thinner one */
+    TAHR_FLOOR_RIM = 1 << 4,      /* something touches the rim of the shape; the floor was found by a thinner one */
+    TAHR_FLOOR_FACE = 1 << 5      /* the face that holds is walkable by itself, without a perch */
 };
 
 /* What is below the shape. distance is the way down until the shape would be skin above it, plus skin. */
@@ -53,7 +54,7 @@ typedef struct tahr_state {
     uint32_t flags; /* TAHR_STATE_* */
     tahr_floor floor;
     tahr_vec3 floor_position; /* where floor was looked for */
-    uint64_t floor_revision;  /* world revision plus 1 at which floor was looked for; 0: look again */
+    uint64_t floor_revision;  /* world revision at which floor was looked for; 0: look again */
     double jump_hold;         /* s, time for which gravity is still suspended */
     uint8_t reserved[256];
 } tahr_state;

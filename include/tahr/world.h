@@ -104,7 +104,7 @@ TAHR_API tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *pos
 /* Tells callback worlds that their geometry changed, so that cached floors are looked at again. Since 0.1. */
 TAHR_API tahr_status tahr_world_touch(tahr_world *world);
 
-/* Counts the changes of a world; 0 for NULL. Since 0.1. */
+/* A number that changes when the world does; the same again when bodies are put back. 0 for NULL. Since 0.1. */
 TAHR_API uint64_t tahr_world_revision(const tahr_world *world);
 
 /* Name of the backend behind a world ("native", "callbacks"); static memory. Since 0.1. */

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: MIT
  * scene_slide.c: the expectation "slide": an oracle for walls and corners that knows no sweeps.
  *
- * What a character would do without walls is asked from the same character on an endless floor, until a wall's gap closes;
- * from there a character goes on whose velocity and wish are the exact projections, in two dimensions, onto the walls that
- * it walked into. Along a wall the wish is that much shorter, and the acceleration with it. */
+ * What a character would do without walls is asked from the same character on an endless floor, until a wall's gap
+ * closes. From there a character goes on whose velocity and wish are the exact projections, in two dimensions, onto the
+ * walls that it walked into: along a wall the wish is that much shorter, and the acceleration with it. */
 #include "scene_check.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MAX_WALLS = 8, MAX_EVENTS = 3 * MAX_WALLS };
+enum { MAX_WALLS = 8 };
 
 typedef struct wall {
     double nx, ny, c; /* free where nx x + ny y >= c, for the centre of the shape */
@@ -27,7 +27,8 @@ static int read_walls(scene_case *c, walls *w)
     json_t *item;
     const tahr_config *config = &c->scene->config;
     memset(w, 0, sizeof *w);
-    /* A backend may stop that much before a wall, and nothing closes a gap so small in a well-conditioned time. */
+    /* A backend may stop that much before a wall. Turning into it from there takes sqrt(2 gap / acceleration), whose
+     * error has no bound as the gap goes to zero: such a wall is touched. */
     w->touch = 1e-10 + 2 * c->backend->gap_error;
     json_array_foreach(json_object_get(c->item, "walls"), i, item)
     {
@@ -75,9 +76,9 @@ typedef struct walk {
     scene_case *scene;
     tahr_world *floor;
     const walls *walls;
-    tahr_input input; /* of the step */
-    wall active[MAX_WALLS]; /* walked into during this step */
-    int active_count;
+    int active[MAX_WALLS]; /* walked into during this step */
+    int failed;            /* the library refused a step or a mover */
+    tahr_input input;      /* of the step */
     tahr_state state;
 } walk;
 
@@ -86,42 +87,42 @@ static double gap_of(const wall *a, const tahr_state *s)
     return a->nx * s->position.x + a->ny * s->position.y - a->c;
 }
 
-static int is_active(const walk *k, const wall *a)
-{
-    for (int i = 0; i < k->active_count; i++) {
-        if (k->active[i].nx == a->nx && k->active[i].ny == a->ny && k->active[i].c == a->c) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
 /* Projects velocity and wish onto the active walls, and makes the character that walks on with them. */
 static tahr_mover *begin(walk *k, tahr_input *input)
 {
+    wall active[MAX_WALLS];
+    int count = 0;
     tahr_config config = k->scene->scene->config;
     tahr_mover *mover = NULL;
     double v[2] = {k->state.velocity.x, k->state.velocity.y}, u[2] = {k->input.move.x, k->input.move.y}, d[2];
     double size = sqrt(u[0] * u[0] + u[1] * u[1]);
-    project(k->active, k->active_count, v, d);
+    for (int i = 0; i < k->walls->count; i++) {
+        if (k->active[i]) {
+            active[count++] = k->walls->item[i];
+        }
+    }
+    project(active, count, v, d);
     k->state.velocity.x = d[0];
     k->state.velocity.y = d[1];
     u[0] /= fmax(size, 1);
     u[1] /= fmax(size, 1);
-    project(k->active, k->active_count, u, d);
+    project(active, count, u, d);
     *input = k->input;
     input->move.x = d[0];
     input->move.y = d[1];
     if (size > 0) {
         config.acceleration *= sqrt(d[0] * d[0] + d[1] * d[1]) / fmin(size, 1);
     }
-    return tahr_mover_create(k->floor, &config, &mover) == TAHR_OK ? mover : NULL;
+    k->failed = tahr_mover_create(k->floor, &config, &mover) < 0;
+    return mover;
 }
 
-static int ask(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *from, tahr_state *to)
+/* Where the character is after dt of the piece that begins now. */
+static tahr_state ask(walk *k, tahr_mover *mover, const tahr_input *input, double dt)
 {
-    *to = *from;
-    return tahr_mover_step(mover, input, dt, to, NULL) >= 0;
+    tahr_state to = k->state;
+    k->failed = k->failed || tahr_mover_step(mover, input, dt, &to, NULL) < 0;
+    return to;
 }
 
 /* Activates the walls that are touched and walked into. Returns how many. */
@@ -129,62 +130,59 @@ static int press(walk *k, const tahr_state *to)
 {
     int pressed = 0;
     for (int i = 0; i < k->walls->count; i++) {
-        const wall *a = &k->walls->item[i];
-        if (!is_active(k, a) && gap_of(a, &k->state) <= k->walls->touch &&
-            gap_of(a, to) < gap_of(a, &k->state) - 1e-15) {
-            k->active[k->active_count++] = *a;
+        double gap = gap_of(&k->walls->item[i], &k->state);
+        if (!k->active[i] && gap <= k->walls->touch && gap_of(&k->walls->item[i], to) < gap - 1e-15) {
+            k->active[i] = 1;
             pressed++;
         }
     }
     return pressed;
 }
 
-/* The inactive wall whose gap closes first within dt, or NULL; *dt becomes the moment, *to the state at it. */
-static const wall *first_closing(const walk *k, tahr_mover *mover, const tahr_input *input, double *dt, tahr_state *to)
+/* Activates the wall whose gap closes first within dt, if one does. Returns the moment, or dt. */
+static double close_gap(walk *k, tahr_mover *mover, const tahr_input *input, double dt)
 {
-    const wall *first = NULL;
-    tahr_state at;
-    for (int i = 0; i < k->walls->count; i++) {
+    int first = -1;
+    for (int i = 0; i < k->walls->count && !k->failed; i++) {
         const wall *a = &k->walls->item[i];
-        if (is_active(k, a) || gap_of(a, &k->state) <= k->walls->touch || gap_of(a, to) >= 0) {
+        tahr_state at = ask(k, mover, input, dt);
+        if (k->active[i] || gap_of(a, &k->state) <= k->walls->touch || gap_of(a, &at) >= 0) {
             continue;
         }
-        double low = 0, high = *dt;
+        double low = 0, high = dt;
         while (high - low > 1e-13) {
             double middle = 0.5 * (low + high);
-            if (!ask(mover, input, middle, &k->state, &at)) {
-                break;
-            }
+            at = ask(k, mover, input, middle);
             *(gap_of(a, &at) < 0 ? &high : &low) = middle;
         }
-        first = a;
-        *dt = low;
-        ask(mover, input, low, &k->state, to);
+        first = i;
+        dt = low;
     }
-    return first;
+    if (first >= 0) {
+        k->active[first] = 1;
+    }
+    return dt;
 }
 
-/* Walks for dt, from event to event. Returns 0 if a step failed. */
+/* Walks for dt, from wall to wall. Returns 0 if the library refused something. */
 static int slide(walk *k, double dt)
 {
-    int ok = 1;
-    for (int event = 0; event < MAX_EVENTS && dt > 0 && ok; event++) {
+    memset(k->active, 0, sizeof k->active);
+    while (dt > 0) { /* every round but the last activates a wall */
         tahr_input input;
-        tahr_state to;
-        double part = dt;
         tahr_mover *mover = begin(k, &input);
-        ok = mover && ask(mover, &input, dt, &k->state, &to);
-        if (ok && !press(k, &to)) {
-            const wall *met = first_closing(k, mover, &input, &part, &to);
-            if (met) {
-                k->active[k->active_count++] = *met;
-            }
-            k->state = to;
-            dt = met ? dt - part : 0;
+        tahr_state to = ask(k, mover, &input, dt);
+        if (!k->failed && !press(k, &to)) {
+            double part = close_gap(k, mover, &input, dt);
+            k->state = ask(k, mover, &input, part);
+            dt -= part;
         }
         tahr_mover_destroy(mover);
+        if (k->failed) {
+            return 0;
+        }
     }
-    return ok;
+    return 1;
 }
 
 static int compare_all(walk *k)
@@ -199,7 +197,6 @@ static int compare_all(walk *k)
         k->state = s[-1].state;
         k->state.floor_revision = 0; /* it was found in another world */
         k->input = s->input;
-        k->active_count = 0;
         if (!slide(k, s->dt)) {
             return scene_violated(c, s->time, "stepping without walls: status", -1, 0);
         }
