@@ -235,7 +235,8 @@ int tahr__is_wedged(tahr__step *step)
     tahr__plane planes[TAHR__MAX_PLANES];
     uint32_t used = 0;
     vec3 way;
-    uint32_t count = tahr__contacts(step, step->state.position, step->config->floor_max * step->config->skin, contacts, CONTACTS);
+    /* Touched: at the skin, with a hundredth of it for what backends round. */
+    uint32_t count = tahr__contacts(step, step->state.position, 1.01 * step->config->skin, contacts, CONTACTS);
     for (uint32_t i = 0; i < count; i++) {
         tahr__plane plane = {.normal = contacts[i].normal, .body = contacts[i].body, .feature = contacts[i].feature};
         tahr__planes_add(planes, &used, &plane);

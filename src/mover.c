@@ -17,8 +17,8 @@
 static const double MIN_SLICE = 1e-9;
 
 /* Walking and falling may hand a step to each other this often (a gap as wide as the foot); then it ends, and says so.
- * Each time costs up to 30 queries to find where the floor ended. */
-enum { MAX_SLICES = 8 };
+ * Each time costs some 40 queries to find where the floor ended. */
+enum { MAX_SLICES = 6 };
 
 static tahr__limits limits_of(const tahr_config *c)
 {

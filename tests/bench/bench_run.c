@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * bench_run.c: steps characters and times each step.
  *
- * Median and 99th percentile come from single steps by the monotonic clock: on a machine shared with others the few steps
- * that are interrupted do not move them. The mean comes from the processor time of the thread, for the same reason. */
+ * Median and 99th percentile come from single steps by the monotonic clock: on a machine shared with others the few
+ * steps that are interrupted do not move them. The mean comes from the processor time of the thread: interruptions do
+ * not count in it. */
 #include "bench_run.h"
 
 #include <stdio.h>
@@ -171,8 +172,8 @@ static int tick(crowd *c, tahr_world *world, const tahr_bounds *spawn, bench_res
 
 static void summarize(bench_result *r, uint32_t *times, double cpu)
 {
-    double *sums[8] = {&r->sweeps, &r->contact_queries, &r->rays, &r->triangle_tests, &r->iterations, &r->gathers, &r->escapes,
-                       &r->walking};
+    double *sums[8] = {&r->sweeps,     &r->contact_queries, &r->rays,    &r->triangle_tests,
+                       &r->iterations, &r->gathers,         &r->escapes, &r->walking};
     double cost = bench_clock_cost(), n = (double)r->steps;
     qsort(times, r->steps, sizeof times[0], by_value);
     r->ns_median = (double)times[r->steps / 2] - cost;

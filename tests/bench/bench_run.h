@@ -9,12 +9,12 @@
 typedef struct bench_result {
     uint32_t characters;
     uint64_t steps;
-    double ns_median, ns_p99;  /* single steps, by the monotonic clock less its own cost */
-    double ns_cpu;             /* mean, by the processor time of the thread */
+    double ns_median, ns_p99; /* single steps, by the monotonic clock less its own cost */
+    double ns_cpu;            /* mean, by the processor time of the thread */
     double sweeps, contact_queries, rays, triangle_tests, iterations, gathers, escapes; /* per step */
-    double walking;            /* share of the steps that end on a floor */
+    double walking; /* share of the steps that end on a floor */
     uint64_t bytes_per_mover;
-    uint64_t lost;             /* characters that left the world and were put back */
+    uint64_t lost; /* characters that left the world and were put back */
 } bench_result;
 
 typedef struct bench_opened {

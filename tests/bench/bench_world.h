@@ -10,9 +10,9 @@
 typedef struct bench_world {
     const char *name;
     tahr_body_desc body;
-    scene_mesh mesh;     /* empty if the body is a box */
-    tahr_bounds spawn;   /* where characters start */
-    char missing[256];   /* why it cannot be measured, or empty */
+    scene_mesh mesh;   /* empty if the body is a box */
+    tahr_bounds spawn; /* where characters start */
+    char missing[256]; /* why it cannot be measured, or empty */
 } bench_world;
 
 enum { BENCH_WORLDS = 6 };

@@ -71,13 +71,13 @@ static int read_options(options *o, int argc, char **argv)
 
 static void print_row(FILE *csv, const bench_world *w, const scene_backend *b, const bench_result *r)
 {
-    printf("%-11s %-13s %6u %9.0f %9.0f %9.0f %7.2f %8.2f %6.3f %8.2f %8.2f %8.4f %5.0f%%\n", w->name, b->name, r->characters,
-           r->ns_median, r->ns_p99, r->ns_cpu, r->sweeps, r->contact_queries, r->rays, r->triangle_tests, r->iterations,
-           r->gathers, 100 * r->walking);
+    printf("%-11s %-13s %6u %9.0f %9.0f %9.0f %7.2f %8.2f %6.3f %8.2f %8.2f %8.4f %5.0f%%\n", w->name, b->name,
+           r->characters, r->ns_median, r->ns_p99, r->ns_cpu, r->sweeps, r->contact_queries, r->rays, r->triangle_tests,
+           r->iterations, r->gathers, 100 * r->walking);
     fflush(stdout);
     fprintf(csv, "%s,%s,%u,%llu,%.1f,%.1f,%.1f,%.4f,%.4f,%.4f,%.3f,%.3f,%.5f,%.5f,%.4f,%llu,%llu\n", w->name, b->name,
-            r->characters, (unsigned long long)r->steps, r->ns_median, r->ns_p99, r->ns_cpu, r->sweeps, r->contact_queries,
-            r->rays, r->triangle_tests, r->iterations, r->gathers, r->escapes, r->walking,
+            r->characters, (unsigned long long)r->steps, r->ns_median, r->ns_p99, r->ns_cpu, r->sweeps,
+            r->contact_queries, r->rays, r->triangle_tests, r->iterations, r->gathers, r->escapes, r->walking,
             (unsigned long long)r->bytes_per_mover, (unsigned long long)r->lost);
 }
 
@@ -159,10 +159,11 @@ int main(int argc, char **argv)
     }
     printf("60 Hz; reading the clock costs %.0f ns, subtracted; columns from 'sweeps' to 'gathers' are per step\n",
            bench_clock_cost());
-    printf("%-11s %-13s %6s %9s %9s %9s %7s %8s %6s %8s %8s %8s %6s\n", "world", "backend", "chars", "ns median", "ns p99",
-           "ns cpu", "sweeps", "contacts", "rays", "tests", "iters", "gathers", "walk");
-    fprintf(csv, "world,backend,characters,steps,ns_median,ns_p99,ns_cpu_mean,sweeps,contact_queries,rays,triangle_tests,"
-                 "narrow_iterations,gathers,escapes,walking,bytes_per_mover,respawned\n");
+    printf("%-11s %-13s %6s %9s %9s %9s %7s %8s %6s %8s %8s %8s %6s\n", "world", "backend", "chars", "ns median",
+           "ns p99", "ns cpu", "sweeps", "contacts", "rays", "tests", "iters", "gathers", "walk");
+    fprintf(csv,
+            "world,backend,characters,steps,ns_median,ns_p99,ns_cpu_mean,sweeps,contact_queries,rays,triangle_tests,"
+            "narrow_iterations,gathers,escapes,walking,bytes_per_mover,respawned\n");
     int ok = measure(csv, &o);
     if (fclose(csv) != 0) {
         fprintf(stderr, "tahr_bench: '%s' could not be written in full\n", o.csv);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * golden_hash.c: characters of all shapes wander through a small playground; prints one hash of every state of every step.
+ * golden_hash.c: characters of all shapes wander through a small playground; prints one hash of every state.
  *
  * The same line must come from every compiler, optimisation level and machine, with SIMD or its scalar twin (--scalar),
  * and with or without the gather cache (--no-cache). Only public headers; the scene is made of + - * / and integers. */
@@ -9,7 +9,16 @@
 #include <tahr/native.h>
 #include <tahr/tahr.h>
 
-enum { CHARACTERS = 16, WORLDS = 2, STEPS = 1400, CELLS = 24, MAX_VERTICES = 1024, MAX_TRIANGLES = 2048, MOVABLE = 2, BODIES = 7 };
+enum {
+    CHARACTERS = 16,
+    WORLDS = 2,
+    STEPS = 1400,
+    CELLS = 24,
+    MAX_VERTICES = 1024,
+    MAX_TRIANGLES = 2048,
+    MOVABLE = 2,
+    BODIES = 7
+};
 
 typedef struct mesh {
     double vertices[3 * MAX_VERTICES];
@@ -92,8 +101,9 @@ static void add_walls(mesh *m)
     double h = 0.5 * CELLS;
     double corners[4][2] = {{h, -h}, {h, h}, {-h, h}, {-h, -h}};
     for (int i = 0; i < 3; i++) {
-        uint32_t a = vertex(m, corners[i][0], corners[i][1], -1), b = vertex(m, corners[i + 1][0], corners[i + 1][1], -1);
-        uint32_t c = vertex(m, corners[i + 1][0], corners[i + 1][1], 4), d = vertex(m, corners[i][0], corners[i][1], 4);
+        const double *from = corners[i], *to = corners[i + 1];
+        uint32_t a = vertex(m, from[0], from[1], -1), b = vertex(m, to[0], to[1], -1);
+        uint32_t c = vertex(m, to[0], to[1], 4), d = vertex(m, from[0], from[1], 4);
         quad(m, b, a, d, c);
         quad(m, a, b, c, d);
     }
@@ -180,7 +190,8 @@ static int wander(tahr_world *world, int first, uint64_t *hash)
         configure(&configs[i], i);
         seeds[i] = 1000003u * (uint64_t)(first + i + 1);
         inputs[i] = (tahr_input){.struct_size = sizeof inputs[i], .move = heading(&seeds[i])};
-        if (tahr_mover_create(world, &configs[i], &movers[i]) < 0 || tahr_state_init(&states[i], &configs[i], &place) < 0) {
+        if (tahr_mover_create(world, &configs[i], &movers[i]) < 0 ||
+            tahr_state_init(&states[i], &configs[i], &place) < 0) {
             return 0;
         }
     }

@@ -21,7 +21,7 @@ typedef struct film {
 typedef struct stage {
     tahr_world *world;
     tahr_mover *movers[CHARACTERS];
-    int shared; /* one mover steps everybody */
+    int shared;   /* one mover steps everybody */
     int platform; /* a box moves up and down */
 } stage;
 
@@ -135,8 +135,8 @@ static void same(const scene_backend *backend, const char *what, int from, int t
                 while (((const char *)a)[byte] == ((const char *)b)[byte]) {
                     byte++;
                 }
-                fail_msg("%s, %s: step %d, character %d, byte %zu of the state: x %.17g and %.17g, z %.17g and %.17g", backend->name, what,
-                         s, c, byte, a->position.x, b->position.x, a->position.z, b->position.z);
+                fail_msg("%s, %s: step %d, character %d, byte %zu of the state: x %.17g and %.17g, z %.17g and %.17g",
+                         backend->name, what, s, c, byte, a->position.x, b->position.x, a->position.z, b->position.z);
             }
         }
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * test_scenes.c: every scene on every backend at every rate, as a table; the first violated expectation of each is shown.
+ * test_scenes.c: every scene on every backend at every rate, as a table; of each the first violated expectation.
  *
  * Arguments narrow it down: test_scenes [scene [backend [rate]]], for example "test_scenes wall native-double 60". */
 #include <dirent.h>
@@ -81,7 +81,8 @@ static void run_scene(scene *s, int variant, const filter *only, tally *total)
             }
             printf(" %g!", s->rates[i]);
             if (failed < 64) {
-                snprintf(failures[failed++], sizeof failures[0], "%s %g Hz: %.255s", backend->name, s->rates[i], failure);
+                snprintf(failures[failed++], sizeof failures[0], "%s %g Hz: %.255s", backend->name, s->rates[i],
+                         failure);
             }
             total->failures++;
         }

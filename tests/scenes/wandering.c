@@ -14,8 +14,8 @@
 
 enum { CHARACTERS = 16, LEVELS = 4, STUCK_CHANGES = 5, STUCK_DIRECTIONS = 16, SKIPPED = 77 };
 
-/* The design's words: stuck for good is less than 0.2 m in 10 s over 5 headings, though 0.1 m are free somewhere; who is
- * 10 m below everything fell out. */
+/* The design's words: stuck for good is less than 0.2 m in 10 s over 5 headings, though 0.1 m are free somewhere; who
+ * is 10 m below everything fell out. */
 static const double DT = 1.0 / 60, STUCK_SECONDS = 10, STUCK_WAY = 0.2, FREE_STEP = 0.1, FELL = 10;
 
 static const char *const NAMES[LEVELS] = {"dungeon", "nav_test", "playground", "hills"};
@@ -57,12 +57,14 @@ static int make_level(int index, scene_mesh *mesh, char *why)
 }
 
 /* A line to reproduce the step with: the state before it and the input. */
-static void accuse(watch *w, const char *what, double value, const character *c, const tahr_state *before, int id, int step)
+static void accuse(watch *w, const char *what, double value, const character *c, const tahr_state *before, int id,
+                   int step)
 {
     const tahr_vec3 p = before->position, v = before->velocity, m = c->wanderer.input.move;
     if (!w->failure[0]) {
         snprintf(w->failure, sizeof w->failure,
-                 "%s %.3g: character %d step %d mode %u jump %u before {%.17g, %.17g, %.17g} velocity {%.17g, %.17g, %.17g} move "
+                 "%s %.3g: character %d step %d mode %u jump %u before {%.17g, %.17g, %.17g} velocity {%.17g, %.17g, "
+                 "%.17g} move "
                  "{%.17g, %.17g}",
                  what, value, id, step, before->mode, c->wanderer.input.jump, p.x, p.y, p.z, v.x, v.y, v.z, m.x, m.y);
     }
@@ -72,7 +74,8 @@ static double clearance(const watch *w, tahr_vec3 p)
 {
     double reach = w->config.shape.half_height - w->config.shape.radius;
     tahr_vec3 low = {p.x, p.y, p.z - reach}, high = {p.x, p.y, p.z + reach};
-    return scene_solid_distance(w->solid, low, high, w->config.shape.radius + w->config.skin, NULL) - w->config.shape.radius;
+    return scene_solid_distance(w->solid, low, high, w->config.shape.radius + w->config.skin, NULL) -
+           w->config.shape.radius;
 }
 
 /* Whether 0.1 m are free in some direction, with the skin kept. */
@@ -83,7 +86,8 @@ static int could_move(const watch *w, tahr_vec3 p)
         int open = 1;
         for (int k = 1; open && k <= 4; k++) {
             double way = FREE_STEP * k / 4;
-            open = clearance(w, (tahr_vec3){p.x + way * cos(angle), p.y + way * sin(angle), p.z}) >= w->config.skin - 1e-5;
+            open =
+                clearance(w, (tahr_vec3){p.x + way * cos(angle), p.y + way * sin(angle), p.z}) >= w->config.skin - 1e-5;
         }
         if (open) {
             return 1;
@@ -180,7 +184,8 @@ static void wander(watch *w, int steps)
     }
 }
 
-static int run_level(const char *name, const scene_mesh *mesh, const scene_solid *solid, const scene_backend *backend, int steps)
+static int run_level(const char *name, const scene_mesh *mesh, const scene_solid *solid, const scene_backend *backend,
+                     int steps)
 {
     watch w = {.backend = backend, .solid = solid, .bounds = scene_mesh_bounds(mesh), .seed = 5, .nearest = HUGE_VAL};
     tahr_body_desc body;
@@ -202,9 +207,10 @@ static int run_level(const char *name, const scene_mesh *mesh, const scene_solid
     }
     tahr_mover_destroy(w.mover);
     tahr_world_close(w.world);
-    printf("%-11s %-14s %8ld steps, %3.0f%% walking, fell out %ld, nearest %9.6f m, tunnels %ld, deep %ld, stuck %ld, odd %ld\n",
-           name, backend->name, w.steps, 100.0 * (double)w.walking / (double)(w.steps + !w.steps), w.fell, w.nearest, w.tunnels,
-           w.deep, w.stuck, w.odd);
+    printf("%-11s %-14s %8ld steps, %3.0f%% walking, fell out %ld, nearest %9.6f m, tunnels %ld, deep %ld, stuck %ld, "
+           "odd %ld\n",
+           name, backend->name, w.steps, 100.0 * (double)w.walking / (double)(w.steps + !w.steps), w.fell, w.nearest,
+           w.tunnels, w.deep, w.stuck, w.odd);
     if (w.failure[0]) {
         printf("    %s\n", w.failure);
     }

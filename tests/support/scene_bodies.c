@@ -79,17 +79,22 @@ static int make_mesh(scene *s, json_t *item, const char *kind, scene_mesh *mesh)
         if (kind[1] == 'r') {
             scene_mesh_profile(mesh, (const double(*)[2])points, count, number(s, item, "width", NAN));
         } else {
-            scene_mesh_plan(mesh, (const double(*)[2])points, count, number(s, item, "low", NAN), number(s, item, "high", NAN));
+            scene_mesh_plan(mesh, (const double(*)[2])points, count, number(s, item, "low", NAN),
+                            number(s, item, "high", NAN));
         }
         free(points);
     } else if (strcmp(kind, "stairs") == 0) {
-        scene_stairs stairs = {.n = (int)number(s, item, "n", NAN), .rise = number(s, item, "rise", NAN),
-                               .run = number(s, item, "run", NAN), .width = number(s, item, "width", NAN),
-                               .bevel = number(s, item, "bevel", 0), .lead = number(s, item, "lead", 5)};
+        scene_stairs stairs = {.n = (int)number(s, item, "n", NAN),
+                               .rise = number(s, item, "rise", NAN),
+                               .run = number(s, item, "run", NAN),
+                               .width = number(s, item, "width", NAN),
+                               .bevel = number(s, item, "bevel", 0),
+                               .lead = number(s, item, "lead", 5)};
         scene_mesh_stairs(mesh, &stairs);
     } else if (strcmp(kind, "field") == 0) {
         double (*height)(double, double) = json_is_true(json_object_get(item, "hills")) ? scene_hills : NULL;
-        scene_mesh_field(mesh, (int)number(s, item, "nx", NAN), (int)number(s, item, "ny", NAN), number(s, item, "cell", NAN), height);
+        scene_mesh_field(mesh, (int)number(s, item, "nx", NAN), (int)number(s, item, "ny", NAN),
+                         number(s, item, "cell", NAN), height);
     } else {
         return 0;
     }
@@ -125,12 +130,14 @@ static int read_shape(scene *s, json_t *item, tahr_body_desc *body)
 /* "turn": degrees about z, then "tilt": degrees about the world's y (positive lifts +x down). */
 static void read_pose(scene *s, json_t *item, tahr_pose *pose)
 {
-    double turn = number(s, item, "turn", 0) * 0.008726646259971648, tilt = number(s, item, "tilt", 0) * 0.008726646259971648;
+    double turn = number(s, item, "turn", 0) * 0.008726646259971648,
+           tilt = number(s, item, "tilt", 0) * 0.008726646259971648;
     json_t *at = json_object_get(item, "at");
     if (at) {
         scene_vec3(s, at, &pose->position);
     }
-    pose->orientation = (tahr_quat){sin(tilt) * sin(turn), sin(tilt) * cos(turn), cos(tilt) * sin(turn), cos(tilt) * cos(turn)};
+    pose->orientation =
+        (tahr_quat){sin(tilt) * sin(turn), sin(tilt) * cos(turn), cos(tilt) * sin(turn), cos(tilt) * cos(turn)};
 }
 
 /* "walkable": "increase", "decrease" (with "walkable_angle", degrees) or "never". */

@@ -9,8 +9,8 @@
 int scene_violated(scene_case *c, double time, const char *what, double value, double limit)
 {
     if (!c->failure[0]) {
-        snprintf(c->failure, sizeof c->failure, "t=%.6g: %s is %.12g, expected %.12g (off by %.3g)", time, what, value, limit,
-                 value - limit);
+        snprintf(c->failure, sizeof c->failure, "t=%.6g: %s is %.12g, expected %.12g (off by %.3g)", time, what, value,
+                 limit, value - limit);
     }
     return 0;
 }
@@ -127,7 +127,7 @@ static int check_crossing(scene_case *c)
     return 1;
 }
 
-/* "event": the n-th of a type, its time, place and value as far as given. Times are relative to 1 s or the time itself. */
+/* "event": the n-th of a type, its time, place and value as far as given. Times are relative, to 1 s or more. */
 static int check_event(scene_case *c)
 {
     int skip = (int)scene_member(c, "n", 0);
@@ -219,7 +219,8 @@ static int check_idle(scene_case *c)
                 return scene_violated(c, s->time, "way moved at rest", way_between(first, s), c->backend->rest);
             }
         } else if (first && memcmp(&first->state, &s->state, sizeof s->state) != 0) {
-            return scene_violated(c, s->time, "state changed by one bit or more; z", s->state.position.z, first->state.position.z);
+            return scene_violated(c, s->time, "state changed by one bit or more; z", s->state.position.z,
+                                  first->state.position.z);
         }
         first = first ? first : s;
     }
@@ -275,10 +276,10 @@ static const struct {
     const char *kind;
     int (*check)(scene_case *c);
 } KINDS[] = {
-    {"position", check_vector}, {"velocity", check_vector}, {"mode", check_mode},   {"step_speed", check_step_speed},
-    {"crossing", check_crossing}, {"event", check_event},   {"events", check_events}, {"range", check_range},
-    {"idle", check_idle},       {"same_path", check_same_path}, {"slide", scene_check_slide},
-    {"turned_path", check_turned_path},
+    {"position", check_vector},       {"velocity", check_vector},   {"mode", check_mode},
+    {"step_speed", check_step_speed}, {"crossing", check_crossing}, {"event", check_event},
+    {"events", check_events},         {"range", check_range},       {"idle", check_idle},
+    {"same_path", check_same_path},   {"slide", scene_check_slide}, {"turned_path", check_turned_path},
 };
 
 static int check_one(scene_case *c)

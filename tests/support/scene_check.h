@@ -11,8 +11,8 @@ typedef struct scene_case {
     const scene_backend *backend;
     double rate;
     const scene_record *record;
-    json_t *item;       /* the expectation */
-    char failure[256];  /* empty: it holds */
+    json_t *item;      /* the expectation */
+    char failure[256]; /* empty: it holds */
 } scene_case;
 
 /* Runs a scene and checks everything it expects. Returns 1, or 0 with the first violation in failure (capacity 256). */

@@ -8,7 +8,10 @@
 
 #include "scene_bodies.h"
 
-#define FIELD(kind, name) {#name, offsetof(tahr_config, name), kind}
+#define FIELD(kind, name)                        \
+    {                                            \
+#name, offsetof(tahr_config, name), kind \
+    }
 
 enum { REAL, WORD };
 
@@ -17,19 +20,32 @@ static const struct {
     size_t offset;
     int kind;
 } CONFIG_FIELDS[] = {
-    FIELD(WORD, max_slides),           FIELD(REAL, skin),
-    FIELD(REAL, max_depenetration),    FIELD(REAL, walkable_angle),
-    FIELD(REAL, walkable_hysteresis),  FIELD(REAL, floor_target),
-    FIELD(REAL, floor_max),            FIELD(REAL, step_height),
-    FIELD(REAL, snap_distance),        FIELD(REAL, perch_threshold),
-    FIELD(REAL, perch_extra),          FIELD(REAL, edge_tolerance),
-    FIELD(WORD, cached_floor),         FIELD(WORD, walk_off_ledges),
-    FIELD(REAL, max_speed),            FIELD(REAL, acceleration),
-    FIELD(REAL, turn_friction),        FIELD(REAL, braking_deceleration),
-    FIELD(REAL, braking_drag),         FIELD(REAL, jump_speed),
-    FIELD(REAL, jump_hold_time),       FIELD(REAL, terminal_speed),
-    FIELD(REAL, air_control),          FIELD(REAL, air_turn_friction),
-    FIELD(REAL, arc_tolerance),        FIELD(REAL, max_dt),
+    FIELD(WORD, max_slides),
+    FIELD(REAL, skin),
+    FIELD(REAL, max_depenetration),
+    FIELD(REAL, walkable_angle),
+    FIELD(REAL, walkable_hysteresis),
+    FIELD(REAL, floor_target),
+    FIELD(REAL, floor_max),
+    FIELD(REAL, step_height),
+    FIELD(REAL, snap_distance),
+    FIELD(REAL, perch_threshold),
+    FIELD(REAL, perch_extra),
+    FIELD(REAL, edge_tolerance),
+    FIELD(WORD, cached_floor),
+    FIELD(WORD, walk_off_ledges),
+    FIELD(REAL, max_speed),
+    FIELD(REAL, acceleration),
+    FIELD(REAL, turn_friction),
+    FIELD(REAL, braking_deceleration),
+    FIELD(REAL, braking_drag),
+    FIELD(REAL, jump_speed),
+    FIELD(REAL, jump_hold_time),
+    FIELD(REAL, terminal_speed),
+    FIELD(REAL, air_control),
+    FIELD(REAL, air_turn_friction),
+    FIELD(REAL, arc_tolerance),
+    FIELD(REAL, max_dt),
     FIELD(REAL, turn_rate),
     {"radius", offsetof(tahr_config, shape) + offsetof(tahr_shape, radius), REAL},
     {"half_height", offsetof(tahr_config, shape) + offsetof(tahr_shape, half_height), REAL},
@@ -176,7 +192,9 @@ static int read_config(scene *s)
             memcpy(at, &word, sizeof word);
         }
     }
-    return tahr_config_check(&s->config, &field) == TAHR_OK ? 1 : bad(s, "rejected by tahr_config_check", field ? field : "?");
+    return tahr_config_check(&s->config, &field) == TAHR_OK
+               ? 1
+               : bad(s, "rejected by tahr_config_check", field ? field : "?");
 }
 
 /* "move": [x, y, z], or "heading": degrees from +x toward +y with "size" (1). */
@@ -268,8 +286,8 @@ int scene_read(scene *s, const char *path, int variant)
     snprintf(s->name, sizeof s->name, "%.*s", (int)strcspn(file, "."), file);
     s->root = load(path, s->error, sizeof s->error);
     s->expect = json_object_get(s->root, "expect");
-    return s->root && known_keys(s) && read_names(s, variant) && read_config(s) && scene_bodies_read(s) && read_start(s) &&
-           read_inputs(s) && read_rates(s);
+    return s->root && known_keys(s) && read_names(s, variant) && read_config(s) && scene_bodies_read(s) &&
+           read_start(s) && read_inputs(s) && read_rates(s);
 }
 
 void scene_free(scene *s)

@@ -19,7 +19,7 @@ typedef struct scene_input {
 typedef struct scene {
     char name[128]; /* file, and the values of what is varied */
     char error[256];
-    json_t *root;  /* owned */
+    json_t *root;   /* owned */
     json_t *expect; /* borrowed from root */
     scene_names names;
     tahr_config config;
@@ -35,7 +35,7 @@ typedef struct scene {
     int rate_count;
 } scene;
 
-/* How many scenes a file holds: one per combination of what it varies. -1: unreadable, error says why (capacity 256). */
+/* How many scenes a file holds: one per combination of what it varies. -1: unreadable, see error (capacity 256). */
 int scene_count(const char *path, char *error);
 
 /* Reads one of them. Returns 0 if it is malformed: s->error says why. Free it in both cases. */

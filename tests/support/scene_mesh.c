@@ -137,7 +137,8 @@ double scene_hills(double x, double y)
 void scene_mesh_box(scene_mesh *mesh, const double low[3], const double high[3])
 {
     /* Vertex k has bit 0, 1, 2 set where it lies high along x, y, z. */
-    static const uint32_t QUADS[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+    static const uint32_t QUADS[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                         {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     uint32_t base = mesh->vertex_count;
     for (uint32_t k = 0; k < 8; k++) {
         scene_mesh_vertex(mesh, k & 1 ? high[0] : low[0], k & 2 ? high[1] : low[1], k & 4 ? high[2] : low[2]);
@@ -169,7 +170,8 @@ void scene_mesh_playground(scene_mesh *mesh)
     static const double RISES[4] = {0.1, 0.2, 0.3, 0.4};
     scene_mesh_field(mesh, 40, 40, 1, NULL);
     for (int i = 0; i < 4; i++) {
-        scene_stairs stairs = {.n = 8, .rise = RISES[i] * 0.75, .run = 0.3, .width = 3, .bevel = i % 2 ? 0.03 : 0, .lead = 2};
+        scene_stairs stairs = {
+            .n = 8, .rise = RISES[i] * 0.75, .run = 0.3, .width = 3, .bevel = i % 2 ? 0.03 : 0, .lead = 2};
         uint32_t from = mesh->vertex_count;
         scene_mesh_stairs(mesh, &stairs);
         shift(mesh, from, -10, -12.0 + 6 * i, 0.001);

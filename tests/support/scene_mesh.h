@@ -15,15 +15,15 @@ typedef struct scene_mesh {
 
 typedef struct scene_stairs {
     int n;
-    double rise, run, width, bevel, lead; /* m; bevel cuts the edge at 45 degrees, lead is the floor before and behind */
+    double rise, run, width, bevel, lead; /* m; bevel cuts the edge at 45 degrees, lead: floor before and behind */
 } scene_stairs;
 
 void scene_mesh_free(scene_mesh *mesh);
 uint32_t scene_mesh_vertex(scene_mesh *mesh, double x, double y, double z);
 void scene_mesh_triangle(scene_mesh *mesh, uint32_t a, uint32_t b, uint32_t c);
 
-/* A line through (x, z) points, widened from y = -width/2 to width/2; faces the left hand of its direction: from left to
- * right it is a floor. */
+/* A line through (x, z) points, widened from y = -width/2 to width/2; faces the left hand of its direction: from left
+ * to right it is a floor. */
 void scene_mesh_profile(scene_mesh *mesh, const double (*points)[2], int count, double width);
 
 /* A line through (x, y) points seen from above, raised from z0 to z1; faces the left hand of its direction. */

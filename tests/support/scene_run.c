@@ -84,8 +84,12 @@ static double clearance(runner *run)
     const tahr_config *c = &run->scene->config;
     uint32_t count = 0;
     double nearest = 2 * c->skin;
-    tahr_contact_query query = {.shape = c->shape, .position = run->state.position, .up = run->state.up,
-                                .orientation = run->state.orientation, .margin = 2 * c->skin, .mask = c->mask,
+    tahr_contact_query query = {.shape = c->shape,
+                                .position = run->state.position,
+                                .up = run->state.up,
+                                .orientation = run->state.orientation,
+                                .margin = 2 * c->skin,
+                                .mask = c->mask,
                                 .ignore_body = TAHR_NO_BODY};
     if (tahr_world_contacts(run->world, &query, contacts, CONTACTS, &count) < 0) {
         return -1e9;

@@ -35,8 +35,12 @@ static int is_free(tahr_world *world, const tahr_config *config, const tahr_stat
 {
     tahr_contact contact;
     uint32_t count = 0;
-    tahr_contact_query query = {.shape = config->shape, .position = state->position, .up = state->up,
-                                .orientation = state->orientation, .margin = config->skin, .mask = config->mask,
+    tahr_contact_query query = {.shape = config->shape,
+                                .position = state->position,
+                                .up = state->up,
+                                .orientation = state->orientation,
+                                .margin = config->skin,
+                                .mask = config->mask,
                                 .ignore_body = TAHR_NO_BODY};
     return tahr_world_contacts(world, &query, &contact, 1, &count) == TAHR_OK && count == 0;
 }
@@ -45,8 +49,9 @@ static int is_free(tahr_world *world, const tahr_config *config, const tahr_stat
 static int ground(tahr_world *world, const tahr_config *config, tahr_vec3 from, double low, tahr_hit *hit)
 {
     uint32_t count = 0;
-    tahr_ray ray = {.origin = from, .motion = {0, 0, low - 1 - from.z}, .mask = config->mask, .ignore_body = TAHR_NO_BODY};
-    return ray.motion.z < 0 && tahr_world_ray(world, &ray, hit, &count) == TAHR_OK && count == 1;
+    double way = low - 1 - from.z;
+    tahr_ray ray = {.origin = from, .motion = {0, 0, way}, .mask = config->mask, .ignore_body = TAHR_NO_BODY};
+    return way < 0 && tahr_world_ray(world, &ray, hit, &count) == TAHR_OK && count == 1;
 }
 
 int scene_wander_spawn(tahr_world *world, const tahr_config *config, const tahr_bounds *bounds, uint64_t *seed,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * scene_wander.h: characters that wander: where they start and what they want, the same for the same seed everywhere. */
+ * scene_wander.h: characters that wander: where they start and what they want, the same for the same seed. */
 #ifndef TAHR_TEST_SCENE_WANDER_H
 #define TAHR_TEST_SCENE_WANDER_H
 
