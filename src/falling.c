@@ -52,10 +52,11 @@ static vec3 arc_at(const arc *a, double t, vec3 *velocity)
     return add_scaled(m.displacement, a->axis, rise);
 }
 
-/* s until the arc is highest; 0 if it is past that. */
+/* s until the arc is highest; 0 if it is past that. A rise of less than a nanosecond is the rounding of an apex that was
+ * met already. */
 static double apex_time(const arc *a)
 {
-    return a->rise > 0 && a->gravity > 0 ? a->hold + a->rise / a->gravity : 0;
+    return a->rise > 1e-9 * a->gravity && a->gravity > 0 ? a->hold + a->rise / a->gravity : 0;
 }
 
 /* A chord off the arc by at most arc_tolerance: |a| t^2 / 8. */

@@ -297,7 +297,6 @@ static int hold_at_ledge(tahr__step *step, walk *w)
     if (!floor_is_walkable(&floor)) {
         return tahr__decide(step, TAHR_RULE_LEDGE, 0, NULL, part, 0, "no floor on the way here");
     }
-    tahr__keep_floor(step, &floor);
     w->left = w->left_before - (w->left_before - w->left) * part;
     /* The contact with the edge leans outward: its level part is the wall that keeps the character in. */
     tahr__plane edge = {.normal = unit(scale(step_level(step, floor.normal), -1)),
@@ -307,6 +306,11 @@ static int hold_at_ledge(tahr__step *step, walk *w)
     if (length_squared(edge.normal) == 0) {
         edge.normal = unit(scale(step_level(step, w->wish), -1));
     }
+    /* A thousandth of a skin inward, so that going on along the edge does not lose the floor to rounding. */
+    tahr_hit hit;
+    tahr__move(step, scale(edge.normal, 1e-3 * step->config->skin), &hit);
+    tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+    tahr__keep_floor(step, &floor);
     tahr__planes_add(w->walls, &w->wall_count, &edge);
     bend(step, w);
     return tahr__decide(step, TAHR_RULE_LEDGE, 1, NULL, part, 1, "held at the ledge");
