@@ -54,6 +54,7 @@ typedef struct tahr__step {
     tahr_query_context context;
     vec3 gravity;       /* m/s2 */
     double time;        /* s since the start of the step */
+    double push_left;   /* m of depenetration still allowed */
     uint32_t queries;   /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
     tahr_status error;  /* sticky: after it every query answers "blocked here" */
 } tahr__step;

@@ -76,7 +76,7 @@ static double clearance(const tahr__step *step, const tahr_hit *hit, double rang
     }
     /* Closer than skin already: the way up that restores it, for slopes not steeper than 78 degrees. */
     double rate = max_of(dot(hit->normal, step->state.up), 0.2);
-    return skin - (skin - hit->distance) / rate;
+    return skin - (skin - max_of(hit->distance, 0)) / rate;
 }
 
 /* An upright capsule that moves along its own axis enters new space with its lower cap alone: a sphere there is the same

@@ -90,7 +90,6 @@ int tahr__depenetrate(tahr__step *step)
 {
     tahr_contact contacts[CONTACTS];
     double skin = step->config->skin;
-    double allowance = step->config->max_depenetration;
     vec3 start = step->state.position;
     uint32_t count = tahr__contacts(step, step->state.position, skin, contacts, CONTACTS);
     tahr_contact first;
@@ -100,12 +99,13 @@ int tahr__depenetrate(tahr__step *step)
         first = contacts[0];
     }
     double depth = deepest(contacts, count);
-    for (int round = 0; round < TAHR__DEPENETRATION_ROUNDS && depth > TOUCHING && allowance > 0; round++) {
+    for (int round = 0; round < TAHR__DEPENETRATION_ROUNDS && depth > TOUCHING && step->push_left > 0; round++) {
         vec3 push, before = step->state.position;
         int frees = joint_push(contacts, count, skin, &push);
         double size = length(push);
-        if (size > allowance) {
-            push = scale(push, allowance / size);
+        if (size > step->push_left) {
+            push = scale(push, step->push_left / size);
+            size = step->push_left;
         }
         if (frees) {
             push_out(step, push);
@@ -119,7 +119,7 @@ int tahr__depenetrate(tahr__step *step)
             break;
         }
         depth = now;
-        allowance -= min_of(size, allowance);
+        step->push_left -= size;
     }
     emit(step, start, depth, &first);
     return depth <= TOUCHING;

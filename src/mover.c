@@ -308,6 +308,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.context.cache = mover->cache;
     step.gravity = input->flags & TAHR_INPUT_GRAVITY ? input->gravity : mover->config.gravity;
     step.time = 0;
+    step.push_left = mover->config.max_depenetration;
     step.queries = 0;
     step.error = TAHR_OK;
     if (dt > 0) {

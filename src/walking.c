@@ -183,6 +183,9 @@ static vec3 along_floor(const walk *w, const tahr__step *step, vec3 level)
     }
     double size = length(level);
     vec3 lifted = add_scaled(level, step->state.up, rise + w->ease * size);
+    if (rise * rise > 1.5 * size * size) { /* steeper than 51 degrees is only walkable by an override, and never a bevel */
+        climb = rise;
+    }
     return scale(lifted, size / sqrt(size * size + climb * climb));
 }
 
