@@ -155,10 +155,12 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
     } else {
         sweep_down(step, &c->shape, range, &hit);
     }
-    if (hit.blocking && !hit.start_overlap && inside_rim(step, hit.point) < c->edge_tolerance) {
-        tahr__decide(step, TAHR_RULE_EDGE_TOLERANCE, 0, &hit, inside_rim(step, hit.point), c->edge_tolerance, "touches the rim");
+    double inside = hit.blocking ? inside_rim(step, hit.point) : 0;
+    if (hit.blocking && !hit.start_overlap && inside < c->edge_tolerance) {
+        tahr__decide(step, TAHR_RULE_EDGE_TOLERANCE, 0, &hit, inside, c->edge_tolerance, "touches the rim");
         tahr_shape inner = thinner(&c->shape, 2 * c->edge_tolerance);
         sweep_down(step, &inner, range, &hit);
+        inside = hit.blocking ? inside_rim(step, hit.point) : 0;
         flags |= TAHR_FLOOR_RIM;
     }
     if (!hit.blocking || step->error < 0) {
@@ -170,7 +172,7 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
     int surface = tahr__is_walkable(step, &hit, was_walkable(step, &hit));
     /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
     int on_face = dot(hit.normal, hit.surface_normal) > 1 - 1e-6;
-    int rim = inside_rim(step, hit.point) < c->perch_threshold + c->skin;
+    int rim = inside < c->perch_threshold + c->skin;
     int ok = surface && (on_face || !rim);
     if (!ok && rim && !hit.start_overlap) {
         ok = perches(step, reach, surface, floor);

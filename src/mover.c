@@ -13,6 +13,9 @@
 #include "turning.h"
 #include "walking.h"
 
+/* Bytes of a state that a step works on. */
+enum { USED = offsetof(tahr_state, reserved) };
+
 /* Slices shorter than this are rounding of the times of contacts. */
 static const double MIN_SLICE = 1e-9;
 
@@ -92,6 +95,16 @@ static const char *bad_input(const tahr_input *in)
     return in->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING) ? "input.flags" : NULL;
 }
 
+static int all_zero(const uint8_t tail[sizeof((tahr_state *)0)->reserved])
+{
+    uint64_t any = 0, words[8];
+    for (size_t at = 0; at < sizeof((tahr_state *)0)->reserved; at += sizeof words) {
+        memcpy(words, tail + at, sizeof words);
+        any |= (words[0] | words[1] | words[2] | words[3]) | (words[4] | words[5] | words[6] | words[7]);
+    }
+    return any == 0;
+}
+
 static const char *bad_state(const tahr_state *s)
 {
     tahr_quat q = s->orientation;
@@ -115,13 +128,7 @@ static const char *bad_state(const tahr_state *s)
     if (s->flags & ~flags) {
         return "state.flags";
     }
-    uint64_t tail = 0;
-    for (size_t at = 0; at < sizeof s->reserved; at += sizeof tail) {
-        uint64_t word;
-        memcpy(&word, s->reserved + at, sizeof word);
-        tail |= word;
-    }
-    if (tail) {
+    if (!all_zero(s->reserved)) {
         return "state.reserved";
     }
     int floor_ok = vec_is_finite(s->floor_position) && is_finite(s->floor.perch_distance) && vec_is_finite(s->floor.normal) && vec_is_finite(s->floor.surface_normal) && vec_is_finite(s->floor.point) &&
@@ -217,21 +224,30 @@ static void run(tahr__step *step, double dt)
     }
 }
 
+static void clean(vec3 *v)
+{
+    v->x += 0.0;
+    v->y += 0.0;
+    v->z += 0.0;
+}
+
 /* -0.0 and 0.0 are one number; a state holds only one of them, so that memcmp agrees with ==. */
 static void canonical(tahr_state *s)
 {
-    static const size_t ranges[][2] = {{offsetof(tahr_state, position), offsetof(tahr_state, mode)},
-                                       {offsetof(tahr_state, floor), offsetof(tahr_state, floor.flags)},
-                                       {offsetof(tahr_state, floor_position), offsetof(tahr_state, floor_revision)},
-                                       {offsetof(tahr_state, jump_hold), offsetof(tahr_state, reserved)}};
-    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++) {
-        for (size_t at = ranges[i][0]; at < ranges[i][1]; at += sizeof(double)) {
-            double number;
-            memcpy(&number, (const char *)s + at, sizeof number);
-            number += 0.0;
-            memcpy((char *)s + at, &number, sizeof number);
-        }
-    }
+    clean(&s->position);
+    clean(&s->velocity);
+    s->orientation.x += 0.0;
+    s->orientation.y += 0.0;
+    s->orientation.z += 0.0;
+    s->orientation.w += 0.0;
+    clean(&s->up);
+    clean(&s->floor.normal);
+    clean(&s->floor.surface_normal);
+    clean(&s->floor.point);
+    clean(&s->floor_position);
+    s->floor.distance += 0.0;
+    s->floor.perch_distance += 0.0;
+    s->jump_hold += 0.0;
 }
 
 static tahr_status worst(uint32_t flags)
@@ -302,7 +318,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.limits = &mover->limits;
     step.world = mover->world;
     step.input = *input;
-    step.state = *state;
+    memcpy(&step.state, state, USED); /* the tail is zero on both sides of a step, and stays where it is */
     start_report(&step.report, report);
     memset(&step.context, 0, sizeof step.context);
     step.context.cache = mover->cache;
@@ -320,7 +336,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         }
         canonical(&step.state);
         detect_stuck(&step, state);
-        *state = step.state;
+        memcpy(state, &step.state, USED);
     }
     finish_report(&step);
     if (report) {

@@ -121,6 +121,9 @@ static void wish_phase(const tahr__law *law, vec3 v, double t, tahr__motion *m)
     double q = length(across);
     vec3 side = q > 0 ? scale(across, 1.0 / q) : vec(0, 0, 0);
     q = min_of(q, speed); /* more is only rounding: over-speed was braked before */
+    if (q < 1e-15 * speed) { /* and so is a part across the wish of less than half a unit in the last place */
+        q = 0;
+    }
     p = min_of(p, sqrt(max_of(speed * speed - q * q, 0)));
     double e = q > 0 ? tahr__expm1(-f * t) : 0;
     double q1 = q * (1 + e);

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT
+ * path.c: the path of one slice of walking: closed-form pieces, bent by walls, lifted onto ramps and steps. */
+#include "path.h"
+
+#include "floor.h"
+#include "move.h"
+#include "query.h"
+#include "report.h"
+#include "slide.h"
+#include "step_up.h"
+
+/* The velocity asked for, and how it is approached. Along walls what they leave of it is asked for: pushing slantwise into
+ * a wall is walking along it at the wish's part along it, at every rate. */
+static tahr__law law_of(const tahr__step *step, const tahr__plane *walls, uint32_t wall_count)
+{
+    const tahr_config *c = step->config;
+    vec3 wish = step_level(step, step->input.move);
+    double size = length(wish);
+    double asked = c->max_speed * min_of(size, 1);
+    wish = tahr__slide(walls, wall_count, wish);
+    double kept = size > 0 ? length(wish) / size : 0; /* cosine to the wall: of the speed and of the acceleration */
+    size *= kept;
+    tahr__law law = {.speed = asked * kept,
+                     .acceleration = c->acceleration * kept,
+                     .turn_friction = c->turn_friction,
+                     .braking = c->braking_deceleration,
+                     .drag = c->braking_drag};
+    if (size > 0) {
+        law.wish = scale(wish, 1.0 / size);
+    }
+    return law;
+}
+
+/* Ramps are not merged as walls are: two faces that differ by a hair both carry, and the steeper one decides. */
+static void carry(tahr__path *w, vec3 normal)
+{
+    w->ramps[w->ramp_count++] = normal;
+}
+
+void tahr__path_carry_floor(tahr__path *w, const tahr__step *step)
+{
+    const tahr_floor *floor = &step->state.floor;
+    w->ramp_count = 0;
+    if (floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE)) {
+        carry(w, floor->surface_normal);
+    }
+}
+
+/* Begins a piece with the velocity that the walls leave. */
+static void begin_piece(tahr__step *step, tahr__path *w, vec3 velocity, double duration)
+{
+    w->law = law_of(step, w->walls, w->wall_count);
+    w->velocity = tahr__slide(w->walls, w->wall_count, velocity);
+    w->duration = duration;
+    tahr__motion m = tahr__law_advance(&w->law, w->velocity, duration);
+    w->wish = m.displacement;
+    w->left = w->left_before = 1;
+    w->stop_time = m.stop_time >= 0 ? w->began + m.stop_time : -1;
+    w->from = step->state.position;
+    step->state.velocity = m.velocity;
+}
+
+/* The plane arrays are left as they are: only what is counted is read. */
+void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
+{
+    w->began = 0;
+    w->wall_count = 0;
+    w->ease = 0;
+    tahr__path_carry_floor(w, step);
+    w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
+    begin_piece(step, w, step_level(step, step->state.velocity), duration);
+}
+
+/* s of the piece at which a part of its displacement is covered, measured along the whole of it. The speed changes on the
+ * way, so the part of the time is not the part of the way: Newton, held within the piece, from the root for a constant
+ * acceleration (from rest the rate at a small part is nearly 0, and any other guess halves its way down): 6 rounds reach
+ * rounding. */
+static double time_of_part(const tahr__path *w, double part)
+{
+    const double touched = 1e-5; /* m: a thousandth of the skin, above the sweep error of every exact backend */
+    double low = 0, high = w->duration, size2 = length_squared(w->wish);
+    if (part <= 0 || part >= 1 || size2 == 0) {
+        return part <= 0 ? 0 : high;
+    }
+    double rate0 = dot(w->velocity, w->wish) / size2;
+    if (rate0 < 0 && part * part * size2 <= touched * touched) {
+        return 0; /* turns round first, and passes here again later: what is met at once was touched at the begin */
+    }
+    double gain = (1 - rate0 * high) / (high * high);
+    double root = sqrt(max_of(rate0 * rate0 + 4 * gain * part, 0));
+    double t = rate0 >= 0 ? 2 * part / (rate0 + root) : (root - rate0) / (2 * gain);
+    t = t >= 0 && t <= high ? t : part * high;
+    for (int i = 0; i < 6; i++) {
+        tahr__motion m = tahr__law_advance(&w->law, w->velocity, t);
+        double excess = dot(m.displacement, w->wish) / size2 - part;
+        double rate = dot(m.velocity, w->wish) / size2;
+        *(excess > 0 ? &high : &low) = t;
+        double next = rate > 0 ? t - excess / rate : 0.5 * (low + high);
+        next = next >= low && next <= high ? next : 0.5 * (low + high);
+        if (next == t) {
+            break;
+        }
+        t = next;
+    }
+    return t;
+}
+
+double tahr__path_used(const tahr__path *w)
+{
+    return time_of_part(w, 1 - w->left);
+}
+
+void tahr__path_bend(tahr__step *step, tahr__path *w)
+{
+    double used = tahr__path_used(w);
+    tahr__motion m = tahr__law_advance(&w->law, w->velocity, used);
+    w->began += used;
+    begin_piece(step, w, m.velocity, w->duration - used);
+}
+
+/* The bevelled edge of a step is no slope to slow down on. On a slope the contact lies up to 0.25 m off the axis: if the
+ * ground half-way between them is not in the plane of the contact, the face is smaller than that. Below 15 degrees a bevel
+ * costs 3 % of its own width and is not looked at. One ray. */
+void tahr__path_find_slope(tahr__path *w, tahr__step *step)
+{
+    const double steep = 0.966;
+    const tahr_floor *floor = &step->state.floor;
+    vec3 up = step->state.up;
+    tahr_hit hit;
+    if (dot(w->slope, up) > steep) {
+        return;
+    }
+    vec3 half_way = add_scaled(step->state.position, step_level(step, sub(floor->point, step->state.position)), 0.5);
+    tahr__ray(step, half_way, scale(up, -(step->config->shape.half_height + step->config->snap_distance)), &hit);
+    double off = dot(w->slope, sub(hit.point, floor->point));
+    int same = hit.blocking && dot(w->slope, hit.surface_normal) > 0.99 && off < step->config->skin && off > -step->config->skin;
+    if (!same) {
+        w->slope = up;
+    }
+}
+
+/* Lifts a level displacement onto all faces that carry, with its length along the slope that sets the speed. */
+static vec3 along_floor(const tahr__path *w, const tahr__step *step, vec3 level)
+{
+    double rise = -INFINITY;
+    if (w->ramp_count == 0) {
+        return level;
+    }
+    for (uint32_t i = 0; i < w->ramp_count; i++) {
+        double r = -dot(w->ramps[i], level) / dot(w->ramps[i], step->state.up);
+        rise = max_of(rise, r);
+    }
+    double climb = dot(w->slope, level) / dot(w->slope, step->state.up);
+    if (rise == 0 && w->ease == 0 && climb == 0) {
+        return level;
+    }
+    double size = length(level);
+    vec3 lifted = add_scaled(level, step->state.up, rise + w->ease * size);
+    if (rise * rise > 1.5 * size * size) { /* steeper than 51 degrees is only walkable by an override, and never a bevel */
+        climb = rise;
+    }
+    return scale(lifted, size / sqrt(size * size + climb * climb));
+}
+
+/* A walkable face in the way: go on along it. Its contact normal must be walkable too; the lip of a step is not a ramp. */
+static int take_ramp(tahr__step *step, tahr__path *w, const tahr_hit *hit)
+{
+    double up = dot(hit->normal, step->state.up), limit = tahr__walkable_limit(step, hit, 0);
+    if (up < limit || !tahr__is_walkable(step, hit, 0)) {
+        return tahr__decide(step, TAHR_RULE_RAMP, 0, hit, up, limit, "too steep to go on along");
+    }
+    for (uint32_t i = 0; i < w->ramp_count; i++) {
+        if (dot(w->ramps[i], hit->normal) > 1 - 1e-14) { /* rounding touched it again: keep off a little more each time */
+            w->ease = w->ease > 0 ? 10 * w->ease : 1e-9;
+            return tahr__decide(step, TAHR_RULE_RAMP, 1, hit, up, w->ease, "going along it already");
+        }
+    }
+    if (w->ramp_count < TAHR__MAX_PLANES) {
+        carry(w, hit->normal);
+    }
+    return tahr__decide(step, TAHR_RULE_RAMP, 1, hit, up, limit, "a walkable face");
+}
+
+/* A step is taken half a foot at a time, so that a long slice climbs one tread after the other. */
+static int take_step(tahr__step *step, tahr__path *w, vec3 level, const tahr_hit *hit)
+{
+    double stride = min_of(1, 0.5 * step->limits->width / length(level));
+    double covered = tahr__step_up(step, scale(level, stride), hit);
+    if (covered <= 0) {
+        return 0;
+    }
+    w->left *= 1 - covered * stride;
+    w->wall_count = 0; /* what stood beside the foot below need not stand here */
+    tahr__path_carry_floor(w, step);
+    w->from = step->state.position;
+    w->left_before = w->left;
+    return 1;
+}
+
+static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
+{
+    tahr__plane wall = tahr__plane_of(step, hit);
+    vec3 floor_normal = w->ramp_count ? w->ramps[0] : step->state.up;
+    double used = tahr__path_used(w);
+    vec3 velocity = tahr__law_advance(&w->law, w->velocity, used).velocity;
+    tahr__event(step, TAHR_EVENT_HIT, w->began + used, hit, max_of(-dot(velocity, hit->normal), 0));
+    step->report.slides++;
+    if (!tahr__level_wall(step, floor_normal, &wall)) {
+        return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");
+    }
+    tahr__planes_add(w->walls, &w->wall_count, &wall);
+    tahr__path_bend(step, w);
+    return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(wall.normal, step->state.up), 0, "slides along");
+}
+
+/* Walks the wish, bending it as things are met. */
+void tahr__path_walk(tahr__step *step, tahr__path *w)
+{
+    tahr_hit hit;
+    for (uint32_t i = 0; i < step->config->max_slides && w->left > 0 && step->error >= 0; i++) {
+        vec3 level = tahr__slide(w->walls, w->wall_count, scale(w->wish, w->left));
+        if (length_squared(level) == 0) {
+            return;
+        }
+        vec3 motion = along_floor(w, step, level);
+        w->from = step->state.position;
+        w->left_before = w->left;
+        tahr__move(step, motion, &hit);
+        w->left *= hit.blocking ? 1 - hit.fraction : 0;
+        if (!hit.blocking || hit.unknown || hit.start_overlap) {
+            return;
+        }
+        tahr__planes_forget(step, w->walls, &w->wall_count);
+        if (take_ramp(step, w, &hit)) {
+            continue;
+        }
+        level = tahr__slide(w->walls, w->wall_count, scale(w->wish, w->left));
+        if (length_squared(level) > 0 && take_step(step, w, level, &hit)) {
+            continue;
+        }
+        if (!take_wall(step, w, &hit)) {
+            step->state.velocity = vec(0, 0, 0);
+            return;
+        }
+    }
+}

@@ -1,0 +1,47 @@
+/* SPDX-License-Identifier: MIT
+ * path.h: the path of one slice of walking: closed-form pieces, bent by walls, lifted onto ramps and steps. */
+#ifndef TAHR_PATH_H
+#define TAHR_PATH_H
+
+#include "core.h"
+
+/* Where a slice is: the piece of it that is under way, and what has been met. A piece is one closed-form motion; a wall
+ * ends it and begins the next. */
+typedef struct tahr__path {
+    tahr__law law;
+    vec3 velocity;   /* at the begin of the piece */
+    double began;    /* s from the begin of the slice */
+    double duration; /* s of the piece, if nothing ends it */
+    vec3 wish;       /* level displacement of the whole piece */
+    double left;     /* part of it not yet covered */
+    double stop_time; /* s from the begin of the slice at which the character stops; < 0: it does not */
+    tahr__plane walls[TAHR__MAX_PLANES];
+    uint32_t wall_count;
+    vec3 ramps[TAHR__MAX_PLANES]; /* normals of the walkable faces that carry */
+    uint32_t ramp_count;
+    vec3 slope;  /* normal of the ground that sets the speed */
+    double ease; /* rise per metre that keeps rounding from pointing into a ramp */
+    vec3 from;   /* the last straight piece of the way, to find the place where a floor ended */
+    double left_before;
+} tahr__path;
+
+/* Starts a path of `duration` seconds at the state's position and velocity. No query. */
+void tahr__path_begin(tahr__step *step, tahr__path *w, double duration);
+
+/* Looks at the ground that sets the speed, where the floor is steep. 0 or 1 ray. */
+void tahr__path_find_slope(tahr__path *w, tahr__step *step);
+
+/* Goes along the path until its end, or until nothing of it is left. At most max_slides sweeps, and what the steps in
+ * the way ask. */
+void tahr__path_walk(tahr__step *step, tahr__path *w);
+
+/* s of the present piece that are used up where the path is now. No query. */
+double tahr__path_used(const tahr__path *w);
+
+/* A wall was added to the set: the rest of the slice is a piece of its own. No query. */
+void tahr__path_bend(tahr__step *step, tahr__path *w);
+
+/* Takes the state's floor as the ramp that carries. No query. */
+void tahr__path_carry_floor(tahr__path *w, const tahr__step *step);
+
+#endif
