@@ -65,7 +65,12 @@ static tahr_status contacts(void *self, tahr_query_context *context, const tahr_
         context->narrow_tests++;
         memset(out, 0, capacity * sizeof out[0]);
         tahr_status status = user->contacts(user->user, query, out, capacity, count);
-        return status < 0 ? status : TAHR_OK;
+        for (uint32_t i = 0; i < *count && i < capacity; i++) {
+            if (length_squared(out[i].surface_normal) == 0) {
+                out[i].surface_normal = out[i].normal;
+            }
+        }
+        return status < 0 || status == TAHR_TRUNCATED ? status : TAHR_OK;
     }
     tahr_sweep q = {.shape = query->shape,
                     .position = query->position,
@@ -104,6 +109,9 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
         if (length_squared(hit->surface_normal) == 0) {
             hit->surface_normal = hit->normal;
         }
+        if (length_squared(hit->point) == 0) {
+            hit->point = add_scaled(query->origin, query->motion, hit->fraction);
+        }
         return status < 0 ? status : TAHR_OK;
     }
     tahr_sweep q = {.shape = {TAHR_SHAPE_SPHERE, 0, 0.001, 0.001, 0, 0}, /* thin enough to stand for a ray */
@@ -113,7 +121,9 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
                     .motion = query->motion,
                     .mask = query->mask,
                     .ignore_body = query->ignore_body};
-    return sweep(self, context, &q, hit, 1, count);
+    tahr_status status = sweep(self, context, &q, hit, 1, count);
+    *count = hit->blocking != 0;
+    return status;
 }
 
 const tahr_backend tahr__callbacks_backend = {

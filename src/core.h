@@ -53,7 +53,8 @@ typedef struct tahr__step {
     tahr_report report;
     tahr_query_context context;
     vec3 gravity;       /* m/s2 */
-    double time;        /* s since the start of the step */
+    double time;        /* s since the start of the step, at the begin of the slice */
+    double ahead;       /* s from there to what is being worked on: events happen then */
     double push_left;   /* m of depenetration still allowed */
     uint32_t queries;   /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
     tahr_status error;  /* sticky: after it every query answers "blocked here" */

@@ -125,7 +125,7 @@ static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
 static tahr__next land(tahr__step *step, const tahr_hit *hit, const tahr_floor *floor, double left)
 {
     double speed = -dot(step->state.velocity, step->state.up);
-    tahr__event(step, TAHR_EVENT_LANDED, 0, hit, max_of(speed, 0));
+    tahr__event(step, TAHR_EVENT_LANDED, hit, max_of(speed, 0));
     step->state.velocity = step_level(step, step->state.velocity);
     step->state.flags &= ~(uint32_t)TAHR_STATE_JUMPING;
     step->state.jump_hold = 0;
@@ -198,7 +198,7 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         if (f->plane_count == 0) { /* exactly zero, so that the apex is met once */
             step->state.velocity = add_scaled(step->state.velocity, a.axis, -dot(step->state.velocity, a.axis));
         }
-        tahr__event(step, TAHR_EVENT_APEX, 0, NULL, 0);
+        tahr__event(step, TAHR_EVENT_APEX, NULL, 0);
         step->state.flags &= ~(uint32_t)TAHR_STATE_JUMPING;
     }
     return met;
@@ -233,7 +233,7 @@ tahr__next tahr__fall(tahr__step *step, double time)
         }
         tahr__plane plane = tahr__plane_of(step, &hit);
         double speed = max_of(-dot(step->state.velocity, hit.normal), 0);
-        tahr__event(step, TAHR_EVENT_HIT, 0, &hit, speed);
+        tahr__event(step, TAHR_EVENT_HIT, &hit, speed);
         tahr__planes_add(f.planes, &f.plane_count, &plane);
         step->state.velocity = slide_in_air(step, &f, step->state.velocity);
         step->report.slides++;

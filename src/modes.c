@@ -39,13 +39,15 @@ void tahr__change_mode(tahr__step *step, uint32_t mode)
 {
     if (step->state.mode != mode) {
         step->state.mode = mode;
-        tahr__event(step, TAHR_EVENT_MODE, 0, NULL, mode);
+        tahr__event(step, TAHR_EVENT_MODE, NULL, mode);
     }
 }
 
 double tahr__run_mode(tahr__step *step, double time)
 {
+    step->ahead = 0;
     tahr__next next = modes[step->state.mode].run(step, time);
+    step->ahead = 0; /* a mode has moved step->time to where it ended */
     tahr__change_mode(step, next.mode);
     return next.time_left;
 }

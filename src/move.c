@@ -76,12 +76,12 @@ static void emit(tahr__step *step, vec3 start, double residual, const tahr_conta
     hit.point = contact->point;
     double moved = length(sub(step->state.position, start));
     if (moved > 0) {
-        tahr__event(step, TAHR_EVENT_DEPENETRATED, 0, &hit, moved);
+        tahr__event(step, TAHR_EVENT_DEPENETRATED, &hit, moved);
     }
     if (residual > TOUCHING) {
         step->report.flags |= TAHR_REPORT_CRUSHED;
         step->report.residual = max_of(step->report.residual, residual);
-        tahr__event(step, TAHR_EVENT_CRUSHED, 0, &hit, residual);
+        tahr__event(step, TAHR_EVENT_CRUSHED, &hit, residual);
     }
     tahr__decide(step, TAHR_RULE_DEPENETRATION, residual <= TOUCHING, &hit, residual, TOUCHING, "depth left after the joint push");
 }

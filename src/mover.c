@@ -92,6 +92,9 @@ static const char *bad_input(const tahr_input *in)
     if ((in->flags & TAHR_INPUT_GRAVITY) && !(vec_is_finite(in->gravity) && length(in->gravity) <= 1e4)) {
         return "input.gravity";
     }
+    if (in->reserved) {
+        return "input.reserved";
+    }
     return in->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING) ? "input.flags" : NULL;
 }
 
@@ -201,8 +204,8 @@ static void begin_jump(tahr__step *step)
     s->jump_hold = step->config->jump_hold_time;
     s->flags |= TAHR_STATE_JUMPING;
     s->floor_revision = 0;
-    tahr__event(step, TAHR_EVENT_JUMPED, 0, NULL, step->config->jump_speed);
-    tahr__event(step, TAHR_EVENT_LEFT_GROUND, 0, NULL, 0);
+    tahr__event(step, TAHR_EVENT_JUMPED, NULL, step->config->jump_speed);
+    tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
     tahr__decide(step, TAHR_RULE_JUMP, 1, NULL, step->config->jump_speed, 0, "button went down on ground");
     tahr__change_mode(step, TAHR_MODE_FALLING);
 }
@@ -220,7 +223,7 @@ static void run(tahr__step *step, double dt)
         left = tahr__run_mode(step, left);
     }
     if (left > MIN_SLICE) {
-        step->report.time_lost = left;
+        step->report.time_lost += left;
     }
 }
 
@@ -296,7 +299,7 @@ static void detect_stuck(tahr__step *step, const tahr_state *before)
     int moved = !vec_equal(step->state.position, before->position);
     if (wanted && !moved && (step->report.flags & (TAHR_REPORT_CRUSHED | TAHR_REPORT_UNKNOWN))) {
         step->report.flags |= TAHR_REPORT_STUCK;
-        tahr__event(step, TAHR_EVENT_STUCK, 0, NULL, 0);
+        tahr__event(step, TAHR_EVENT_STUCK, NULL, 0);
     }
 }
 
@@ -324,6 +327,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.context.cache = mover->cache;
     step.gravity = input->flags & TAHR_INPUT_GRAVITY ? input->gravity : mover->config.gravity;
     step.time = 0;
+    step.ahead = 0;
     step.push_left = mover->config.max_depenetration;
     step.queries = 0;
     step.error = TAHR_OK;

@@ -203,7 +203,8 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
     vec3 floor_normal = w->ramp_count ? w->ramps[0] : step->state.up;
     double used = tahr__path_used(w);
     vec3 velocity = tahr__law_advance(&w->law, w->velocity, used).velocity;
-    tahr__event(step, TAHR_EVENT_HIT, w->began + used, hit, max_of(-dot(velocity, hit->normal), 0));
+    step->ahead = w->began + used;
+    tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(velocity, hit->normal), 0));
     step->report.slides++;
     if (!tahr__level_wall(step, floor_normal, &wall)) {
         return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");
@@ -214,6 +215,13 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
 }
 
 /* Walks the wish, bending it as things are met. */
+void tahr__path_look_ahead(tahr__step *step, const tahr__path *w)
+{
+    if (step->report.events) { /* else nobody asks */
+        step->ahead = w->began + tahr__path_used(w);
+    }
+}
+
 void tahr__path_walk(tahr__step *step, tahr__path *w)
 {
     tahr_hit hit;
@@ -227,9 +235,13 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         w->left_before = w->left;
         tahr__move(step, motion, &hit);
         w->left *= hit.blocking ? 1 - hit.fraction : 0;
-        if (!hit.blocking || hit.unknown || hit.start_overlap) {
+        if (!hit.blocking) {
             return;
         }
+        if (hit.unknown || hit.start_overlap) {
+            break;
+        }
+        tahr__path_look_ahead(step, w);
         tahr__planes_forget(step, w->walls, &w->wall_count);
         if (take_ramp(step, w, &hit)) {
             continue;
@@ -243,4 +255,5 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
             return;
         }
     }
+    step->report.time_lost += w->duration - tahr__path_used(w);
 }

@@ -38,6 +38,9 @@ void tahr__path_walk(tahr__step *step, tahr__path *w);
 /* s of the present piece that are used up where the path is now. No query. */
 double tahr__path_used(const tahr__path *w);
 
+/* Events from here on happen where the path is now. No query. */
+void tahr__path_look_ahead(tahr__step *step, const tahr__path *w);
+
 /* A wall was added to the set: the rest of the slice is a piece of its own. No query. */
 void tahr__path_bend(tahr__step *step, tahr__path *w);
 

@@ -210,7 +210,7 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
         blocked_here(step, hit);
         return;
     }
-    if (count == 0 || !(hit->blocking || hit->start_overlap)) {
+    if (count == 0 || !(hit->blocking || hit->start_overlap || hit->unknown)) {
         memset(hit, 0, sizeof *hit);
         hit->fraction = 1;
         hit->body = TAHR_NO_BODY;
@@ -219,8 +219,11 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
     hit->blocking = 1;
     if (hit->unknown) {
         step->report.flags |= TAHR_REPORT_UNKNOWN;
-        if (!is_unit(hit->normal)) { /* nothing is known of what is there: treat it as a wall in the way */
+        if (!is_unit(hit->normal) || !is_unit(hit->surface_normal)) { /* treat what is not known as a wall in the way */
             hit->normal = hit->surface_normal = unit(scale(motion, -1));
+        }
+        if (!vec_is_finite(hit->point)) {
+            hit->point = add_scaled(from, motion, hit->fraction);
         }
     }
 }
@@ -305,7 +308,7 @@ static const char *bad_placement(const tahr_shape *shape, vec3 position, vec3 up
     if (!(length_squared(up) > 1 - 1e-9 && length_squared(up) < 1 + 1e-9)) {
         return "up";
     }
-    if (!(q2 > 1 - 1e-9 && q2 < 1 + 1e-9)) {
+    if (!(q2 > 1 - 1e-9 && q2 < 1 + 1e-9) || !(dot(rotate(q, vec(0, 0, 1)), up) > 1 - 1e-6)) {
         return "orientation";
     }
     return margin >= 0 && margin <= 1e4 ? NULL : "margin";
@@ -328,8 +331,8 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     if (!bad && !(vec_is_finite(query->motion) && length(query->motion) <= 1e6)) {
         bad = "motion";
     }
-    if (!bad && query->flags & ~(uint32_t)TAHR_SWEEP_LEAVE_OVERLAP) {
-        bad = "flags";
+    if (!bad && (query->flags & ~(uint32_t)TAHR_SWEEP_LEAVE_OVERLAP || query->reserved)) {
+        bad = query->reserved ? "reserved" : "flags";
     }
     if (bad || capacity == 0) {
         return bad_argument(world, "tahr_world_sweep", bad ? bad : "capacity");
@@ -356,8 +359,8 @@ tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *que
         return TAHR_E_NULL;
     }
     const char *bad = bad_placement(&query->shape, query->position, query->up, query->orientation, query->margin);
-    if (!bad && query->flags) {
-        bad = "flags";
+    if (!bad && (query->flags || query->reserved)) {
+        bad = query->reserved ? "reserved" : "flags";
     }
     if (bad) {
         return bad_argument(world, "tahr_world_contacts", bad);

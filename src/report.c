@@ -2,7 +2,7 @@
  * report.c: writing events and decisions into the caller's arrays; what does not fit is counted. */
 #include "report.h"
 
-void tahr__event(tahr__step *step, uint32_t type, double later, const tahr_hit *hit, double value)
+void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double value)
 {
     tahr_report *r = &step->report;
     if (!r->events) {
@@ -17,7 +17,7 @@ void tahr__event(tahr__step *step, uint32_t type, double later, const tahr_hit *
                         .body = hit ? hit->body : TAHR_NO_BODY,
                         .feature = hit ? hit->feature : 0,
                         .surface = hit ? hit->surface : 0,
-                        .time = step->time + later,
+                        .time = step->time + step->ahead,
                         .value = value,
                         .position = step->state.position};
     if (hit) {

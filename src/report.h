@@ -5,8 +5,8 @@
 
 #include "core.h"
 
-/* Appends an event at step->time plus `later` seconds; hit may be NULL. */
-void tahr__event(tahr__step *step, uint32_t type, double later, const tahr_hit *hit, double value);
+/* Appends an event at step->time + step->ahead; hit may be NULL. */
+void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double value);
 
 /* Appends a decision to the trace, if the caller asked for one; hit may be NULL. Returns accepted. */
 int tahr__decide(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value, double limit, const char *reason);

@@ -7,6 +7,9 @@
 #include <string.h>
 #include <tahr/abi.h>
 
+/* Bytes by which a newer header's struct may be longer. More is garbage, and is not read. */
+#define TAHR__MOST_UNKNOWN 4096u
+
 static inline tahr_status tahr__sized_check(const void *object, size_t known)
 {
     uint32_t size;
@@ -14,7 +17,7 @@ static inline tahr_status tahr__sized_check(const void *object, size_t known)
         return TAHR_E_NULL;
     }
     memcpy(&size, object, sizeof size);
-    if (size < known) {
+    if (size < known || size > known + TAHR__MOST_UNKNOWN) {
         return TAHR_E_STRUCT_SIZE;
     }
     for (size_t i = known; i < size; i++) {

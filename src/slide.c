@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * slide.c: bending a motion along everything that was touched. */
+ * slide.c: bending a motion along everything that was touched.
+ *
+ * The set of planes grows by what sweeps run into and by nothing else. Asking for the contacts around would bring the
+ * tilted planes of edges that are near but not in the way, which as planes block what the edges themselves let pass. */
 #include "slide.h"
 
 vec3 tahr__slide(const tahr__plane *planes, uint32_t count, vec3 motion)

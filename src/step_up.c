@@ -128,7 +128,7 @@ double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
     step->report.step_offset += gain;
     tahr__decide(step, TAHR_RULE_STEP_UP, 1, &a.landing, gain, c->step_height, "landed");
     if (a.rise > c->skin) { /* not again while the foot rolls over the same edge */
-        tahr__event(step, TAHR_EVENT_STEPPED_UP, 0, &a.landing, a.rise);
+        tahr__event(step, TAHR_EVENT_STEPPED_UP, &a.landing, a.rise);
     }
     return a.covered;
 }

@@ -24,7 +24,12 @@ void tahr__right(tahr__step *step)
     s->up = up;
     s->position = add_scaled(foot, up, step->config->shape.half_height);
     s->floor_revision = 0;
-    if (tahr__contacts(step, s->position, 0, &contact, 1) > 0 && contact.distance < 0) {
+    /* Asked before the announcement: the cache still belongs to another step, perhaps of another character. */
+    void *cache = step->context.cache;
+    step->context.cache = NULL;
+    uint32_t touched = tahr__contacts(step, s->position, 0, &contact, 1);
+    step->context.cache = cache;
+    if (touched > 0 && contact.distance < 0) {
         *s = before;
         step->report.flags |= TAHR_REPORT_UP_REFUSED;
     }

@@ -38,7 +38,8 @@ static tahr__next fall_off(tahr__step *step, tahr__path *w, vec3 to, double part
     tahr__keep_floor(step, &none);
     step->state.floor_revision = 0;
     step->time += w->began + used;
-    tahr__event(step, TAHR_EVENT_LEFT_GROUND, 0, NULL, 0);
+    step->ahead = 0;
+    tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
     tahr__next next = {TAHR_MODE_FALLING, w->duration - used};
     return next;
 }
@@ -49,7 +50,7 @@ static void settle(tahr__step *step)
     double height = tahr__adjust_height(step);
     step->report.step_offset += height;
     if (height < -2 * step->config->skin) {
-        tahr__event(step, TAHR_EVENT_STEPPED_DOWN, 0, NULL, -height);
+        tahr__event(step, TAHR_EVENT_STEPPED_DOWN, NULL, -height);
         tahr__decide(step, TAHR_RULE_STEP_DOWN, 1, NULL, -height, step->config->snap_distance, "floor followed down");
     }
 }
@@ -73,7 +74,7 @@ static tahr__next stand(tahr__step *step, double time, int looked)
     }
     tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
     if (!floor_is_walkable(&floor)) {
-        tahr__event(step, TAHR_EVENT_LEFT_GROUND, 0, NULL, 0);
+        tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
         tahr__keep_floor(step, &floor);
         tahr__next fall = {TAHR_MODE_FALLING, time};
         return fall;
@@ -115,8 +116,9 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
             return 0;
         }
         tahr__keep_floor(step, &floor);
-        settle(step);
         w->left = w->left_before - (w->left_before - w->left) * inside;
+        tahr__path_look_ahead(step, w);
+        settle(step);
         tahr__path_carry_floor(w, step);
     }
     return 1;
@@ -133,7 +135,7 @@ tahr__next tahr__walk(tahr__step *step, double time)
     }
     if (!floor_is_walkable(&step->state.floor)) {
         tahr__next fall = {TAHR_MODE_FALLING, time};
-        tahr__event(step, TAHR_EVENT_LEFT_GROUND, 0, NULL, 0);
+        tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
         return fall;
     }
     double part = 1;
@@ -145,10 +147,12 @@ tahr__next tahr__walk(tahr__step *step, double time)
     if (!walk_over_floor(step, &w, &part)) {
         return fall_off(step, &w, step->state.position, part);
     }
-    settle(step);
     if (w.stop_time >= 0) {
-        tahr__event(step, TAHR_EVENT_STOPPED, w.stop_time, NULL, 0);
+        step->ahead = w.stop_time;
+        tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);
     }
+    step->ahead = time;
+    settle(step);
     step->time += time;
     tahr__next next = {TAHR_MODE_WALKING, 0};
     return next;

@@ -1,17 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * world.c: a scene behind one backend: opening, checking, placing bodies, closing. */
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "callbacks.h"
 #include "core.h"
 #include "float_mode.h"
 #include "message.h"
+#include "scene.h"
 #include "sized.h"
 #include "world_memory.h"
-
-static const double FARTHEST = 1e7; /* m: double still resolves 2e-9 m there */
 
 tahr_status tahr_world_desc_init(tahr_world_desc *desc, size_t size)
 {
@@ -45,71 +42,6 @@ tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint32_t type
 static void silent(void *user, int32_t level, const char *message)
 {
     (void)user, (void)level, (void)message;
-}
-
-static const char *bad_pose(const tahr_pose *pose, int zero_is_identity)
-{
-    tahr_quat q = pose->orientation;
-    double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
-    if (!vec_is_finite(pose->position) || length(pose->position) > FARTHEST) {
-        return "pose.position";
-    }
-    return (zero_is_identity && q2 == 0) || (q2 > 1 - 1e-6 && q2 < 1 + 1e-6) ? NULL : "pose.orientation";
-}
-
-static int is_size(double x)
-{
-    return x >= 1e-6 && x <= 1e6;
-}
-
-static const char *bad_body(const tahr_body_desc *b)
-{
-    const char *pose = bad_pose(&b->pose, 1);
-    if (pose) {
-        return pose;
-    }
-    if (b->flags & ~(uint32_t)(TAHR_BODY_SENSOR | TAHR_BODY_TWO_SIDED | TAHR_BODY_MOVABLE)) {
-        return "flags";
-    }
-    if (b->walkable_rule > TAHR_WALKABLE_NEVER || !is_finite(b->walkable_angle)) {
-        return "walkable_rule";
-    }
-    switch (b->type) {
-    case TAHR_BODY_MESH:
-        return b->vertices && b->indices ? NULL : "vertices or indices";
-    case TAHR_BODY_BOX:
-        return is_size(b->half_extents.x) && is_size(b->half_extents.y) && is_size(b->half_extents.z) ? NULL : "half_extents";
-    case TAHR_BODY_SPHERE:
-        return is_size(b->radius) ? NULL : "radius";
-    case TAHR_BODY_CAPSULE:
-        return is_size(b->radius) && is_size(b->half_height) && b->half_height >= b->radius ? NULL : "radius or half_height";
-    default:
-        return "type";
-    }
-}
-
-static tahr_status check_bodies(const tahr_log *log, const tahr_world_desc *desc)
-{
-    char name[64];
-    if (desc->body_count > 0 && !desc->bodies) {
-        return tahr__complain(log, TAHR_E_NULL, "tahr_world_open", "bodies", "is NULL");
-    }
-    for (uint32_t i = 0; i < desc->body_count; i++) {
-        snprintf(name, sizeof name, "bodies[%u]", i);
-        tahr_status status = tahr__sized_check(&desc->bodies[i], sizeof desc->bodies[i]);
-        if (status < 0) {
-            return tahr__complain(log, status, "tahr_world_open", name, tahr_status_message(status));
-        }
-        const char *bad = bad_body(&desc->bodies[i]);
-        if (bad) {
-            snprintf(name, sizeof name, "bodies[%u].%s", i, bad);
-            return tahr__complain(log, TAHR_E_ARGUMENT, "tahr_world_open", name, "is missing, out of range or not finite");
-        }
-        if (desc->bodies[i].type == TAHR_BODY_MESH && desc->bodies[i].triangle_count == 0) {
-            return tahr__complain(log, TAHR_E_GEOMETRY, "tahr_world_open", name, "is a mesh without triangles");
-        }
-    }
-    return TAHR_OK;
 }
 
 static const char *missing_slot(const tahr_backend *b)
@@ -202,6 +134,23 @@ static tahr_status keep_poses(tahr_world *world, const tahr_world_desc *desc)
     return TAHR_OK;
 }
 
+static tahr_status open_scene(tahr_world *world, const tahr_backend *backend, const tahr_world_desc *desc)
+{
+    tahr_world_desc scene;
+    tahr_body_desc *own = NULL;
+    memcpy(&scene, desc, sizeof scene);
+    scene.struct_size = sizeof scene;
+    tahr_status status = tahr__bodies_read(&world->host, &scene, &own);
+    if (status >= 0) {
+        status = keep_poses(world, &scene);
+    }
+    if (status >= 0) {
+        status = backend->open(&world->host, &scene, &world->self);
+    }
+    tahr__bodies_free(&world->host, own, scene.body_count);
+    return status;
+}
+
 tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *desc, tahr_world **out)
 {
     tahr_world *world = NULL;
@@ -222,17 +171,11 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
     if (missing) {
         return tahr__complain(desc->log, TAHR_E_NULL, "tahr_world_open", missing, "of the backend is NULL");
     }
-    status = check_bodies(desc->log, desc);
-    if (status >= 0) {
-        status = new_world("tahr_world_open", desc, 0, &world);
-    }
+    status = new_world("tahr_world_open", desc, 0, &world);
     if (status < 0) {
         return status;
     }
-    status = keep_poses(world, desc);
-    if (status >= 0) {
-        status = backend->open(&world->host, desc, &world->self);
-    }
+    status = open_scene(world, backend, desc);
     if (status < 0) {
         free_world(world, 0);
         return status;
@@ -292,7 +235,7 @@ tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint3
         if (poses[i].body >= world->body_count) {
             return tahr__complain_value(&world->log, TAHR_E_NOT_FOUND, "tahr_world_set", "poses.body", poses[i].body, "no such body");
         }
-        const char *bad = bad_pose(&poses[i].pose, 0);
+        const char *bad = tahr__bad_pose(&poses[i].pose, 0);
         if (bad || poses[i].flags) {
             return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", "the pose of body", poses[i].body,
                                         bad ? bad : "flags must be 0");

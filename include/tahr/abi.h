@@ -84,8 +84,9 @@ typedef struct tahr_allocator {
 
 enum { TAHR_LOG_ERROR = 0, TAHR_LOG_WARNING = 1, TAHR_LOG_INFO = 2 };
 
-/* Receives one message without a newline; it names the function, the argument and the value that was wrong. The text is
- * valid during the call only. */
+/* Receives one message without a newline; it names the function, the argument and what was wrong with it. The text is
+ * valid during the call only. Called from whichever thread called the library: from several at once if movers of one
+ * world step on several. Must not call back into the object that complains. */
 typedef void (*tahr_log_fn)(void *user, int32_t level, const char *message);
 
 typedef struct tahr_log {

@@ -31,8 +31,8 @@ typedef struct tahr_host {
     tahr_log log; /* write is never NULL */
 } tahr_host;
 
-/* Travels with every query. cache: this character's memory of cache_size() bytes, zeroed once, 64-byte aligned, or NULL.
- * It may make an answer faster and may never change one bit of it. The counters are added to by the backend. */
+/* Travels with every query. cache: this character's memory of cache_size() bytes, zeroed once, 64-byte aligned, or
+ * NULL. It may make an answer faster and may never change one bit of it. The counters are added to by the backend. */
 typedef struct tahr_query_context {
     void *cache;
     uint64_t narrow_tests;      /* pairs of shape and feature that reached the narrow phase */
@@ -51,8 +51,9 @@ typedef struct tahr_prepare {
 } tahr_prepare;
 
 /* One step of prepare and its queries runs on one thread; different contexts may be used on different threads at once.
- * No slot allocates except open, close and place. No exception or signal leaves a slot. Iterations are capped and
- * "gave up" is the answer `unknown`. Statuses other than 0 end the step with TAHR_E_BACKEND. */
+ * No slot allocates except open, close and place. No exception or signal leaves a slot. Iterations are capped and "gave
+ * up" is the answer `unknown`. Negative statuses end the step with TAHR_E_BACKEND; TAHR_TRUNCATED does not. Optional
+ * are only the slots that say so; a world with another slot missing is refused. */
 typedef struct tahr_backend {
     uint32_t struct_size;
     uint16_t abi_major; /* TAHR_ABI_MAJOR and _MINOR of the header it was compiled with */

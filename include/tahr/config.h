@@ -11,14 +11,19 @@ extern "C" {
 
 enum { TAHR_PRESET_PRECISE = 1 };
 
-/* Defaults in brackets are those of TAHR_PRESET_PRECISE. */
+/* Defaults in brackets are those of TAHR_PRESET_PRECISE. Ranges, inclusive, h = shape.half_height (tahr_config_check
+ * names what is outside): skin 1e-5 h..0.5 h; max_depenetration and perch_threshold 0..1e4 m; walkable_angle 0..90
+ * degrees and no more with its hysteresis; 1 <= floor_target <= floor_max <= 10; step_height 0..2 h; snap_distance and
+ * perch_extra 0..1e3 m; edge_tolerance 0..0.5 h; speeds 0..1e4 m/s, terminal_speed from 1e-3; accelerations 0..1e6
+ * m/s2; gravity -1e4..1e4 m/s2 per axis; turn_friction, braking_drag, air_turn_friction and turn_rate 0..1e4;
+ * jump_hold_time 0..1e3 s; air_control 0..100; arc_tolerance 1e-6 h..h; max_dt 1e-6..10 s; switches 0 or 1. */
 typedef struct tahr_config {
     uint32_t struct_size;
     uint32_t preset;
     tahr_shape shape; /* [capsule, radius 0.35, half height 0.9] */
 
     /* Collision */
-    uint32_t mask;      /* [all bits] bodies this character meets */
+    uint32_t mask;      /* [all bits] bodies this character meets; 0: none */
     uint32_t max_slides; /* [8] sweeps of one slice of walking or falling before the rest of the motion is dropped; 1..16 */
     double skin;        /* m [0.01] distance kept from everything that blocks */
     double max_depenetration; /* m [1.0] longest push out of an overlap per step */
@@ -57,17 +62,19 @@ typedef struct tahr_config {
     double turn_rate; /* rad/s [12.5] of the orientation toward input.facing */
 } tahr_config;
 
-/* Fills a config with a preset. [out] config of size bytes (sizeof(tahr_config)). Untouched on error.
+/* Fills a config with a preset and sets its struct_size. [out] config of size bytes (sizeof(tahr_config)). Untouched on
+ * error. Allocates nothing.
  * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_ARGUMENT (no such preset). Since 0.1. */
 TAHR_API tahr_status tahr_config_init(tahr_config *config, size_t size, int32_t preset);
 
 /* Multiplies every length, speed and acceleration, so that a character of another size moves alike. factor > 0, finite.
- * Untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_ARGUMENT (factor, or a
- * field that would leave its range). Since 0.1. */
+ * Untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_ARGUMENT (factor, or
+ * a field that would leave its range). Since 0.1. */
 TAHR_API tahr_status tahr_config_scale(tahr_config *config, double factor);
 
 /* Checks every field. [out] field may be NULL; receives the name of the first bad one in static memory, or NULL.
- * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (unknown tail not zero), TAHR_E_ARGUMENT. Since 0.1. */
+ * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (unknown tail not zero), TAHR_E_ARGUMENT. Since
+ * 0.1. */
 TAHR_API tahr_status tahr_config_check(const tahr_config *config, const char **field);
 
 /* "precise", or "?" . Static memory. Since 0.1. */

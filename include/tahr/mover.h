@@ -48,7 +48,7 @@ enum {
 typedef struct tahr_state {
     tahr_vec3 position; /* m, world, centre of the shape */
     tahr_vec3 velocity; /* m/s, world */
-    tahr_quat orientation; /* z axis is up; yaw follows input.facing */
+    tahr_quat orientation; /* its z axis is up (keep it so when you write it); yaw follows input.facing */
     tahr_vec3 up;
     uint32_t mode;  /* TAHR_MODE_* */
     uint32_t flags; /* TAHR_STATE_* */
@@ -124,7 +124,8 @@ enum {
 #undef TAHR_RULE_ENUM
 };
 
-/* One decision: rule accepted (1) or rejected (0) something because value stood so to limit. reason: static text. Frozen. */
+/* One decision: rule accepted (1) or rejected (0) something because value stood so to limit. reason: static text.
+ * Frozen. */
 typedef struct tahr_decision {
     uint32_t rule;
     uint32_t accepted;
@@ -174,26 +175,36 @@ typedef struct tahr_report {
     double time_lost;     /* s, not simulated because a cap was reached */
 } tahr_report;
 
-/* A standing character at a place, in free air or on the ground: mode FALLING until a step finds the floor.
+/* A character at rest at a place, in free air or on the ground: mode FALLING until a step finds the floor; up opposite
+ * to config.gravity.
  * [out] state; [in] config (valid), position (finite, |x| <= 1e7 m).
- * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_ARGUMENT. Since 0.1. */
+ * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_ARGUMENT (config or position); untouched
+ * on error. Since 0.1. */
 TAHR_API tahr_status tahr_state_init(tahr_state *state, const tahr_config *config, const tahr_vec3 *position);
 
-/* 64-bit FNV-1a hash of the 512 bytes with -0.0 read as 0.0; equal states have equal hashes on every machine. 0 for NULL. Since 0.1. */
+/* 64-bit FNV-1a hash of the 512 bytes with -0.0 read as 0.0; equal states have equal hashes on every machine (bytes of
+ * each word from the lowest). 0 for NULL. Since 0.1. */
 TAHR_API uint64_t tahr_state_hash(const tahr_state *state);
 
 /* Scratch memory and gather cache of one character at a time; holds nothing that matters to gameplay, so one mover may
  * step many characters and any state may be stepped by any mover of the same world and config, with the same bits.
- * config is copied. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (shape not among the backend's),
- * TAHR_E_ARGUMENT (the log names the field), TAHR_E_MEMORY. Since 0.1. */
+ * [in] world, which must outlive the mover; config, copied. [out] mover, untouched on error; destroy it with
+ * tahr_mover_destroy. Allocates from the world's allocator. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE,
+ * TAHR_E_UNSUPPORTED (shape not among the backend's, unknown tail of config not zero), TAHR_E_ARGUMENT (the log names
+ * the field), TAHR_E_MEMORY. Since 0.1. */
 TAHR_API tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **mover);
+
+/* Frees a mover; its world must still be open and no step of it under way. NULL is allowed. Since 0.1. */
 TAHR_API void tahr_mover_destroy(tahr_mover *mover);
 
-/* Moves one character through dt seconds.
- * [in] input; dt in [0, config.max_dt] (0: nothing changes, the report is zeroed); [in,out] state; [out] report or NULL.
- * Returns TAHR_OK; TAHR_UNKNOWN, TAHR_STUCK, TAHR_CRUSHED, TAHR_QUERY_CAP, TAHR_TRUNCATED (the worst flag of the report);
- * on error state and report are untouched: TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_ARGUMENT (dt, input or state not
- * finite or out of range; the log names the field), TAHR_E_BACKEND, TAHR_E_REENTRANT.
+/* Moves one character through dt seconds. World frame, SI units.
+ * [in] input: |move| and |facing| up to 1e6, |gravity| up to 1e4 m/s2; dt in [0, config.max_dt] (0: nothing changes,
+ * the report is zeroed; below 1e-9 s nothing moves); [in,out] state: |position| up to 2e7 m, |velocity| up to 1e5 m/s,
+ * unit up and orientation; [out] report or NULL.
+ * Returns TAHR_OK; TAHR_QUERY_CAP, TAHR_CRUSHED, TAHR_STUCK, TAHR_UNKNOWN, TAHR_TRUNCATED (the worst flag of the
+ * report, in this order); on error state and report are untouched (not what events and decisions point to):
+ * TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (unknown tail of input not zero), TAHR_E_ARGUMENT (dt, input or
+ * state not finite or out of range; the log names the field), TAHR_E_BACKEND, TAHR_E_REENTRANT.
  * Allocates nothing. Pure: the result depends on world, config, input, dt and state only. Different movers may step on
  * different threads at once. Queries: at most TAHR_MAX_QUERIES_PER_STEP; on flat ground 2 sweeps moving, 1 standing, 0
  * standing on a cached floor. Since 0.1. */

@@ -9,10 +9,11 @@
 extern "C" {
 #endif
 
-/* How gathered geometry is kept: FLOAT local to a 4 m grid cell (half the memory, gaps within 2e-6 m), DOUBLE (1e-9 m). */
+/* How gathered corners are kept: FLOAT local to a 4 m grid cell (84 bytes of cache per triangle, gaps within 2e-6 m),
+ * DOUBLE (120 bytes, 1e-9 m). */
 enum { TAHR_NATIVE_FLOAT = 0, TAHR_NATIVE_DOUBLE = 1 };
 
-/* Zero means default for every field. */
+/* Zero means default for every field but struct_size. Out of range: tahr_world_open returns TAHR_E_ARGUMENT. */
 typedef struct tahr_native_desc {
     uint32_t struct_size;
     uint32_t precision;       /* TAHR_NATIVE_FLOAT or _DOUBLE */
@@ -20,10 +21,11 @@ typedef struct tahr_native_desc {
     uint32_t no_cache;        /* 1: every query walks the tree; same bits */
     uint32_t no_simd;         /* 1: the scalar twin; same bits */
     uint32_t reserved;
-    double cache_margin; /* m around the announced box, default 0.5 */
+    double cache_margin; /* m around the announced box, default 0.5; 0..1000 */
 } tahr_native_desc;
 
-/* The native backend: plain C, triangle meshes, boxes, spheres, capsules; for tahr_world_open. Static memory. Since 0.1. */
+/* The native backend: plain C, triangle meshes, boxes, spheres, capsules; for tahr_world_open, whose desc.options is a
+ * tahr_native_desc or NULL. Queries allocate nothing and may run on several threads. Static memory. Since 0.1. */
 TAHR_API const tahr_backend *tahr_backend_v1_native(void);
 
 #ifdef __cplusplus

@@ -32,8 +32,9 @@ typedef struct tahr_bounds {
 enum { TAHR_SHAPE_SPHERE = 1, TAHR_SHAPE_CAPSULE = 2, TAHR_SHAPE_BOX = 3 };
 
 /* A character's shape, centred on its position, its axis along up.
- * Sphere: radius; half_height equals radius. Capsule: radius and half_height with the caps in it (half_height >= radius).
- * Box: half extents half_x, half_y across the axis (in the frame of the orientation) and half_height along it; radius 0. */
+ * Sphere: radius; half_height equals radius. Capsule: radius and half_height with the caps in it (half_height >=
+ * radius). Box: half extents half_x, half_y across the axis (in the frame of the orientation) and half_height along it;
+ * radius 0. Every size that counts lies within 1e-6..1e4 m. */
 typedef struct tahr_shape {
     uint32_t type; /* TAHR_SHAPE_* */
     uint32_t reserved;
@@ -43,7 +44,7 @@ typedef struct tahr_shape {
     double half_y;      /* m, boxes only */
 } tahr_shape;
 
-/* Sweep flags. LEAVE_OVERLAP: a surface that is overlapped at the start blocks only a motion that goes deeper into it. */
+/* Sweep flags. LEAVE_OVERLAP: a surface that is overlapped at the start blocks only a motion that goes deeper in. */
 enum { TAHR_SWEEP_LEAVE_OVERLAP = 1 };
 
 /* "How far can this shape go along this motion before the distance to something falls to margin?"
@@ -84,7 +85,8 @@ typedef struct tahr_ray {
     uint32_t ignore_body;
 } tahr_ray;
 
-/* How a surface changes the walkable limit. INCREASE only widens it to walkable_angle, DECREASE only narrows it. */
+/* How a surface changes the walkable limit. INCREASE only widens it to walkable_angle, DECREASE only narrows it; an
+ * angle outside 0..90 degrees is taken as the nearer end. */
 enum { TAHR_WALKABLE_DEFAULT = 0, TAHR_WALKABLE_INCREASE = 1, TAHR_WALKABLE_DECREASE = 2, TAHR_WALKABLE_NEVER = 3 };
 
 /* Where a shape met something. All vectors world frame. */

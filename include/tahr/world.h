@@ -32,6 +32,7 @@ typedef struct tahr_body_desc {
     uint32_t surface;       /* handed back in hits and contacts */
     double walkable_angle;  /* rad, with INCREASE and DECREASE */
 
+    /* Every size that counts lies within 1e-6..1e6 m, positions within 1e7 m of the origin. */
     tahr_vec3 half_extents; /* box, m */
     double radius;          /* sphere, capsule, m */
     double half_height;     /* capsule along its local z, caps included, m */
@@ -59,16 +60,23 @@ typedef struct tahr_world_desc {
 } tahr_world_desc;
 
 /* [in] query, [out] hit (zeroed before the call: leaving it so means "free"). Fill in blocking, fraction and normal, or
- * start_overlap, depth and normal. What stays zero is derived: surface_normal from normal, distance from the margin, point
- * from the shape. Return TAHR_OK, or a negative status to end
- * the step with TAHR_E_BACKEND. Called from the stepping thread. */
+ * start_overlap, depth and normal. What stays zero is derived: surface_normal from normal, distance from the margin,
+ * point from the shape. Return TAHR_OK, or a negative status to end the step with TAHR_E_BACKEND. Called from the
+ * stepping thread, or from the one that asks tahr_world_sweep. */
 typedef tahr_status (*tahr_sweep_fn)(void *user, const tahr_sweep *query, tahr_hit *hit);
+/* [in] query, [out] contacts (capacity of them, zeroed before the call) and *count (0 before the call, at most
+ * capacity): one per surface within query->margin, ordered by (distance, body, feature), with distance, normal,
+ * surface_normal and point. Nothing is derived. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,
                                         uint32_t *count);
+/* [in] query, [out] hit (zeroed before the call): fill in blocking, fraction, normal and point of the first blocking
+ * hit; only surface_normal is derived. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_ray_fn)(void *user, const tahr_ray *query, tahr_hit *hit);
 
 /* Your own collision engine. Only sweep is required; contacts missing: depenetration uses the depth and normal of a
- * sweep that starts in overlap, one surface at a time; ray missing: a sphere of 1 mm is swept. */
+ * sweep that starts in overlap, one surface at a time, and nothing is ever found to be a wedge; ray missing: a sphere
+ * of 1 mm is swept. Copied; user must stay valid until the world is closed. The sweep must honour tahr_sweep.margin and
+ * every shape that a mover has. */
 typedef struct tahr_callbacks {
     uint32_t struct_size;
     uint32_t flags; /* 0 */
@@ -78,44 +86,53 @@ typedef struct tahr_callbacks {
     tahr_ray_fn ray;
 } tahr_callbacks;
 
-/* Sets every field to its default. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE. Since 0.1. */
+/* Sets every field to its default: zero, but struct_size, type, mask (all bits) and the orientation (identity). [out]
+ * desc of size bytes. Untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE. Since 0.1. */
 TAHR_API tahr_status tahr_world_desc_init(tahr_world_desc *desc, size_t size);
 TAHR_API tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint32_t type);
 
 /* Opens a scene on a backend. [out] world, untouched on failure; close it with tahr_world_close.
- * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_ABI (backend of another ABI), TAHR_E_FLOAT_MODE,
- * TAHR_E_GEOMETRY (index out of range, vertex not finite or beyond 1e7 m, mesh without triangles), TAHR_E_ARGUMENT (pose, size or mask of a
- * body), TAHR_E_UNSUPPORTED (the backend cannot hold such a body), TAHR_E_MEMORY; the log names the body and the field.
+ * Returns TAHR_OK, TAHR_E_NULL (also an empty slot of the backend), TAHR_E_STRUCT_SIZE, TAHR_E_ABI (backend of another
+ * ABI), TAHR_E_FLOAT_MODE, TAHR_E_GEOMETRY (index out of range, vertex not finite or beyond 1e7 m, mesh without
+ * triangles), TAHR_E_ARGUMENT (type, flags, pose, size or rule of a body; options), TAHR_E_UNSUPPORTED (unknown tail of
+ * a description not zero, or the backend cannot hold such a body), TAHR_E_MEMORY; the log names the body and the field.
  * Allocates. Since 0.1. */
 TAHR_API tahr_status tahr_world_open(const struct tahr_backend *backend, const tahr_world_desc *desc, tahr_world **world);
 
-/* Opens a world whose geometry is behind the caller's functions. desc may be NULL; of it only allocator and log are used.
- * Returns TAHR_OK, TAHR_E_NULL (sweep missing), TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_FLOAT_MODE, TAHR_E_MEMORY. Since 0.1. */
+/* Opens a world whose geometry is behind the caller's functions. desc may be NULL; of it only allocator and log are
+ * used. [out] world, untouched on failure. Returns TAHR_OK, TAHR_E_NULL (sweep missing), TAHR_E_STRUCT_SIZE,
+ * TAHR_E_UNSUPPORTED (flags or an unknown tail not zero), TAHR_E_FLOAT_MODE, TAHR_E_MEMORY. Allocates. Since 0.1. */
 TAHR_API tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tahr_world_desc *desc, tahr_world **world);
 
 /* Closes a world; its movers must be destroyed before. NULL is allowed. Since 0.1. */
 TAHR_API void tahr_world_close(tahr_world *world);
 
 /* Places movable bodies at new poses and advances the revision. All or nothing: every pose is checked first. Needs
- * exclusive access: no step may run meanwhile. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND (no such body),
- * TAHR_E_ARGUMENT (not movable, not finite), TAHR_E_UNSUPPORTED. Since 0.1. */
+ * exclusive access: no step may run meanwhile. Characters are not carried: what is placed into one pushes it out in its
+ * next step. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND (no such body), TAHR_E_ARGUMENT (not movable, not finite,
+ * not a unit quaternion, flags not 0), TAHR_E_UNSUPPORTED (a backend or callbacks that cannot place). Since 0.1. */
 TAHR_API tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint32_t count);
 
-/* Tells callback worlds that their geometry changed, so that cached floors are looked at again. Since 0.1. */
+/* Tells callback worlds that their geometry changed, so that cached floors are looked at again. Needs exclusive access.
+ * Returns TAHR_OK, TAHR_E_NULL. Since 0.1. */
 TAHR_API tahr_status tahr_world_touch(tahr_world *world);
 
 /* A number that changes when the world does; the same again when bodies are put back. 0 for NULL. Since 0.1. */
 TAHR_API uint64_t tahr_world_revision(const tahr_world *world);
 
-/* Name of the backend behind a world ("native", "callbacks"); static memory. Since 0.1. */
+/* Name of the backend behind a world ("native", "callbacks"), "?" for NULL; static memory. Since 0.1. */
 TAHR_API const char *tahr_world_backend_name(const tahr_world *world);
 
-/* Bytes that a world holds now through its allocator (scene and backend, without the caches of movers). 0 for NULL. Since 0.1. */
+/* Bytes that a world holds now through its allocator (scene and backend, without the caches of movers). 0 for NULL.
+ * Since 0.1. */
 TAHR_API uint64_t tahr_world_memory(const tahr_world *world);
 
-/* The three questions, asked directly, with arguments and answers checked. Outputs untouched on error.
- * Return TAHR_OK, TAHR_TRUNCATED, TAHR_UNKNOWN, TAHR_E_NULL, TAHR_E_ARGUMENT (query not finite, negative margin, bad shape or up),
- * TAHR_E_UNSUPPORTED (shape), TAHR_E_BACKEND (invalid answer). At most 64 answers per call. Allocate nothing; may run on several threads. Since 0.1. */
+/* The three questions, asked directly, with arguments and answers checked; the order of the answers is that of the
+ * slots in backend.h. [out] *count of hits or contacts. Outputs untouched on error. Positions up to 2e7 m from the
+ * origin, sweeps up to 1e6 m long, margins up to 1e4 m. Return TAHR_OK, TAHR_TRUNCATED, TAHR_UNKNOWN (sweep),
+ * TAHR_E_NULL, TAHR_E_ARGUMENT (query not finite or out of range, bad shape, up, orientation or flags, a sweep with
+ * capacity 0), TAHR_E_UNSUPPORTED (shape), TAHR_E_BACKEND (invalid answer). At most 64 answers per call. Allocate
+ * nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity, uint32_t *count);
 TAHR_API tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,
                                          uint32_t *count);

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: MIT
+ * scene.c: reading and checking the description of bodies. */
+#include "scene.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "message.h"
+#include "sized.h"
+#include "vec.h"
+
+static const double FARTHEST = 1e7; /* m: double still resolves 2e-9 m there */
+
+const char *tahr__bad_pose(const tahr_pose *pose, int zero_is_identity)
+{
+    tahr_quat q = pose->orientation;
+    double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    if (!vec_is_finite(pose->position) || length(pose->position) > FARTHEST) {
+        return "pose.position";
+    }
+    return (zero_is_identity && q2 == 0) || (q2 > 1 - 1e-6 && q2 < 1 + 1e-6) ? NULL : "pose.orientation";
+}
+
+static int is_size(double x)
+{
+    return x >= 1e-6 && x <= 1e6;
+}
+
+static const char *bad_body(const tahr_body_desc *b)
+{
+    const char *pose = tahr__bad_pose(&b->pose, 1);
+    if (pose) {
+        return pose;
+    }
+    if (b->flags & ~(uint32_t)(TAHR_BODY_SENSOR | TAHR_BODY_TWO_SIDED | TAHR_BODY_MOVABLE)) {
+        return "flags";
+    }
+    if (b->walkable_rule > TAHR_WALKABLE_NEVER || !is_finite(b->walkable_angle)) {
+        return "walkable_rule";
+    }
+    switch (b->type) {
+    case TAHR_BODY_MESH:
+        return b->vertices && b->indices ? NULL : "vertices or indices";
+    case TAHR_BODY_BOX:
+        return is_size(b->half_extents.x) && is_size(b->half_extents.y) && is_size(b->half_extents.z) ? NULL : "half_extents";
+    case TAHR_BODY_SPHERE:
+        return is_size(b->radius) ? NULL : "radius";
+    case TAHR_BODY_CAPSULE:
+        return is_size(b->radius) && is_size(b->half_height) && b->half_height >= b->radius ? NULL : "radius or half_height";
+    default:
+        return "type";
+    }
+}
+
+static tahr_status check_body(const tahr_log *log, const tahr_body_desc *b, uint32_t i)
+{
+    char name[64];
+    const char *bad = bad_body(b);
+    if (bad) {
+        snprintf(name, sizeof name, "bodies[%u].%s", i, bad);
+        return tahr__complain(log, TAHR_E_ARGUMENT, "tahr_world_open", name, "is missing, out of range or not finite");
+    }
+    if (b->type == TAHR_BODY_MESH && b->triangle_count == 0) {
+        snprintf(name, sizeof name, "bodies[%u]", i);
+        return tahr__complain(log, TAHR_E_GEOMETRY, "tahr_world_open", name, "is a mesh without triangles");
+    }
+    return TAHR_OK;
+}
+
+static tahr_status check_size(const tahr_log *log, const void *body, uint32_t stride, uint32_t i)
+{
+    char name[64];
+    uint32_t size;
+    memcpy(&size, body, sizeof size);
+    tahr_status status = size == stride ? tahr__sized_check(body, sizeof(tahr_body_desc)) : TAHR_E_STRUCT_SIZE;
+    if (status < 0) {
+        snprintf(name, sizeof name, "bodies[%u]", i);
+        return tahr__complain(log, status, "tahr_world_open", name, tahr_status_message(status));
+    }
+    return TAHR_OK;
+}
+
+tahr_status tahr__bodies_read(const tahr_host *host, tahr_world_desc *scene, tahr_body_desc **own)
+{
+    const tahr_log *log = &host->log;
+    tahr_status status = TAHR_OK;
+    uint32_t stride = sizeof(tahr_body_desc);
+    if (scene->body_count > 0 && !scene->bodies) {
+        return tahr__complain(log, TAHR_E_NULL, "tahr_world_open", "bodies", "is NULL");
+    }
+    if (scene->body_count > 0) {
+        stride = scene->bodies[0].struct_size;
+    }
+    for (uint32_t i = 0; i < scene->body_count && status >= 0; i++) {
+        status = check_size(log, (const char *)scene->bodies + (size_t)i * stride, stride, i);
+    }
+    if (status >= 0 && stride != sizeof(tahr_body_desc)) {
+        *own = host->allocator.alloc(host->allocator.user, scene->body_count * sizeof(tahr_body_desc), 8);
+        if (!*own) {
+            return tahr__complain(log, TAHR_E_MEMORY, "tahr_world_open", "allocator", "returned NULL");
+        }
+        for (uint32_t i = 0; i < scene->body_count; i++) {
+            memcpy(*own + i, (const char *)scene->bodies + (size_t)i * stride, sizeof(tahr_body_desc));
+            (*own)[i].struct_size = sizeof(tahr_body_desc);
+        }
+        scene->bodies = *own;
+    }
+    for (uint32_t i = 0; i < scene->body_count && status >= 0; i++) {
+        status = check_body(log, &scene->bodies[i], i);
+    }
+    return status;
+}
+
+void tahr__bodies_free(const tahr_host *host, tahr_body_desc *own, uint32_t count)
+{
+    if (own) {
+        host->allocator.free(host->allocator.user, own, count * sizeof *own, 8);
+    }
+}
