@@ -308,7 +308,8 @@ static const char *bad_placement(const tahr_shape *shape, vec3 position, vec3 up
     if (!(length_squared(up) > 1 - 1e-9 && length_squared(up) < 1 + 1e-9)) {
         return "up";
     }
-    if (!(q2 > 1 - 1e-9 && q2 < 1 + 1e-9) || !(dot(rotate(q, vec(0, 0, 1)), up) > 1 - 1e-6)) {
+    int upright = shape->type != TAHR_SHAPE_BOX || dot(rotate(q, vec(0, 0, 1)), up) > 1 - 1e-6;
+    if (!(q2 > 1 - 1e-9 && q2 < 1 + 1e-9) || !upright) {
         return "orientation";
     }
     return margin >= 0 && margin <= 1e4 ? NULL : "margin";
