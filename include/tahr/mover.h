@@ -44,7 +44,7 @@ enum {
 
 /* Everything that decides a character's future. Frozen, 512 bytes, no pointers: copy it to remember, compare it with
  * memcmp to check a rollback, hash it to detect a desync. The reserved tail is zero. You may write position, velocity,
- * orientation and mode between steps; after writing position, clear floor_revision. */
+ * orientation and mode between steps; the floor is looked for again wherever position is not floor_position. */
 typedef struct tahr_state {
     tahr_vec3 position; /* m, world, centre of the shape */
     tahr_vec3 velocity; /* m/s, world */
