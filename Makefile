@@ -61,7 +61,7 @@ bench: setup-run
 	@if ! ls tests/bench/*.c >/dev/null 2>&1; then echo "bench: tests/bench has no sources"; exit 1; fi
 	@$(call configure,$(BUILD),)
 	@$(call compile,$(BUILD)) --target tahr_bench
-	$(BUILD)/bin/tahr_bench $(ARGS)
+	$(BUILD)/bin/tahr_bench --csv $(BUILD)/bench.csv $(ARGS)
 
 install: build
 	cmake --install $(BUILD) --prefix "$(abspath $(PREFIX))"

@@ -108,7 +108,7 @@ static int all_zero(const uint8_t tail[sizeof((tahr_state *)0)->reserved])
     return any == 0;
 }
 
-static const char *bad_state(const tahr_state *s)
+static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
 {
     tahr_quat q = s->orientation;
     double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
@@ -123,6 +123,9 @@ static const char *bad_state(const tahr_state *s)
     }
     if (!(length_squared(s->up) > 1 - 1e-9 && length_squared(s->up) < 1 + 1e-9)) {
         return "state.up";
+    }
+    if (shape->type == TAHR_SHAPE_BOX && !(dot(rotate(s->orientation, vec(0, 0, 1)), s->up) > 1 - 1e-6)) {
+        return "state.orientation";
     }
     if (!tahr__is_mode(s->mode)) {
         return "state.mode";
@@ -147,7 +150,7 @@ static tahr_status check_arguments(const tahr_mover *mover, const tahr_input *in
     if (status >= 0 && report) {
         uint32_t size;
         memcpy(&size, report, sizeof size);
-        status = size < sizeof *report ? TAHR_E_STRUCT_SIZE : TAHR_OK;
+        status = size < sizeof *report || size > sizeof *report + TAHR__MOST_UNKNOWN ? TAHR_E_STRUCT_SIZE : TAHR_OK;
     }
     if (status < 0) {
         return tahr__complain(log, status, "tahr_mover_step", "input or report", tahr_status_message(status));
@@ -156,7 +159,7 @@ static tahr_status check_arguments(const tahr_mover *mover, const tahr_input *in
         return tahr__complain_value(log, TAHR_E_ARGUMENT, "tahr_mover_step", "dt", dt, "must be within 0 and config.max_dt");
     }
     const char *bad = bad_input(input);
-    bad = bad ? bad : bad_state(state);
+    bad = bad ? bad : bad_state(state, &mover->config.shape);
     return bad ? tahr__complain(log, TAHR_E_ARGUMENT, "tahr_mover_step", bad, "is out of range or not finite") : TAHR_OK;
 }
 

@@ -214,7 +214,6 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
     return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(wall.normal, step->state.up), 0, "slides along");
 }
 
-/* Walks the wish, bending it as things are met. */
 void tahr__path_look_ahead(tahr__step *step, const tahr__path *w)
 {
     if (step->report.events) { /* else nobody asks */
@@ -222,9 +221,11 @@ void tahr__path_look_ahead(tahr__step *step, const tahr__path *w)
     }
 }
 
+/* Walks the wish, bending it as things are met. */
 void tahr__path_walk(tahr__step *step, tahr__path *w)
 {
     tahr_hit hit;
+    w->lost = 0;
     for (uint32_t i = 0; i < step->config->max_slides && w->left > 0 && step->error >= 0; i++) {
         vec3 level = tahr__slide(w->walls, w->wall_count, scale(w->wish, w->left));
         if (length_squared(level) == 0) {
@@ -255,5 +256,5 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
             return;
         }
     }
-    step->report.time_lost += w->duration - tahr__path_used(w);
+    w->lost = w->duration - tahr__path_used(w);
 }

@@ -23,6 +23,7 @@ typedef struct tahr__path {
     double ease; /* rise per metre that keeps rounding from pointing into a ramp */
     vec3 from;   /* the last straight piece of the way, to find the place where a floor ended */
     double left_before;
+    double lost; /* s of the piece that a cap or an answer dropped */
 } tahr__path;
 
 /* Starts a path of `duration` seconds at the state's position and velocity. No query. */

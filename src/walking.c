@@ -121,6 +121,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
         settle(step);
         tahr__path_carry_floor(w, step);
     }
+    w->lost = w->duration - tahr__path_used(w);
     return 1;
 }
 
@@ -147,6 +148,7 @@ tahr__next tahr__walk(tahr__step *step, double time)
     if (!walk_over_floor(step, &w, &part)) {
         return fall_off(step, &w, step->state.position, part);
     }
+    step->report.time_lost += w.lost;
     if (w.stop_time >= 0) {
         step->ahead = w.stop_time;
         tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);

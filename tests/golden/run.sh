@@ -1,6 +1,6 @@
 #!/bin/sh
-# run.sh: compiles the library from its sources with one compiler and one set of flags, runs golden_hash.c on it and
-# compares the line with hash.txt. Usage: run.sh LABEL; LABEL is one of those below. Prints the difference on failure.
+# run.sh: compiles the library from its sources with one compiler and one set of flags, runs golden_hash.c on it, with and
+# without lanes and the gather cache, and compares every line with hash.txt. Usage: run.sh LABEL; LABEL is one of those below. Prints the difference on failure.
 set -eu
 label=$1
 emulator=
@@ -30,10 +30,21 @@ trap 'rm -rf "$folder"' EXIT
 # shellcheck disable=SC2086
 "$compiler" -std=c11 -ffp-contract=off -fno-math-errno $flags -Iinclude -Ibackends tests/golden/golden_hash.c \
     src/*.c backends/common/*.c backends/native/*.c -o "$folder/golden_hash" -lm
-# shellcheck disable=SC2086
-$emulator "$folder/golden_hash" >"$folder/hash"
-if ! diff tests/golden/hash.txt "$folder/hash"; then
-    echo "golden_$label: other bits than tests/golden/hash.txt (left: expected, right: this build)"
-    exit 1
+failed=0
+run() {
+    # shellcheck disable=SC2086
+    $emulator "$folder/golden_hash" "$@" >"$folder/hash"
+    if ! diff tests/golden/hash.txt "$folder/hash"; then
+        echo "golden_$label $*: other bits than tests/golden/hash.txt (left: expected, right: this build)"
+        failed=1
+    fi
+    cat "$folder/hash"
+}
+run
+if [ -n "$emulator" ]; then # slow
+    run --scalar --no-cache
+else
+    run --scalar
+    run --no-cache
 fi
-cat "$folder/hash"
+exit $failed

@@ -1,5 +1,6 @@
 #!/bin/sh
-# quick_start.sh: the quick start of the README, compiled as it stands and run against the library just built.
+# quick_start.sh: the C blocks of the README: the quick start, compiled as it stands and run against the library just built,
+# and the level geometry, within the few declarations that it leaves to the reader.
 set -eu
 if ! grep -q '^```c$' README.md 2>/dev/null; then
     echo "SKIP: house_quick_start: README.md has no C block"
@@ -7,10 +8,18 @@ if ! grep -q '^```c$' README.md 2>/dev/null; then
 fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-awk -f tests/support/quick_start.awk README.md >"$folder/quick_start.c"
 flags=
 if nm "$BUILD/lib/libtahr.a" | grep -q '__asan_'; then flags=-fsanitize=address,undefined; fi
-# shellcheck disable=SC2086
-"${CC:-cc}" -std=c11 -Wall -Wextra -Wpedantic -Werror $flags -Iinclude "$folder/quick_start.c" "$BUILD/lib/libtahr.a" -lm \
-    -o "$folder/quick_start"
-"$folder/quick_start" | sh tests/support/quick_start_check.sh
+build() {
+    # shellcheck disable=SC2086
+    "${CC:-cc}" -std=c11 -Wall -Wextra -Wpedantic -Werror $flags -Iinclude "$@" "$BUILD/lib/libtahr.a" -lm -o "$folder/program"
+}
+awk -f tests/support/quick_start.awk README.md >"$folder/quick_start.c"
+build "$folder/quick_start.c"
+"$folder/program" | sh tests/support/quick_start_check.sh
+
+awk -v block=2 -f tests/support/quick_start.awk README.md >"$folder/level.inc"
+if [ -s "$folder/level.inc" ]; then
+    build -DREADME_LEVEL="\"$folder/level.inc\"" tests/support/quick_start/level.c
+    "$folder/program"
+fi

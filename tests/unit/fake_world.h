@@ -72,6 +72,8 @@ void rig_steps(rig *r, int n, double dt);
 void rig_settle(rig *r);
 /* The first event of a type in the last report, or NULL. */
 const tahr_event *rig_event(const rig *r, uint32_t type);
+/* Every event of the last report lies within the step, none before the one reported earlier. */
+void rig_assert_in_order(const rig *r, double dt);
 /* The last decision of a rule in the last report, or NULL. */
 const tahr_decision *rig_decision(const rig *r, uint32_t rule);
 

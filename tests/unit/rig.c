@@ -96,6 +96,19 @@ const tahr_decision *rig_decision(const rig *r, uint32_t rule)
     return NULL;
 }
 
+void rig_assert_in_order(const rig *r, double dt)
+{
+    double before = 0;
+    for (uint32_t i = 0; i < r->report.event_count; i++) {
+        const tahr_event *e = &r->events[i];
+        if (!(e->time >= before && e->time <= dt * (1 + 1e-12))) {
+            fail_msg("event %u of %u, %s at %.17g: the one before was at %.17g, dt is %g", i, r->report.event_count,
+                     tahr_event_name(e->type), e->time, before, dt);
+        }
+        before = e->time;
+    }
+}
+
 /* In front of every block: what was asked for, and where malloc's memory begins. */
 typedef struct block {
     void *start;

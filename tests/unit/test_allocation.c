@@ -11,7 +11,91 @@
 
 #include "fake_world.h"
 
+#ifdef TAHR_HAVE_CCD
+#include <tahr/ccd.h>
+#endif
 #include <tahr/native.h>
+
+/* Every call of the C library's allocator in this process, libccd's included: the user's allocator sees only what is
+ * asked of it. */
+static volatile uint64_t heap_calls; /* compilers know that malloc changes no variable */
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define SANITIZED 1
+#endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define SANITIZED 1
+#endif
+
+#if defined(SANITIZED)
+extern int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void *, size_t),
+                                                     void (*freed)(const volatile void *));
+
+static void count_allocated(const volatile void *memory, size_t size)
+{
+    (void)memory, (void)size;
+    heap_calls++;
+}
+
+static void count_freed(const volatile void *memory)
+{
+    (void)memory;
+    heap_calls++;
+}
+
+static int watch_heap(void)
+{
+    return __sanitizer_install_malloc_and_free_hooks(count_allocated, count_freed) != 0;
+}
+#elif defined(__GLIBC__)
+extern void *__libc_malloc(size_t size);
+extern void *__libc_calloc(size_t count, size_t size);
+extern void *__libc_realloc(void *memory, size_t size);
+extern void *__libc_memalign(size_t alignment, size_t size);
+extern void __libc_free(void *memory);
+
+/* A program's own functions of these names take the place of the library's, for shared libraries too. */
+void *malloc(size_t size)
+{
+    heap_calls++;
+    return __libc_malloc(size);
+}
+
+void *calloc(size_t count, size_t size)
+{
+    heap_calls++;
+    return __libc_calloc(count, size);
+}
+
+void *realloc(void *memory, size_t size)
+{
+    heap_calls++;
+    return __libc_realloc(memory, size);
+}
+
+void *aligned_alloc(size_t alignment, size_t size)
+{
+    heap_calls++;
+    return __libc_memalign(alignment, size);
+}
+
+void free(void *memory)
+{
+    heap_calls++;
+    __libc_free(memory);
+}
+
+static int watch_heap(void)
+{
+    return 1;
+}
+#else
+static int watch_heap(void)
+{
+    return 0;
+}
+#endif
 
 static void describe(tahr_world_desc *desc, tahr_body_desc bodies[2], const tahr_allocator *allocator)
 {
@@ -110,6 +194,176 @@ static void a_thousand_steps_allocate_nothing(void **unused)
     }
 }
 
+/* Onto a box and off it, jumps, gravity that turns, an overlap to get out of, wrong input: with full reports. */
+static void step_through_everything(tahr_world *world, const tahr_config *config, tahr_mover *mover)
+{
+    static tahr_event events[64];
+    static tahr_decision decisions[256];
+    tahr_input input = {.struct_size = sizeof input};
+    tahr_vec3 at = {0, 0, 1};
+    tahr_state state;
+    tahr_state_init(&state, config, &at);
+    for (int i = 0; i < 600; i++) {
+        tahr_report report = {.struct_size = sizeof report,
+                              .events = events,
+                              .decisions = decisions,
+                              .event_capacity = 64,
+                              .decision_capacity = i % 2 ? 256 : 2};
+        input.move = fake_vec(cos(i * 0.01), sin(i * 0.03), 0);
+        input.jump = i % 100 == 0;
+        input.flags = i % 150 > 140 ? TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING : 0;
+        input.gravity = fake_vec(i % 2 ? 3 : 0, 0, -9);
+        input.facing = input.move;
+        if (i % 60 == 59) {
+            state.position = fake_vec(3.5, 0, 1); /* inside the box */
+            state.velocity = fake_vec(1, 0, 0);
+            state.floor_revision = 0;
+        }
+        tahr_mover_step(mover, &input, i % 10 == 9 ? 0.1 : 1.0 / 60, &state, &report);
+        tahr_mover_step(mover, &input, -1, &state, NULL); /* an error allocates nothing either */
+    }
+    tahr_hit hits[4];
+    tahr_contact contacts[4];
+    uint32_t count;
+    tahr_sweep sweep = {.shape = config->shape, .position = {4, 0, 3}, .up = {0, 0, 1}, .orientation = {0, 0, 0, 1}};
+    sweep.motion = fake_vec(0, 0, -4), sweep.mask = ~0u, sweep.ignore_body = TAHR_NO_BODY;
+    tahr_contact_query near = {.shape = config->shape, .position = {4, 0, 1}, .up = {0, 0, 1}};
+    near.orientation.w = 1, near.margin = 0.5, near.mask = ~0u, near.ignore_body = TAHR_NO_BODY;
+    tahr_ray ray = {.origin = {4, 0, 3}, .motion = {0, 0, -4}, .mask = ~0u, .ignore_body = TAHR_NO_BODY};
+    tahr_world_sweep(world, &sweep, hits, 4, &count);
+    tahr_world_contacts(world, &near, contacts, 4, &count);
+    tahr_world_ray(world, &ray, hits, &count);
+}
+
+static void no_step_of_any_backend_touches_the_heap(void **unused)
+{
+    const tahr_backend *backends[] = {
+        tahr_backend_v1_native(),
+        tahr_backend_v1_native(),
+#ifdef TAHR_HAVE_CCD
+        tahr_backend_v1_ccd(),
+#endif
+    };
+    (void)unused;
+    if (!watch_heap()) {
+        print_message("SKIP: unit_allocation: no way to count this C library's allocations\n");
+        skip();
+    }
+    uint64_t before = heap_calls;
+    void *volatile probe = malloc(1);
+    free(probe);
+    assert_true(heap_calls >= before + 2); /* the count counts */
+    for (size_t b = 0; b < sizeof backends / sizeof backends[0]; b++) {
+        for (int box = 0; box < 2; box++) {
+            tahr_native_desc options = {.struct_size = sizeof options, .precision = b == 1 ? TAHR_NATIVE_DOUBLE : 0};
+            tahr_world_desc desc;
+            tahr_body_desc bodies[2];
+            tahr_world *world = NULL;
+            tahr_mover *mover = NULL;
+            tahr_config c = fake_config();
+            if (box) {
+                c.shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.3, .half_y = 0.3};
+            }
+            describe(&desc, bodies, NULL);
+            desc.options = backends[b] == tahr_backend_v1_native() ? &options : NULL;
+            assert_int_equal(tahr_world_open(backends[b], &desc, &world), TAHR_OK);
+            assert_int_equal(tahr_mover_create(world, &c, &mover), TAHR_OK);
+            before = heap_calls;
+            step_through_everything(world, &c, mover);
+            uint64_t calls = heap_calls - before;
+            if (calls > 0) {
+                fail_msg("%s: %llu calls of malloc or free in steps", backends[b]->name, (unsigned long long)calls);
+            }
+            tahr_mover_destroy(mover);
+            tahr_world_close(world);
+        }
+    }
+}
+
+/* A height field of 500 x 500 cells, two triangles each. */
+enum { FIELD = 500 };
+
+static void a_large_mesh_stays_under_a_hundred_bytes_per_triangle(void **unused)
+{
+    const uint32_t triangles = 2 * FIELD * FIELD, corners = (FIELD + 1) * (FIELD + 1);
+    double *vertices = malloc(3 * corners * sizeof *vertices);
+    uint32_t *indices = malloc(3 * triangles * sizeof *indices), *next = indices;
+    (void)unused;
+    assert_true(vertices && indices);
+    for (uint32_t i = 0; i < corners; i++) {
+        double x = i % (FIELD + 1), y = i / (FIELD + 1);
+        vertices[3 * i] = x;
+        vertices[3 * i + 1] = y;
+        vertices[3 * i + 2] = sin(0.1 * x) * cos(0.07 * y);
+    }
+    for (uint32_t i = 0; i < FIELD * FIELD; i++) {
+        uint32_t a = i / FIELD * (FIELD + 1) + i % FIELD, b = a + FIELD + 1;
+        const uint32_t quad[6] = {a, a + 1, b + 1, a, b + 1, b};
+        memcpy(next, quad, sizeof quad);
+        next += 6;
+    }
+    for (uint32_t precision = 0; precision < 2; precision++) {
+        tahr_native_desc options = {.struct_size = sizeof options, .precision = precision};
+        fake_memory memory = {0};
+        tahr_allocator allocator = fake_allocator(&memory);
+        tahr_world_desc desc;
+        tahr_body_desc body;
+        tahr_world *world = NULL;
+        tahr_body_desc_init(&body, sizeof body, TAHR_BODY_MESH);
+        body.vertices = vertices, body.vertex_count = corners;
+        body.indices = indices, body.triangle_count = triangles;
+        tahr_world_desc_init(&desc, sizeof desc);
+        desc.bodies = &body, desc.body_count = 1;
+        desc.options = &options;
+        desc.allocator = &allocator;
+        assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_OK);
+        assert_int_equal(tahr_world_memory(world), memory.live_bytes); /* nothing went past the allocator */
+        double each = (double)tahr_world_memory(world) / triangles;
+        print_message("precision %u: %.1f bytes per triangle\n", precision, each);
+        assert_true(each < 100);
+        tahr_world_close(world);
+        assert_int_equal(memory.live_bytes, 0);
+    }
+    free(indices);
+    free(vertices);
+}
+
+/* What native.h says of a character's cache: so many bytes for every triangle that it can hold. */
+static void a_movers_cache_costs_what_the_header_says(void **unused)
+{
+    const double said[2] = {84, 120};
+    (void)unused;
+    for (uint32_t precision = 0; precision < 2; precision++) {
+        const uint32_t held[2] = {192, 4096};
+        uint64_t bytes[2];
+        for (int i = 0; i < 2; i++) {
+            tahr_native_desc options = {.struct_size = sizeof options, .precision = precision};
+            options.cache_triangles = held[i];
+            fake_memory memory = {0};
+            tahr_allocator allocator = fake_allocator(&memory);
+            tahr_world_desc desc;
+            tahr_body_desc bodies[2];
+            tahr_world *world = NULL;
+            tahr_mover *mover = NULL;
+            tahr_config c = fake_config();
+            describe(&desc, bodies, &allocator);
+            desc.options = &options;
+            assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_OK);
+            uint64_t before = memory.live_bytes;
+            assert_int_equal(tahr_mover_create(world, &c, &mover), TAHR_OK);
+            bytes[i] = memory.live_bytes - before;
+            assert_int_equal(tahr_world_memory(world), before); /* a mover's memory is not the world's */
+            tahr_mover_destroy(mover);
+            tahr_world_close(world);
+        }
+        double each = (double)(bytes[1] - bytes[0]) / (held[1] - held[0]);
+        print_message("precision %u: a mover of %u triangles has %llu bytes, %.1f for each more\n", precision, held[0],
+                      (unsigned long long)bytes[0], each);
+        assert_near(each, said[precision], 0);
+        assert_true((double)bytes[0] < said[precision] * held[0] + 2048); /* and little else */
+    }
+}
+
 static void world_memory_is_what_the_allocator_holds(void **unused)
 {
     (void)unused;
@@ -132,6 +386,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_failing_allocation_is_reported_and_nothing_leaks),
                                        cmocka_unit_test(a_thousand_steps_allocate_nothing),
+                                       cmocka_unit_test(no_step_of_any_backend_touches_the_heap),
+                                       cmocka_unit_test(a_large_mesh_stays_under_a_hundred_bytes_per_triangle),
+                                       cmocka_unit_test(a_movers_cache_costs_what_the_header_says),
                                        cmocka_unit_test(world_memory_is_what_the_allocator_holds)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

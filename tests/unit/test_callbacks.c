@@ -127,6 +127,101 @@ static void derived_point_lies_on_the_surface(void **unused)
     tahr_world_close(world);
 }
 
+/* More surfaces than fit, and no surface_normal. */
+static tahr_status crowded_contacts(void *user, const tahr_contact_query *q, tahr_contact *out, uint32_t capacity,
+                                    uint32_t *count)
+{
+    (void)user, (void)q;
+    for (uint32_t i = 0; i < capacity; i++) {
+        out[i].distance = -0.1 + 0.01 * i;
+        out[i].normal = fake_vec(0.6, 0, 0.8);
+    }
+    *count = capacity;
+    return TAHR_TRUNCATED;
+}
+
+static void a_users_contacts_are_truncated_and_get_their_surface_normal(void **unused)
+{
+    fake_world w;
+    tahr_callbacks c = {.struct_size = sizeof c, .user = &w, .sweep = bare_sweep, .contacts = crowded_contacts};
+    tahr_world *world = NULL;
+    tahr_contact_query q = {.shape = {TAHR_SHAPE_CAPSULE, 0, 0.35, 0.9, 0, 0},
+                            .up = {0, 0, 1},
+                            .orientation = {0, 0, 0, 1},
+                            .mask = 0xFFFFFFFFu,
+                            .ignore_body = TAHR_NO_BODY};
+    tahr_contact out[2];
+    uint32_t count = 0;
+    (void)unused;
+    fake_world_init(&w);
+    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_OK);
+    assert_int_equal(tahr_world_contacts(world, &q, out, 2, &count), TAHR_TRUNCATED);
+    assert_int_equal(count, 2);
+    for (int i = 0; i < 2; i++) {
+        assert_memory_equal(&out[i].surface_normal, &out[i].normal, sizeof out[i].normal);
+        assert_near(out[i].normal.z, 0.8, 1e-15);
+    }
+    tahr_world_close(world);
+}
+
+/* Everything is a sensor half-way. */
+static tahr_status sensor_sweep(void *user, const tahr_sweep *q, tahr_hit *hit)
+{
+    (void)user, (void)q;
+    hit->sensor = 1;
+    hit->fraction = 0.5;
+    hit->normal = fake_vec(0, 0, 1);
+    return TAHR_OK;
+}
+
+static tahr_status bare_ray(void *user, const tahr_ray *q, tahr_hit *hit)
+{
+    (void)q;
+    hit->blocking = *(int *)user == 0;
+    hit->sensor = *(int *)user == 1;
+    hit->fraction = 0.375;
+    hit->normal = fake_vec(0, 0.6, 0.8);
+    return TAHR_OK;
+}
+
+static void a_sensor_is_no_hit_of_a_ray(void **unused)
+{
+    int sensor = 1;
+    tahr_callbacks c = {.struct_size = sizeof c, .user = &sensor, .sweep = sensor_sweep};
+    tahr_ray q = {.origin = {0, 0, 2}, .motion = {0, 0, -4}, .mask = 0xFFFFFFFFu, .ignore_body = TAHR_NO_BODY};
+    (void)unused;
+    for (int own = 0; own < 2; own++) { /* derived from the sweep, and the user's own */
+        tahr_world *world = NULL;
+        tahr_hit hit;
+        uint32_t count = 9;
+        c.ray = own ? bare_ray : NULL;
+        assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_OK);
+        assert_int_equal(tahr_world_ray(world, &q, &hit, &count), TAHR_OK);
+        assert_int_equal(count, 0);
+        tahr_world_close(world);
+    }
+}
+
+static void a_users_ray_without_point_gets_the_place_where_it_ends(void **unused)
+{
+    int sensor = 0;
+    tahr_callbacks c = {.struct_size = sizeof c, .user = &sensor, .sweep = sensor_sweep, .ray = bare_ray};
+    tahr_ray q = {.origin = {1, 2, 3}, .motion = {8, -16, 4}, .mask = 0xFFFFFFFFu, .ignore_body = TAHR_NO_BODY};
+    tahr_world *world = NULL;
+    tahr_hit hit;
+    uint32_t count = 0;
+    (void)unused;
+    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_OK);
+    assert_int_equal(tahr_world_ray(world, &q, &hit, &count), TAHR_OK);
+    assert_int_equal(count, 1);
+    assert_near(hit.point.x, 4, 0);
+    assert_near(hit.point.y, -4, 0);
+    assert_near(hit.point.z, 4.5, 0);
+    assert_near(hit.surface_normal.y, hit.normal.y, 0);
+    assert_near(hit.normal.z, 0.8, 1e-15);
+    tahr_world_close(world);
+}
+
 static tahr_status refusing_sweep(void *user, const tahr_sweep *q, tahr_hit *hit)
 {
     (void)user, (void)q, (void)hit;
@@ -159,6 +254,9 @@ int main(void)
                                        cmocka_unit_test(missing_contacts_come_from_a_sweep_that_goes_nowhere),
                                        cmocka_unit_test(missing_ray_is_a_thin_sphere),
                                        cmocka_unit_test(derived_point_lies_on_the_surface),
+                                       cmocka_unit_test(a_users_contacts_are_truncated_and_get_their_surface_normal),
+                                       cmocka_unit_test(a_sensor_is_no_hit_of_a_ray),
+                                       cmocka_unit_test(a_users_ray_without_point_gets_the_place_where_it_ends),
                                        cmocka_unit_test(a_negative_status_ends_the_step)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -155,6 +155,9 @@ static void every_input_field_is_checked(void **unused)
     assert_int_equal(tahr_mover_step(c.mover, &c.input, 0.01, &c.state, NULL), TAHR_OK);
     c.input.flags = 1u << 9;
     expect(&c, 0.1, TAHR_E_ARGUMENT, "input.flags");
+    c.input.flags = 0;
+    c.input.reserved = 7;
+    expect(&c, 0.1, TAHR_E_ARGUMENT, "input.reserved");
     close_checked(&c);
 }
 

@@ -37,6 +37,7 @@ static const char *const lie_fields[LIES] = {"",         "normal",   "normal",  
 typedef struct liar {
     fake_world fake;
     int lie, contact_lie, random;
+    int unknown; /* this body is answered as "unknown" instead of "blocking"; 0: none */
     uint64_t seed;
     uint32_t asked;
 } liar;
@@ -112,6 +113,11 @@ static tahr_status liar_sweep(void *self, tahr_query_context *context, const tah
     }
     fake_sweep(&l->fake, query, &hits[0]);
     *count = hits[0].blocking;
+    if (*count && l->unknown && hits[0].body == (uint32_t)l->unknown) {
+        tahr_hit gave_up = {.unknown = 1, .fraction = hits[0].fraction, .body = hits[0].body};
+        hits[0] = gave_up; /* nothing is known of it but how far the way was free */
+        return TAHR_OK;
+    }
     if (*count && l->lie) {
         spoil(l->lie, &hits[0], count);
         return l->lie == LIE_STATUS ? TAHR_E_GEOMETRY : TAHR_OK;
@@ -306,6 +312,40 @@ static void unknown_blocks_at_the_last_free_fraction_with_a_flag(void **unused)
     fail_msg("never");
 }
 
+static void unknown_that_does_not_say_blocking_blocks_all_the_same(void **unused)
+{
+    (void)unused;
+    for (int mode = TAHR_MODE_WALKING; mode <= TAHR_MODE_FALLING; mode++) {
+        bench b;
+        uint32_t unknown_steps = 0;
+        open_bench(&b, ALL);
+        fake_add_plane(&b.liar.fake, fake_vec(-1, 0, 0), -3); /* a wall at x = 3 that the backend cannot decide */
+        b.liar.unknown = 1;
+        if (mode == TAHR_MODE_FALLING) {
+            b.state.position.z = 30;
+            b.state.velocity = fake_vec(6, 0, 0);
+        }
+        for (int i = 0; i < 60; i++) {
+            tahr_report report = {.struct_size = sizeof report};
+            double before = b.state.position.x;
+            b.input.move = fake_vec(1, 0, 0);
+            tahr_status status = tahr_mover_step(b.mover, &b.input, 1.0 / 60, &b.state, &report);
+            int unknown = (report.flags & TAHR_REPORT_UNKNOWN) != 0;
+            assert_int_equal(status == TAHR_UNKNOWN || status == TAHR_STUCK, unknown);
+            assert_true(b.state.position.x <= 3 - 0.35 - 0.01 + 1e-12);
+            if (unknown) {
+                unknown_steps++;
+                assert_near(b.state.position.x, 3 - 0.35 - 0.01, 1e-9);
+                assert_true(report.time_lost > 0);
+            } else {
+                assert_true(b.state.position.x > before || i == 0);
+            }
+        }
+        assert_true(unknown_steps > 1);
+        close_bench(&b);
+    }
+}
+
 /* house.md 4.11: wrong but well-formed: finite, within the cap, no farther than asked. */
 static void random_answers_never_break_the_promises(void **unused)
 {
@@ -433,8 +473,69 @@ static void direct_sweep_answers_and_checks(void **unused)
     q = good_sweep();
     q.flags = 1u << 30;
     assert_int_equal(tahr_world_sweep(b.world, &q, hits, 2, &count), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(b.log.text, "flags"));
+    q = good_sweep();
+    q.reserved = 3;
+    assert_int_equal(tahr_world_sweep(b.world, &q, hits, 2, &count), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(b.log.text, "reserved"));
+    q = good_sweep();
+    q.shape.reserved = 3;
+    assert_int_equal(tahr_world_sweep(b.world, &q, hits, 2, &count), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(b.log.text, "reserved"));
     assert_memory_equal(hits, kept, sizeof hits);
     assert_int_equal(count, 99);
+    close_bench(&b);
+}
+
+/* Unit, but their z axis is not up: tilted, on its head, and upright under another up. */
+static void a_box_whose_z_axis_is_not_up_is_refused(void **unused)
+{
+    const tahr_quat tilted[] = {{0.6, 0, 0, 0.8}, {1, 0, 0, 0}, {0, 0.01, 0, 0.99994999874993749}};
+    bench b;
+    tahr_hit hit;
+    tahr_contact contact;
+    uint32_t count;
+    (void)unused;
+    open_bench(&b, ALL);
+    tahr_sweep q = good_sweep(), round = q;
+    q.shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.3, .half_y = 0.2};
+    tahr_contact_query near = {.shape = q.shape, .position = q.position, .up = q.up, .mask = q.mask};
+    near.ignore_body = TAHR_NO_BODY;
+    for (size_t i = 0; i < sizeof tilted / sizeof tilted[0]; i++) {
+        q.orientation = near.orientation = tilted[i];
+        b.log.text[0] = 0;
+        assert_int_equal(tahr_world_sweep(b.world, &q, &hit, 1, &count), TAHR_E_ARGUMENT);
+        assert_non_null(strstr(b.log.text, "orientation"));
+        b.log.text[0] = 0;
+        assert_int_equal(tahr_world_contacts(b.world, &near, &contact, 1, &count), TAHR_E_ARGUMENT);
+        assert_non_null(strstr(b.log.text, "orientation"));
+        round.orientation = tilted[i]; /* means nothing to a capsule */
+        assert_int_equal(tahr_world_sweep(b.world, &round, &hit, 1, &count), TAHR_OK);
+    }
+    q.orientation = near.orientation = (tahr_quat){0, 0, 0.6, 0.8}; /* turned about up */
+    assert_int_equal(tahr_world_sweep(b.world, &q, &hit, 1, &count), TAHR_OK);
+    assert_int_equal(tahr_world_contacts(b.world, &near, &contact, 1, &count), TAHR_OK);
+    q.up = near.up = fake_vec(1, 0, 0);
+    assert_int_equal(tahr_world_sweep(b.world, &q, &hit, 1, &count), TAHR_E_ARGUMENT);
+    assert_int_equal(tahr_world_contacts(b.world, &near, &contact, 1, &count), TAHR_E_ARGUMENT);
+    close_bench(&b);
+}
+
+static void direct_sweep_says_unknown_where_the_backend_gave_up(void **unused)
+{
+    bench b;
+    tahr_hit hit;
+    uint32_t count = 0;
+    tahr_sweep q = good_sweep();
+    (void)unused;
+    open_bench(&b, ALL);
+    fake_add_plane(&b.liar.fake, fake_vec(-1, 0, 0), -3);
+    b.liar.unknown = 1;
+    q.motion = fake_vec(4, 0, 0);
+    assert_int_equal(tahr_world_sweep(b.world, &q, &hit, 1, &count), TAHR_UNKNOWN);
+    assert_int_equal(count, 1);
+    assert_true(hit.unknown);
+    assert_near(hit.fraction, (3 - 0.36) / 4, 1e-15);
     close_bench(&b);
 }
 
@@ -491,6 +592,13 @@ static void direct_contacts_answer_and_check(void **unused)
     q.shape.type = 0;
     assert_int_equal(tahr_world_contacts(b.world, &q, out, 4, &count), TAHR_E_ARGUMENT);
     q.shape.type = TAHR_SHAPE_CAPSULE;
+    q.reserved = 1;
+    assert_int_equal(tahr_world_contacts(b.world, &q, out, 4, &count), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(b.log.text, "reserved"));
+    q.reserved = 0, q.flags = 1;
+    assert_int_equal(tahr_world_contacts(b.world, &q, out, 4, &count), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(b.log.text, "flags"));
+    q.flags = 0;
     b.liar.contact_lie = 1;
     assert_int_equal(tahr_world_contacts(b.world, &q, out, 4, &count), TAHR_E_BACKEND);
     assert_int_equal(count, 99);
@@ -552,9 +660,12 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(lies_of_a_sweep_end_the_step_and_are_named),
                                        cmocka_unit_test(lies_of_contacts_end_the_step_and_are_named),
                                        cmocka_unit_test(unknown_blocks_at_the_last_free_fraction_with_a_flag),
+                                       cmocka_unit_test(unknown_that_does_not_say_blocking_blocks_all_the_same),
                                        cmocka_unit_test(random_answers_never_break_the_promises),
                                        cmocka_unit_test(a_backend_without_margin_walks_the_same_path),
                                        cmocka_unit_test(direct_sweep_answers_and_checks),
+                                       cmocka_unit_test(a_box_whose_z_axis_is_not_up_is_refused),
+                                       cmocka_unit_test(direct_sweep_says_unknown_where_the_backend_gave_up),
                                        cmocka_unit_test(direct_sweep_leaves_outputs_untouched_when_the_backend_lies),
                                        cmocka_unit_test(direct_contacts_answer_and_check),
                                        cmocka_unit_test(direct_ray_answers_and_checks),

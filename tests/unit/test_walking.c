@@ -479,6 +479,33 @@ static void gravity_along_any_axis_gives_the_same_path(void **unused)
     }
 }
 
+static void events_of_a_wanderer_are_in_order(void **unused)
+{
+    const double dts[] = {1.0 / 60, 0.1, 0.3, 0.7};
+    fake_world w;
+    rig r;
+    uint64_t seed = 11;
+    uint32_t events = 0, together = 0;
+    (void)unused;
+    course(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
+    for (int i = 0; i < 4000; i++) {
+        double dt = dts[i % 4];
+        if (i % 40 == 0) { /* back from the open plane to where there is something to meet */
+            tahr_vec3 at = {0, 0, 1};
+            tahr_state_init(&r.state, &r.config, &at);
+        }
+        wander(&r.input, &seed);
+        rig_step(&r, dt);
+        rig_assert_in_order(&r, dt);
+        events += r.report.event_count;
+        together += r.report.event_count > 2;
+        assert_true(r.report.time_lost >= 0 && r.report.time_lost <= dt);
+    }
+    assert_true(events > 1000 && together > 50); /* else nothing was tested */
+    rig_close(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(distance_after_acceleration_is_the_closed_form),
@@ -497,6 +524,7 @@ int main(void)
                                        cmocka_unit_test(acute_corner_is_a_place_to_rest),
                                        cmocka_unit_test(walking_off_a_ledge_falls_with_the_level_speed),
                                        cmocka_unit_test(ledge_guard_keeps_the_character_up),
-                                       cmocka_unit_test(gravity_along_any_axis_gives_the_same_path)};
+                                       cmocka_unit_test(gravity_along_any_axis_gives_the_same_path),
+                                       cmocka_unit_test(events_of_a_wanderer_are_in_order)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,8 @@
 
 #include "fake_world.h"
 
+#include <tahr/native.h>
+
 static int opened, closed, placed;
 static tahr_status open_answer;
 
@@ -307,6 +309,90 @@ static void callbacks_are_checked(void **unused)
     tahr_world_close(world);
 }
 
+/* What a program compiled with a newer header hands over: longer elements, one after the other. */
+typedef struct newer_body {
+    tahr_body_desc known;
+    double more[3];
+} newer_body;
+
+enum { NEWER = 3 };
+
+static void describe_newer(tahr_world_desc *desc, newer_body bodies[NEWER])
+{
+    memset(bodies, 0, NEWER * sizeof bodies[0]);
+    for (int i = 0; i < NEWER; i++) { /* a row of boxes along x, surfaces 10, 11, 12 */
+        assert_int_equal(tahr_body_desc_init(&bodies[i].known, sizeof bodies[i], TAHR_BODY_BOX), TAHR_OK);
+        bodies[i].known.half_extents = fake_vec(1, 1, 1);
+        bodies[i].known.pose.position = fake_vec(10.0 * i, 0, 0);
+        bodies[i].known.surface = 10 + (uint32_t)i;
+    }
+    tahr_world_desc_init(desc, sizeof *desc);
+    desc->bodies = &bodies[0].known;
+    desc->body_count = NEWER;
+}
+
+static void an_array_of_longer_bodies_opens_when_what_is_new_is_zero(void **unused)
+{
+    newer_body bodies[NEWER];
+    tahr_world_desc desc;
+    fake_memory memory = {0};
+    (void)unused;
+    tahr_allocator allocator = fake_allocator(&memory);
+    describe_newer(&desc, bodies);
+    desc.allocator = &allocator;
+    for (uint32_t count = 1; count <= NEWER; count++) {
+        tahr_world *world = NULL;
+        desc.body_count = count;
+        assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_OK);
+        assert_int_equal(tahr_world_memory(world), memory.live_bytes);
+        for (uint32_t i = 0; i < NEWER; i++) {
+            tahr_ray ray = {.origin = {10.0 * i, 0, 5}, .motion = {0, 0, -8}, .mask = 1, .ignore_body = TAHR_NO_BODY};
+            tahr_hit hit;
+            uint32_t hits = 9;
+            assert_int_equal(tahr_world_ray(world, &ray, &hit, &hits), TAHR_OK);
+            assert_int_equal(hits, i < count);
+            assert_true(i >= count || (hit.body == i && hit.surface == 10 + i));
+        }
+        tahr_world_close(world);
+        assert_int_equal(memory.live_blocks, 0);
+    }
+}
+
+static void an_array_of_longer_bodies_is_unsupported_when_something_new_is_asked_for(void **unused)
+{
+    newer_body bodies[NEWER];
+    tahr_world_desc desc;
+    fake_memory memory = {0};
+    fake_log log;
+    (void)unused;
+    tahr_allocator allocator = fake_allocator(&memory);
+    tahr_log l = fake_log_of(&log);
+    for (int i = 0; i < NEWER; i++) {
+        char name[32];
+        tahr_world *world = NULL;
+        describe_newer(&desc, bodies);
+        desc.allocator = &allocator;
+        desc.log = &l;
+        bodies[i].more[2] = 1;
+        assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_E_UNSUPPORTED);
+        snprintf(name, sizeof name, "bodies[%d]", i);
+        assert_non_null(strstr(log.text, name));
+        assert_null(world);
+        assert_int_equal(memory.live_blocks, 0);
+        describe_newer(&desc, bodies); /* a bad field of a longer body is named like any other */
+        desc.allocator = &allocator;
+        desc.log = &l;
+        bodies[i].known.half_extents.y = NAN;
+        assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_E_ARGUMENT);
+        assert_non_null(strstr(log.text, name));
+        assert_int_equal(memory.live_blocks, 0);
+    }
+    describe_newer(&desc, bodies); /* elements of two sizes are no array */
+    bodies[1].known.struct_size = sizeof(tahr_body_desc);
+    tahr_world *world = NULL;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_E_STRUCT_SIZE);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(descriptions_start_zero_and_check_their_size),
@@ -314,6 +400,9 @@ int main(void)
                                        cmocka_unit_test(open_checks_backend_and_description),
                                        cmocka_unit_test(set_checks_every_pose_before_it_moves_one),
                                        cmocka_unit_test(fixed_bodies_cannot_be_placed),
+                                       cmocka_unit_test(an_array_of_longer_bodies_opens_when_what_is_new_is_zero),
+                                       cmocka_unit_test(
+                                           an_array_of_longer_bodies_is_unsupported_when_something_new_is_asked_for),
                                        cmocka_unit_test(callbacks_are_checked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
