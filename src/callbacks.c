@@ -30,8 +30,8 @@ static vec3 nearest_point(const tahr_sweep *q, const tahr_hit *h)
     return add_scaled(core, h->normal, -(q->shape.radius + h->distance));
 }
 
-static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
-                         uint32_t *count)
+static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
+                         uint32_t capacity, uint32_t *count)
 {
     const tahr_callbacks *user = self;
     (void)capacity;

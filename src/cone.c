@@ -111,7 +111,8 @@ static vec3 solve_symmetric(const double m[6], vec3 r)
     double c3 = m[0] * m[5] - m[2] * m[2];
     double c4 = m[1] * m[2] - m[0] * m[4];
     double c5 = m[0] * m[3] - m[1] * m[1];
-    return scale(vec(c0 * r.x + c1 * r.y + c2 * r.z, c1 * r.x + c3 * r.y + c4 * r.z, c2 * r.x + c4 * r.y + c5 * r.z), 1.0 / det);
+    return scale(vec(c0 * r.x + c1 * r.y + c2 * r.z, c1 * r.x + c3 * r.y + c4 * r.z, c2 * r.x + c4 * r.y + c5 * r.z),
+                 1.0 / det);
 }
 
 /* Minimises the sum of squared violations, with a trace of |x - u|^2 to make the answer unique. Each round solves for the

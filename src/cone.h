@@ -9,7 +9,7 @@
 typedef struct tahr__plane {
     vec3 normal;
     double offset;
-    vec3 anchor;      /* where the character was when it met the plane */
+    vec3 anchor; /* where the character was when it met the plane */
     uint32_t body;
     uint32_t feature;
 } tahr__plane;

@@ -82,10 +82,11 @@ tahr_status tahr_config_scale(tahr_config *config, double factor)
     }
     tahr_config c;
     memcpy(&c, config, sizeof c);
-    double *lengths[] = {&c.shape.radius,    &c.shape.half_height, &c.shape.half_x,         &c.shape.half_y,   &c.skin,
-                         &c.max_depenetration, &c.step_height,     &c.snap_distance,        &c.perch_threshold, &c.perch_extra,
-                         &c.edge_tolerance,  &c.arc_tolerance,     &c.max_speed,            &c.acceleration,   &c.braking_deceleration,
-                         &c.jump_speed,      &c.terminal_speed,    &c.gravity.x,            &c.gravity.y,      &c.gravity.z};
+    double *lengths[] = {
+        &c.shape.radius,      &c.shape.half_height, &c.shape.half_x,  &c.shape.half_y,    &c.skin,
+        &c.max_depenetration, &c.step_height,       &c.snap_distance, &c.perch_threshold, &c.perch_extra,
+        &c.edge_tolerance,    &c.arc_tolerance,     &c.max_speed,     &c.acceleration,    &c.braking_deceleration,
+        &c.jump_speed,        &c.terminal_speed,    &c.gravity.x,     &c.gravity.y,       &c.gravity.z};
     for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; i++) {
         *lengths[i] *= factor;
     }
@@ -130,8 +131,9 @@ const char *tahr__shape_check(const tahr_shape *s)
     if (s->type != TAHR_SHAPE_SPHERE && s->type != TAHR_SHAPE_CAPSULE) {
         return "shape.type";
     }
-    const range ranges[] = {{"shape.radius", s->radius, tiny, huge},
-                            {"shape.half_height", s->half_height, s->radius, s->type == TAHR_SHAPE_SPHERE ? s->radius : huge}};
+    const range ranges[] = {
+        {"shape.radius", s->radius, tiny, huge},
+        {"shape.half_height", s->half_height, s->radius, s->type == TAHR_SHAPE_SPHERE ? s->radius : huge}};
     return bad_range(ranges, sizeof ranges / sizeof ranges[0]);
 }
 

@@ -52,12 +52,12 @@ typedef struct tahr__step {
     tahr_state state;
     tahr_report report;
     tahr_query_context context;
-    vec3 gravity;       /* m/s2 */
-    double time;        /* s since the start of the step, at the begin of the slice */
-    double ahead;       /* s from there to what is being worked on: events happen then */
-    double push_left;   /* m of depenetration still allowed */
-    uint32_t queries;   /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
-    tahr_status error;  /* sticky: after it every query answers "blocked here" */
+    vec3 gravity;      /* m/s2 */
+    double time;       /* s since the start of the step, at the begin of the slice */
+    double ahead;      /* s from there to what is being worked on: events happen then */
+    double push_left;  /* m of depenetration still allowed */
+    uint32_t queries;  /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
+    tahr_status error; /* sticky: after it every query answers "blocked here" */
 } tahr__step;
 
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */

@@ -220,7 +220,8 @@ tahr__next tahr__fall(tahr__step *step, double time)
     uint32_t hits = 0;
     f.left = time;
     f.plane_count = 0;
-    while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 && !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
+    while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 &&
+           !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         tahr__planes_forget(step, f.planes, &f.plane_count);
         if (!fall_chord(step, &f, &hit)) {
             if (hit.blocking) {

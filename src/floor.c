@@ -194,7 +194,8 @@ void tahr__keep_floor(tahr__step *step, const tahr_floor *floor)
 
 int tahr__floor_is_current(const tahr__step *step)
 {
-    return step->state.floor_revision == step->world->revision && vec_equal(step->state.floor_position, step->state.position);
+    return step->state.floor_revision == step->world->revision &&
+           vec_equal(step->state.floor_position, step->state.position);
 }
 
 /* The floor goes with the character, so that the next move starts from it; a character that stands looks again. */
@@ -246,5 +247,6 @@ int tahr__is_wedged(tahr__step *step)
     tahr__project(planes, used, scale(step->state.up, -1), &way);
     double left = length(way);
     /* sin of 0.6 degrees: a gutter less inclined holds a character as a floor does. */
-    return tahr__decide(step, TAHR_RULE_WEDGE, used > 1 && left < 0.01, NULL, left, 0.01, "downward motion that the contacts leave");
+    return tahr__decide(step, TAHR_RULE_WEDGE, used > 1 && left < 0.01, NULL, left, 0.01,
+                        "downward motion that the contacts leave");
 }

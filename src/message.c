@@ -6,7 +6,8 @@
 
 enum { MESSAGE_SIZE = 256 };
 
-tahr_status tahr__complain(const tahr_log *log, tahr_status status, const char *function, const char *argument, const char *what)
+tahr_status tahr__complain(const tahr_log *log, tahr_status status, const char *function, const char *argument,
+                           const char *what)
 {
     if (log && log->write) {
         char text[MESSAGE_SIZE];
@@ -16,8 +17,8 @@ tahr_status tahr__complain(const tahr_log *log, tahr_status status, const char *
     return status;
 }
 
-tahr_status tahr__complain_value(const tahr_log *log, tahr_status status, const char *function, const char *argument, double value,
-                                 const char *what)
+tahr_status tahr__complain_value(const tahr_log *log, tahr_status status, const char *function, const char *argument,
+                                 double value, const char *what)
 {
     if (log && log->write) {
         char text[MESSAGE_SIZE];

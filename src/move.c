@@ -59,9 +59,11 @@ static int joint_push(const tahr_contact *contacts, uint32_t count, double skin,
 static void push_out(tahr__step *step, vec3 push)
 {
     tahr_hit hit;
-    tahr__sweep(step, &step->config->shape, step->state.position, push, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
+    tahr__sweep(step, &step->config->shape, step->state.position, push, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP,
+                &hit);
     advance(step, push, &hit);
-    if (hit.start_overlap && hit.blocking) { /* a curved neighbour looks deeper for a moment: the push is still the joint one */
+    if (hit.start_overlap &&
+        hit.blocking) { /* a curved neighbour looks deeper for a moment: the push is still the joint one */
         step->state.position = add(step->state.position, push);
     }
 }
@@ -83,7 +85,8 @@ static void emit(tahr__step *step, vec3 start, double residual, const tahr_conta
         step->report.residual = max_of(step->report.residual, residual);
         tahr__event(step, TAHR_EVENT_CRUSHED, &hit, residual);
     }
-    tahr__decide(step, TAHR_RULE_DEPENETRATION, residual <= TOUCHING, &hit, residual, TOUCHING, "depth left after the joint push");
+    tahr__decide(step, TAHR_RULE_DEPENETRATION, residual <= TOUCHING, &hit, residual, TOUCHING,
+                 "depth left after the joint push");
 }
 
 int tahr__depenetrate(tahr__step *step)

@@ -45,7 +45,8 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
                               field ? "is out of range or not finite" : tahr_status_message(status));
     }
     if (!(world->backend->capabilities & tahr__shape_capability(config->shape.type))) {
-        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", "shape.type", "is not among the backend's shapes");
+        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", "shape.type",
+                              "is not among the backend's shapes");
     }
     tahr_allocator a = world->memory.user;
     size_t cache_size = world->backend->cache_size ? world->backend->cache_size(world->self) : 0;
@@ -137,8 +138,9 @@ static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
     if (!all_zero(s->reserved)) {
         return "state.reserved";
     }
-    int floor_ok = vec_is_finite(s->floor_position) && is_finite(s->floor.perch_distance) && vec_is_finite(s->floor.normal) && vec_is_finite(s->floor.surface_normal) && vec_is_finite(s->floor.point) &&
-                   is_finite(s->floor.distance) && is_finite(s->jump_hold);
+    int floor_ok = vec_is_finite(s->floor_position) && is_finite(s->floor.perch_distance) &&
+                   vec_is_finite(s->floor.normal) && vec_is_finite(s->floor.surface_normal) &&
+                   vec_is_finite(s->floor.point) && is_finite(s->floor.distance) && is_finite(s->jump_hold);
     return floor_ok ? NULL : "state.floor";
 }
 
@@ -156,7 +158,8 @@ static tahr_status check_arguments(const tahr_mover *mover, const tahr_input *in
         return tahr__complain(log, status, "tahr_mover_step", "input or report", tahr_status_message(status));
     }
     if (!(dt >= 0 && dt <= mover->config.max_dt)) {
-        return tahr__complain_value(log, TAHR_E_ARGUMENT, "tahr_mover_step", "dt", dt, "must be within 0 and config.max_dt");
+        return tahr__complain_value(log, TAHR_E_ARGUMENT, "tahr_mover_step", "dt", dt,
+                                    "must be within 0 and config.max_dt");
     }
     const char *bad = bad_input(input);
     bad = bad ? bad : bad_state(state, &mover->config.shape);
@@ -312,7 +315,8 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         return TAHR_E_NULL;
     }
     if (mover->busy) {
-        return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover", "is being stepped already");
+        return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",
+                              "is being stepped already");
     }
     tahr_status status = check_arguments(mover, input, dt, state, report);
     if (status < 0) {

@@ -9,11 +9,11 @@
  * ends it and begins the next. */
 typedef struct tahr__path {
     tahr__law law;
-    vec3 velocity;   /* at the begin of the piece */
-    double began;    /* s from the begin of the slice */
-    double duration; /* s of the piece, if nothing ends it */
-    vec3 wish;       /* level displacement of the whole piece */
-    double left;     /* part of it not yet covered */
+    vec3 velocity;    /* at the begin of the piece */
+    double began;     /* s from the begin of the slice */
+    double duration;  /* s of the piece, if nothing ends it */
+    vec3 wish;        /* level displacement of the whole piece */
+    double left;      /* part of it not yet covered */
     double stop_time; /* s from the begin of the slice at which the character stops; < 0: it does not */
     tahr__plane walls[TAHR__MAX_PLANES];
     uint32_t wall_count;

@@ -104,8 +104,8 @@ static void deflate(const tahr_sweep *q, double margin, tahr_hit *h)
     }
 }
 
-static tahr_status checked_sweep(const tahr_world *world, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
-                                 uint32_t capacity, uint32_t *count)
+static tahr_status checked_sweep(const tahr_world *world, tahr_query_context *context, const tahr_sweep *query,
+                                 tahr_hit *hits, uint32_t capacity, uint32_t *count)
 {
     tahr_sweep larger;
     int inflated = !(world->backend->capabilities & TAHR_CAP_MARGIN) && query->margin > 0;
@@ -152,8 +152,8 @@ static tahr_status checked_contacts(const tahr_world *world, tahr_query_context 
     return status;
 }
 
-static tahr_status checked_ray(const tahr_world *world, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit,
-                               uint32_t *count)
+static tahr_status checked_ray(const tahr_world *world, tahr_query_context *context, const tahr_ray *query,
+                               tahr_hit *hit, uint32_t *count)
 {
     *count = 0;
     tahr_status status = world->backend->ray(world->self, context, query, hit, count);
@@ -187,7 +187,8 @@ static void blocked_here(const tahr__step *step, tahr_hit *hit)
     hit->normal = hit->surface_normal = step->state.up;
 }
 
-void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags, tahr_hit *hit)
+void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
+                 tahr_hit *hit)
 {
     uint32_t count = 0;
     if (!may_ask(step)) {
@@ -280,7 +281,8 @@ void tahr__announce(tahr__step *step, const tahr_bounds *bounds)
     if (!step->world->backend->prepare) {
         return;
     }
-    tahr_prepare p = {.bounds = *bounds, .position = step->state.position, .up = step->state.up, .mask = step->config->mask};
+    tahr_prepare p = {
+        .bounds = *bounds, .position = step->state.position, .up = step->state.up, .mask = step->config->mask};
     if (step->world->backend->prepare(step->world->self, &step->context, &p) < 0) {
         step->error = bad_answer(step->world, "prepare", "status");
     }
@@ -320,7 +322,8 @@ static tahr_status bad_argument(const tahr_world *world, const char *function, c
     return tahr__complain(&world->log, TAHR_E_ARGUMENT, function, field, "is out of range or not finite");
 }
 
-tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity, uint32_t *count)
+tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
+                             uint32_t *count)
 {
     tahr_hit found[DIRECT_ANSWERS];
     tahr_query_context context = {0};
@@ -339,9 +342,11 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
         return bad_argument(world, "tahr_world_sweep", bad ? bad : "capacity");
     }
     if (!(world->backend->capabilities & tahr__shape_capability(query->shape.type))) {
-        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_sweep", "shape.type", "is not among the backend's shapes");
+        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_sweep", "shape.type",
+                              "is not among the backend's shapes");
     }
-    tahr_status status = checked_sweep(world, &context, query, found, capacity < DIRECT_ANSWERS ? capacity : DIRECT_ANSWERS, &n);
+    tahr_status status =
+        checked_sweep(world, &context, query, found, capacity < DIRECT_ANSWERS ? capacity : DIRECT_ANSWERS, &n);
     if (status < 0) {
         return status;
     }
@@ -350,8 +355,8 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     return n && found[n - 1].unknown ? TAHR_UNKNOWN : status;
 }
 
-tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,
-                                uint32_t *count)
+tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts,
+                                uint32_t capacity, uint32_t *count)
 {
     tahr_contact found[DIRECT_ANSWERS];
     tahr_query_context context = {0};
@@ -370,7 +375,8 @@ tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *que
         return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_contacts", "shape.type",
                               "is not among the backend's shapes");
     }
-    tahr_status status = checked_contacts(world, &context, query, found, capacity < DIRECT_ANSWERS ? capacity : DIRECT_ANSWERS, &n);
+    tahr_status status =
+        checked_contacts(world, &context, query, found, capacity < DIRECT_ANSWERS ? capacity : DIRECT_ANSWERS, &n);
     if (status < 0) {
         return status;
     }

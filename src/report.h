@@ -9,6 +9,7 @@
 void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double value);
 
 /* Appends a decision to the trace, if the caller asked for one; hit may be NULL. Returns accepted. */
-int tahr__decide(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value, double limit, const char *reason);
+int tahr__decide(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value, double limit,
+                 const char *reason);
 
 #endif

@@ -39,16 +39,15 @@ static const char *bad_body(const tahr_body_desc *b)
         return "walkable_rule";
     }
     switch (b->type) {
-    case TAHR_BODY_MESH:
-        return b->vertices && b->indices ? NULL : "vertices or indices";
+    case TAHR_BODY_MESH: return b->vertices && b->indices ? NULL : "vertices or indices";
     case TAHR_BODY_BOX:
-        return is_size(b->half_extents.x) && is_size(b->half_extents.y) && is_size(b->half_extents.z) ? NULL : "half_extents";
-    case TAHR_BODY_SPHERE:
-        return is_size(b->radius) ? NULL : "radius";
+        return is_size(b->half_extents.x) && is_size(b->half_extents.y) && is_size(b->half_extents.z) ? NULL
+                                                                                                      : "half_extents";
+    case TAHR_BODY_SPHERE: return is_size(b->radius) ? NULL : "radius";
     case TAHR_BODY_CAPSULE:
-        return is_size(b->radius) && is_size(b->half_height) && b->half_height >= b->radius ? NULL : "radius or half_height";
-    default:
-        return "type";
+        return is_size(b->radius) && is_size(b->half_height) && b->half_height >= b->radius ? NULL
+                                                                                            : "radius or half_height";
+    default: return "type";
     }
 }
 

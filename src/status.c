@@ -21,12 +21,10 @@ const char *tahr_status_name(tahr_status status)
 {
     switch (status) {
 #define NAME(constant, value, name, message) \
-    case constant:                           \
-        return name;
+    case constant: return name;
         TAHR_STATUS_TABLE(NAME)
 #undef NAME
-    default:
-        return "?";
+    default: return "?";
     }
 }
 
@@ -34,19 +32,18 @@ const char *tahr_status_message(tahr_status status)
 {
     switch (status) {
 #define MESSAGE(constant, value, name, message) \
-    case constant:                              \
-        return message;
+    case constant: return message;
         TAHR_STATUS_TABLE(MESSAGE)
 #undef MESSAGE
-    default:
-        return "not a status of this library";
+    default: return "not a status of this library";
     }
 }
 
 const char *tahr_event_name(uint32_t type)
 {
-    static const char *const names[] = {"?",          "landed",       "left_ground",   "jumped",  "apex",  "stopped", "stepped_up",
-                                        "stepped_down", "hit", "depenetrated", "crushed", "stuck", "mode"};
+    static const char *const names[] = {"?",       "landed",     "left_ground",  "jumped", "apex",
+                                        "stopped", "stepped_up", "stepped_down", "hit",    "depenetrated",
+                                        "crushed", "stuck",      "mode"};
     return type < sizeof names / sizeof names[0] ? names[type] : "?";
 }
 
@@ -54,11 +51,9 @@ const char *tahr_rule_name(uint32_t rule)
 {
     switch (rule) {
 #define NAME(constant, value, name) \
-    case constant:                  \
-        return name;
+    case constant: return name;
         TAHR_RULE_TABLE(NAME)
 #undef NAME
-    default:
-        return "?";
+    default: return "?";
     }
 }

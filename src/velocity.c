@@ -44,8 +44,9 @@ static double brake(double v, double b, double f, double t, double *distance)
     double v1 = v - (f * v + b) * d;
     /* Integral of v: with I = (1 - e^-ft)/f it is v I - b (t - I) / f; (t - I) / f cancels for small f t. */
     double x = f * t;
-    double rest = x < 1e-2 ? t * t * (0.5 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120 - x * (1.0 / 720 - x * (1.0 / 5040))))))
-                           : (t - d) / f;
+    double rest =
+        x < 1e-2 ? t * t * (0.5 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120 - x * (1.0 / 720 - x * (1.0 / 5040))))))
+                 : (t - d) / f;
     *distance = v * d - b * rest;
     return v1 > 0 ? v1 : 0;
 }
@@ -120,7 +121,7 @@ static void wish_phase(const tahr__law *law, vec3 v, double t, tahr__motion *m)
     vec3 across = reject(v, law->wish);
     double q = length(across);
     vec3 side = q > 0 ? scale(across, 1.0 / q) : vec(0, 0, 0);
-    q = min_of(q, speed); /* more is only rounding: over-speed was braked before */
+    q = min_of(q, speed);    /* more is only rounding: over-speed was braked before */
     if (q < 1e-15 * speed) { /* and so is a part across the wish of less than half a unit in the last place */
         q = 0;
     }

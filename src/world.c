@@ -199,10 +199,12 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
         return status;
     }
     if (!callbacks->sweep) {
-        return tahr__complain(desc ? desc->log : NULL, TAHR_E_NULL, "tahr_world_open_callbacks", "callbacks.sweep", "is NULL");
+        return tahr__complain(desc ? desc->log : NULL, TAHR_E_NULL, "tahr_world_open_callbacks", "callbacks.sweep",
+                              "is NULL");
     }
     if (callbacks->flags) {
-        return tahr__complain(desc ? desc->log : NULL, TAHR_E_UNSUPPORTED, "tahr_world_open_callbacks", "callbacks.flags", "is not 0");
+        return tahr__complain(desc ? desc->log : NULL, TAHR_E_UNSUPPORTED, "tahr_world_open_callbacks",
+                              "callbacks.flags", "is not 0");
     }
     status = new_world("tahr_world_open_callbacks", desc, sizeof *callbacks, &world);
     if (status < 0) {
@@ -229,16 +231,18 @@ tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint3
         return TAHR_E_NULL;
     }
     if (!world->backend->place) {
-        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_set", world->backend->name, "cannot place bodies");
+        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_set", world->backend->name,
+                              "cannot place bodies");
     }
     for (uint32_t i = 0; i < count; i++) {
         if (poses[i].body >= world->body_count) {
-            return tahr__complain_value(&world->log, TAHR_E_NOT_FOUND, "tahr_world_set", "poses.body", poses[i].body, "no such body");
+            return tahr__complain_value(&world->log, TAHR_E_NOT_FOUND, "tahr_world_set", "poses.body", poses[i].body,
+                                        "no such body");
         }
         const char *bad = tahr__bad_pose(&poses[i].pose, 0);
         if (bad || poses[i].flags) {
-            return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", "the pose of body", poses[i].body,
-                                        bad ? bad : "flags must be 0");
+            return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", "the pose of body",
+                                        poses[i].body, bad ? bad : "flags must be 0");
         }
     }
     tahr_status status = world->backend->place(world->self, poses, count);

@@ -135,8 +135,10 @@ static uint32_t partition_sah(builder *b, const range *r, const tahr__bvh_box *m
     if (best_axis < 0) return 0;
     uint32_t i = r->first, j = r->first + r->count;
     while (i < j) {
-        if (bin_of(box_middle(&b->boxes[i], best_axis), best_low, best_scale) <= best_bin) i++;
-        else swap_items(b, i, --j);
+        if (bin_of(box_middle(&b->boxes[i], best_axis), best_low, best_scale) <= best_bin)
+            i++;
+        else
+            swap_items(b, i, --j);
     }
     return i - r->first;
 }
@@ -159,7 +161,8 @@ static void build_ranges(builder *b, uint32_t count)
         tahr__bvh_box box = box_empty(), middles = box_empty();
         for (uint32_t i = r.first; i < r.first + r.count; i++) {
             tahr__bvh_box middle;
-            for (int k = 0; k < 3; k++) middle.lo[k] = middle.hi[k] = box_middle(&b->boxes[i], k);
+            for (int k = 0; k < 3; k++)
+                middle.lo[k] = middle.hi[k] = box_middle(&b->boxes[i], k);
             box_grow(&box, &b->boxes[i]);
             box_grow(&middles, &middle);
         }
@@ -178,8 +181,8 @@ static void build_ranges(builder *b, uint32_t count)
     }
 }
 
-tahr_status tahr__bvh_build(const tahr_host *host, tahr__bvh_box *boxes, uint32_t *order, uint32_t count, tahr_vec3 centre,
-                            tahr__bvh *bvh)
+tahr_status tahr__bvh_build(const tahr_host *host, tahr__bvh_box *boxes, uint32_t *order, uint32_t count,
+                            tahr_vec3 centre, tahr__bvh *bvh)
 {
     /* Every leaf holds at least one item. A second, exact allocation gives back what fuller leaves save. */
     const tahr_allocator *a = &host->allocator;
@@ -189,7 +192,8 @@ tahr_status tahr__bvh_build(const tahr_host *host, tahr__bvh_box *boxes, uint32_
     bvh->node_capacity = capacity;
     bvh->nodes = a->alloc(a->user, capacity * sizeof *bvh->nodes, 64);
     if (!bvh->nodes) return TAHR_E_MEMORY;
-    for (uint32_t i = 0; i < count; i++) order[i] = i;
+    for (uint32_t i = 0; i < count; i++)
+        order[i] = i;
     build_ranges(&b, count);
     tahr__bvh_node *exact = a->alloc(a->user, bvh->node_count * sizeof *exact, 64);
     if (exact) {
@@ -213,7 +217,8 @@ void tahr__bvh_refit(tahr__bvh *bvh, const tahr__bvh_box *boxes)
     for (uint32_t i = bvh->node_count; i-- > 0;) {
         tahr__bvh_node *node = &bvh->nodes[i];
         tahr__bvh_box box = box_empty();
-        for (uint32_t k = 0; k < node->count; k++) box_grow(&box, &boxes[node->first + k]);
+        for (uint32_t k = 0; k < node->count; k++)
+            box_grow(&box, &boxes[node->first + k]);
         for (uint32_t k = 0; node->count == 0 && k < 2; k++) {
             tahr__bvh_box child;
             memcpy(child.lo, bvh->nodes[node->first + k].lo, sizeof child.lo);
@@ -225,59 +230,64 @@ void tahr__bvh_refit(tahr__bvh *bvh, const tahr__bvh_box *boxes)
     }
 }
 
+/* Squared distance of a node to a box. No branches: which side is nearer is anybody's guess. */
+static float square_distance(const tahr__bvh_node *n, const float lo[3], const float hi[3])
+{
+    float square[3];
+    for (int i = 0; i < 3; i++) {
+        float under = n->lo[i] - hi[i], over = lo[i] - n->hi[i];
+        float gap = under > over ? under : over;
+        gap = gap > 0 ? gap : 0;
+        square[i] = gap * gap;
+    }
+    return (square[0] + square[1]) + square[2];
+}
+
+static int within(const tahr__bvh_walk *w, const tahr__bvh_node *n)
+{
+    return square_distance(n, w->lo, w->hi) <= w->limit;
+}
+
 void tahr__bvh_walk_narrow(tahr__bvh_walk *walk, const tahr_bounds *box)
 {
     tahr__bvh_box b = tahr__bvh_box_make(box, walk->bvh->centre);
     memcpy(walk->lo, b.lo, sizeof walk->lo);
     memcpy(walk->hi, b.hi, sizeof walk->hi);
+    walk->narrowed = 1;
 }
 
 void tahr__bvh_walk_begin(tahr__bvh_walk *walk, const tahr__bvh *bvh, const tahr_bounds *box, double reach, tahr_vec3 near)
 {
     walk->bvh = bvh;
     tahr__bvh_walk_narrow(walk, box);
-    for (int i = 0; i < 3; i++) walk->near[i] = (float)(v_get(near, i) - v_get(bvh->centre, i));
+    for (int i = 0; i < 3; i++)
+        walk->near[i] = (float)(v_get(near, i) - v_get(bvh->centre, i));
     walk->limit = d_up(reach * reach * (1 + 1e-6));
-    walk->top = 1;
     walk->stack[0] = 0;
-}
-
-static int within(const tahr__bvh_walk *w, const tahr__bvh_node *n)
-{
-    float sum = 0;
-    for (int i = 0; i < 3; i++) {
-        float under = n->lo[i] - w->hi[i], over = w->lo[i] - n->hi[i];
-        float gap = under > over ? under : over;
-        if (gap > 0) sum += gap * gap;
-    }
-    return sum <= w->limit;
-}
-
-static float nearness(const tahr__bvh_walk *w, const tahr__bvh_node *n)
-{
-    float sum = 0;
-    for (int i = 0; i < 3; i++) {
-        float under = n->lo[i] - w->near[i], over = w->near[i] - n->hi[i];
-        float gap = under > over ? under : over;
-        if (gap > 0) sum += gap * gap;
-    }
-    return sum;
+    walk->top = within(walk, &bvh->nodes[0]) ? 1 : 0;
+    walk->narrowed = 0;
 }
 
 int tahr__bvh_walk_next(tahr__bvh_walk *walk, uint32_t *first, uint32_t *count)
 {
     while (walk->top > 0) {
         const tahr__bvh_node *node = &walk->bvh->nodes[walk->stack[--walk->top]];
-        if (!within(walk, node)) continue;
+        if (walk->narrowed && !within(walk, node)) continue;
         if (node->count > 0) {
             *first = node->first;
             *count = node->count;
             return 1;
         }
         const tahr__bvh_node *left = &walk->bvh->nodes[node->first], *right = left + 1;
-        uint32_t far = nearness(walk, left) <= nearness(walk, right);
-        walk->stack[walk->top++] = node->first + far;
-        walk->stack[walk->top++] = node->first + 1 - far;
+        int go_left = within(walk, left), go_right = within(walk, right);
+        uint32_t first_right = 0;
+        if (go_left && go_right) {
+            first_right =
+                !(square_distance(left, walk->near, walk->near) <= square_distance(right, walk->near, walk->near));
+        }
+        if (go_left && first_right) walk->stack[walk->top++] = node->first;
+        if (go_right) walk->stack[walk->top++] = node->first + 1;
+        if (go_left && !first_right) walk->stack[walk->top++] = node->first;
     }
     return 0;
 }

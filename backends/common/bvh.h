@@ -33,8 +33,8 @@ tahr__bvh_box tahr__bvh_box_make(const tahr_bounds *bounds, tahr_vec3 centre);
 
 /* Builds over count (>= 1) boxes. [out] order (count entries): the items in leaf order. boxes is scratch of the caller
  * and is reordered with it. TAHR_OK or TAHR_E_MEMORY. */
-tahr_status tahr__bvh_build(const tahr_host *host, tahr__bvh_box *boxes, uint32_t *order, uint32_t count, tahr_vec3 centre,
-                            tahr__bvh *bvh);
+tahr_status tahr__bvh_build(const tahr_host *host, tahr__bvh_box *boxes, uint32_t *order, uint32_t count,
+                            tahr_vec3 centre, tahr__bvh *bvh);
 void tahr__bvh_free(const tahr_host *host, tahr__bvh *bvh);
 
 /* New node bounds for the same tree; boxes[i] belongs to the item at leaf position i. */
@@ -47,10 +47,12 @@ typedef struct tahr__bvh_walk {
     float near[3];
     float limit; /* squared reach, rounded up */
     uint32_t top;
+    uint32_t narrowed; /* nodes on the stack may have come out of reach since they were put there */
     uint32_t stack[TAHR__BVH_STACK];
 } tahr__bvh_walk;
 
-void tahr__bvh_walk_begin(tahr__bvh_walk *walk, const tahr__bvh *bvh, const tahr_bounds *box, double reach, tahr_vec3 near);
+void tahr__bvh_walk_begin(tahr__bvh_walk *walk, const tahr__bvh *bvh, const tahr_bounds *box, double reach,
+                          tahr_vec3 near);
 /* Narrows the box of a walk under way (a hit was found). */
 void tahr__bvh_walk_narrow(tahr__bvh_walk *walk, const tahr_bounds *box);
 /* 1 and the leaf's items [first, first + count), or 0 at the end. */

@@ -18,21 +18,34 @@ typedef struct tahr__core {
 enum { TAHR__FACE = 0, TAHR__EDGE = 1, TAHR__CORNER = 4 };
 
 typedef struct tahr__witness {
-    double distance;    /* between core and triangle, >= 0; 0: they touch or cross, then normal is not set */
-    tahr_vec3 point;    /* on the triangle */
-    tahr_vec3 normal;   /* unit, from the triangle to the core */
-    uint32_t feature;   /* TAHR__FACE, TAHR__EDGE + i, TAHR__CORNER + i */
+    double distance;  /* between core and triangle, >= 0; 0: they touch or cross, then normal is not set */
+    tahr_vec3 point;  /* on the triangle */
+    tahr_vec3 normal; /* unit, from the triangle to the core */
+    uint32_t feature; /* TAHR__FACE, TAHR__EDGE + i, TAHR__CORNER + i */
     uint32_t reserved;
 } tahr__witness;
+
+/* A triangle with what every measurement of it needs. */
+typedef struct tahr__facet {
+    tahr_vec3 v[3];
+    tahr_vec3 cross; /* (v[1] - v[0]) x (v[2] - v[0]) */
+    double length;   /* of cross: twice the area */
+} tahr__facet;
+
+static inline void tahr__facet_finish(tahr__facet *f)
+{
+    f->cross = v_cross(v_sub(f->v[1], f->v[0]), v_sub(f->v[2], f->v[0]));
+    f->length = v_length(f->cross);
+}
 
 /* Core at centre against the triangle v[0..2]. For a point core on the face the normal is set even at distance 0 (the
  * winding's side). Exact up to rounding, for slivers too: no step divides by an area. */
 void tahr__core_distance(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 v[3], tahr__witness *out);
+/* The same, same bits, for who keeps the facet. */
+void tahr__facet_distance(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out);
 
-/* The pieces of it. */
-void tahr__point_triangle(tahr_vec3 q, const tahr_vec3 v[3], tahr__witness *out);
-void tahr__segment_triangle(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3], tahr__witness *out);
-void tahr__box_triangle(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 v[3], tahr__witness *out);
+/* The pieces of it. A point sets everything but reserved. */
+void tahr__point_facet(tahr_vec3 q, const tahr__facet *f, tahr__witness *out);
 /* Squared distance of the segments p0 p1 and q0 q1; *s, *t in [0,1] say where. Segments may be points. */
 double tahr__segment_segment(tahr_vec3 p0, tahr_vec3 p1, tahr_vec3 q0, tahr_vec3 q1, double *s, double *t);
 
@@ -40,7 +53,8 @@ double tahr__segment_segment(tahr_vec3 p0, tahr_vec3 p1, tahr_vec3 q0, tahr_vec3
 static inline double tahr__core_extent(const tahr__core *core, tahr_vec3 n)
 {
     double sum = 0;
-    for (int i = 0; i < core->axis_count; i++) sum += fabs(v_dot(core->axis[i], n));
+    for (int i = 0; i < core->axis_count; i++)
+        sum += fabs(v_dot(core->axis[i], n));
     return sum;
 }
 

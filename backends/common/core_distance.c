@@ -31,26 +31,12 @@ static tahr_vec3 on_edge(tahr_vec3 q, const tahr_vec3 v[3], int i, uint32_t *fea
     return v_mad(b, e, -(v_dot(v_sub(b, q), e) / length2));
 }
 
-void tahr__point_triangle(tahr_vec3 q, const tahr_vec3 v[3], tahr__witness *out)
+/* Off the face: the nearest point of the edges that the projection is outside of; for a triangle without area of any. */
+static void beside_face(tahr_vec3 q, const tahr_vec3 v[3], const double side[3], int flat, tahr__witness *out)
 {
-    tahr_vec3 e0 = v_sub(v[1], v[0]), e2 = v_sub(v[0], v[2]), d = v_sub(q, v[0]);
-    tahr_vec3 n = v_cross(e2, e0), x = v_cross(d, n);
-    /* side[i] > 0: the projection is inside of edge i. Their sum is n . n. */
-    double n2 = v_dot(n, n), side[3] = {v_dot(e0, x), 0, v_dot(e2, x)};
-    side[1] = n2 - side[0] - side[2];
-    if (n2 > 0 && side[0] >= 0 && side[1] >= 0 && side[2] >= 0) {
-        double inverse = 1.0 / sqrt(n2), height = v_dot(n, d) * inverse;
-        tahr_vec3 unit = v_scale(n, inverse);
-        out->feature = TAHR__FACE;
-        out->distance = fabs(height);
-        out->normal = height < 0 ? v_scale(unit, -1) : unit;
-        out->point = v_mad(q, unit, -height);
-        return;
-    }
     double best = -1;
     for (int i = 0; i < 3; i++) {
-        /* Nearest is a point of an edge that the projection is outside of; for a triangle without area any. */
-        if (n2 > 0 && side[i] >= 0) continue;
+        if (flat && side[i] >= 0) continue;
         uint32_t feature;
         tahr_vec3 p = on_edge(q, v, i, &feature), r = v_sub(q, p);
         double r2 = v_dot(r, r);
@@ -60,6 +46,26 @@ void tahr__point_triangle(tahr_vec3 q, const tahr_vec3 v[3], tahr__witness *out)
         out->feature = feature;
     }
     witness_at(out, q, out->point, out->feature);
+}
+
+void tahr__point_facet(tahr_vec3 q, const tahr__facet *f, tahr__witness *out)
+{
+    const tahr_vec3 *v = f->v;
+    tahr_vec3 e0 = v_sub(v[1], v[0]), e2 = v_sub(v[0], v[2]), d = v_sub(q, v[0]);
+    tahr_vec3 n = f->cross, x = v_cross(d, n);
+    /* side[i] > 0: the projection is inside of edge i. Their sum is n . n. */
+    double n2 = v_dot(n, n), side[3] = {v_dot(e0, x), 0, v_dot(e2, x)};
+    side[1] = n2 - side[0] - side[2];
+    if (!(n2 > 0 && side[0] >= 0 && side[1] >= 0 && side[2] >= 0)) {
+        beside_face(q, v, side, n2 > 0, out);
+        return;
+    }
+    double inverse = 1.0 / f->length, height = v_dot(n, d) * inverse;
+    tahr_vec3 unit = v_scale(n, inverse);
+    out->feature = TAHR__FACE;
+    out->distance = fabs(height);
+    out->normal = height < 0 ? v_scale(unit, -1) : unit;
+    out->point = v_mad(q, unit, -height);
 }
 
 double tahr__segment_segment(tahr_vec3 p0, tahr_vec3 p1, tahr_vec3 q0, tahr_vec3 q1, double *s, double *t)
@@ -97,7 +103,8 @@ static int pierces(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3])
 {
     tahr_vec3 d = v_sub(b, a);
     double side[3];
-    for (int i = 0; i < 3; i++) side[i] = v_dot(d, v_cross(v_sub(v[i], a), v_sub(v[(i + 1) % 3], a)));
+    for (int i = 0; i < 3; i++)
+        side[i] = v_dot(d, v_cross(v_sub(v[i], a), v_sub(v[(i + 1) % 3], a)));
     return (side[0] >= 0 && side[1] >= 0 && side[2] >= 0) || (side[0] <= 0 && side[1] <= 0 && side[2] <= 0);
 }
 
@@ -107,7 +114,7 @@ static void keep_nearer(tahr__witness *out, const tahr__witness *w)
 }
 
 /* A segment against the edges of the triangle; only interior pairs can beat the ends and the corners. */
-static void against_edges(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3], tahr__witness *out)
+static void against_edges(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 *v, tahr__witness *out)
 {
     tahr_vec3 d = v_sub(b, a);
     for (int i = 0; i < 3; i++) {
@@ -140,9 +147,10 @@ static int is_nearest_end(const tahr__witness *w, tahr_vec3 inward)
     return !(w->distance > 0) || slope >= 0 || slope * slope <= 1e-26 * v_dot(inward, inward);
 }
 
-void tahr__segment_triangle(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3], tahr__witness *out)
+static void segment_facet(tahr_vec3 a, tahr_vec3 b, const tahr__facet *f, tahr__witness *out)
 {
-    tahr_vec3 n = v_cross(v_sub(v[1], v[0]), v_sub(v[2], v[0]));
+    const tahr_vec3 *v = f->v;
+    tahr_vec3 n = f->cross;
     double ha = v_dot(n, v_sub(a, v[0])), hb = v_dot(n, v_sub(b, v[0]));
     if (((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) && pierces(a, b, v)) {
         out->distance = 0;
@@ -152,10 +160,10 @@ void tahr__segment_triangle(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3], tahr
     }
     /* The end nearer to the plane first: most often it is the nearest point, and the rest is not looked at. */
     tahr_vec3 near = fabs(hb) < fabs(ha) ? b : a, far = fabs(hb) < fabs(ha) ? a : b;
-    tahr__point_triangle(near, v, out);
+    tahr__point_facet(near, f, out);
     if (is_nearest_end(out, v_sub(far, near))) return;
     tahr__witness w = *out;
-    tahr__point_triangle(far, v, &w);
+    tahr__point_facet(far, f, &w);
     keep_nearer(out, &w);
     if (!is_nearest_end(&w, v_sub(near, far))) against_edges(a, b, v, out);
 }
@@ -189,8 +197,9 @@ static int separated(const tahr__core *core, const tahr_vec3 r[3])
     return 0;
 }
 
-void tahr__box_triangle(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 v[3], tahr__witness *out)
+static void box_facet(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
 {
+    const tahr_vec3 *v = f->v;
     tahr_vec3 r[3] = {v_sub(v[0], centre), v_sub(v[1], centre), v_sub(v[2], centre)};
     out->distance = 0;
     out->feature = TAHR__FACE;
@@ -202,11 +211,14 @@ void tahr__box_triangle(const tahr__core *core, tahr_vec3 centre, const tahr_vec
         corner[i] = v_mad(corner[i], core->axis[1], i & 2 ? 1 : -1);
         corner[i] = v_mad(corner[i], core->axis[2], i & 4 ? 1 : -1);
         tahr__witness w = *out;
-        tahr__point_triangle(corner[i], v, &w);
-        if (i == 0) *out = w;
-        else keep_nearer(out, &w);
+        tahr__point_facet(corner[i], f, &w);
+        if (i == 0)
+            *out = w;
+        else
+            keep_nearer(out, &w);
     }
-    for (int i = 0; i < 3; i++) corner_to_box(core, centre, v[i], TAHR__CORNER + (uint32_t)i, out);
+    for (int i = 0; i < 3; i++)
+        corner_to_box(core, centre, v[i], TAHR__CORNER + (uint32_t)i, out);
     for (int i = 0; i < 8; i++) {
         for (int bit = 1; bit < 8; bit += bit) {
             if (!(i & bit)) against_edges(corner[i], corner[i | bit], v, out);
@@ -214,13 +226,23 @@ void tahr__box_triangle(const tahr__core *core, tahr_vec3 centre, const tahr_vec
     }
 }
 
-void tahr__core_distance(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 v[3], tahr__witness *out)
+void tahr__facet_distance(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
 {
     out->normal = v_make(0, 0, 0);
     out->reserved = 0;
-    if (core->axis_count == 0) tahr__point_triangle(centre, v, out);
-    else if (core->axis_count == 1) tahr__segment_triangle(v_sub(centre, core->axis[0]), v_add(centre, core->axis[0]), v, out);
-    else tahr__box_triangle(core, centre, v, out);
+    if (core->axis_count == 0)
+        tahr__point_facet(centre, f, out);
+    else if (core->axis_count == 1)
+        segment_facet(v_sub(centre, core->axis[0]), v_add(centre, core->axis[0]), f, out);
+    else
+        box_facet(core, centre, f, out);
+}
+
+void tahr__core_distance(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 v[3], tahr__witness *out)
+{
+    tahr__facet f = {{v[0], v[1], v[2]}, {0, 0, 0}, 0};
+    tahr__facet_finish(&f);
+    tahr__facet_distance(core, centre, &f, out);
 }
 
 /* Tries to leave along +-n: keeps the shortest way. low and high are the other shape's extent along n around the core. */
@@ -269,8 +291,10 @@ double tahr__core_leave_solid(const tahr__core *core, tahr_vec3 centre, const ta
     tahr_vec3 g[6], d = v_sub(solid_centre, centre);
     int count = 0;
     double depth = 1e300;
-    for (int i = 0; i < solid->axis_count; i++) g[count++] = solid->axis[i];
-    for (int i = 0; i < core->axis_count; i++) g[count++] = core->axis[i];
+    for (int i = 0; i < solid->axis_count; i++)
+        g[count++] = solid->axis[i];
+    for (int i = 0; i < core->axis_count; i++)
+        g[count++] = core->axis[i];
     *normal = v_make(0, 0, 1);
     for (int i = 0; i < count; i++) {
         for (int j = i + 1; j < count; j++) {
@@ -278,7 +302,8 @@ double tahr__core_leave_solid(const tahr__core *core, tahr_vec3 centre, const ta
             /* Nearly parallel pairs span no face; as an axis they would be noise. */
             if (!(v_dot(n, n) > 1e-20 * v_dot(g[i], g[i]) * v_dot(g[j], g[j]))) continue;
             double middle = v_dot(n, d), extent = 0;
-            for (int k = 0; k < count; k++) extent += fabs(v_dot(n, g[k]));
+            for (int k = 0; k < count; k++)
+                extent += fabs(v_dot(n, g[k]));
             try_way(n, middle - extent, middle + extent, &depth, normal);
         }
     }

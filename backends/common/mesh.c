@@ -58,8 +58,8 @@ static tahr_status check(const tahr_host *host, const tahr__mesh_source *s)
     }
     for (size_t i = 0; i < (size_t)s->triangle_count * 3; i++) {
         if (s->indices[i] < s->vertex_count) continue;
-        snprintf(text, sizeof text, "triangle %zu: index %u is not below vertex_count %u", i / 3, (unsigned)s->indices[i],
-                 (unsigned)s->vertex_count);
+        snprintf(text, sizeof text, "triangle %zu: index %u is not below vertex_count %u", i / 3,
+                 (unsigned)s->indices[i], (unsigned)s->vertex_count);
         tahr__log_body(host, s->body, text);
         return TAHR_E_GEOMETRY;
     }
@@ -69,7 +69,8 @@ static tahr_status check(const tahr_host *host, const tahr__mesh_source *s)
 static uint32_t table_size(size_t items)
 {
     uint32_t size = 16;
-    while (size < items + items / 2) size += size;
+    while (size < items + items / 2)
+        size += size;
     return size;
 }
 
@@ -134,12 +135,13 @@ static double slimness(const tahr__mesh_source *s, const uint32_t v[3])
 static void canonical(const uint32_t v[3], uint32_t out[3])
 {
     int k = v[0] < v[1] ? (v[0] < v[2] ? 0 : 2) : (v[1] < v[2] ? 1 : 2);
-    for (int i = 0; i < 3; i++) out[i] = v[(k + i) % 3];
+    for (int i = 0; i < 3; i++)
+        out[i] = v[(k + i) % 3];
 }
 
 /* Fills triangles (welded vertex ids of the caller, source) without those that have no area or came before. */
-static tahr_status clean(const tahr_host *host, const tahr__mesh_source *s, const uint32_t *remap, tahr__triangle *triangles,
-                         uint32_t *count)
+static tahr_status clean(const tahr_host *host, const tahr__mesh_source *s, const uint32_t *remap,
+                         tahr__triangle *triangles, uint32_t *count)
 {
     uint32_t size = table_size(s->triangle_count), *table = get(host, size, sizeof *table), kept = 0;
     if (!table) return TAHR_E_MEMORY;
@@ -171,9 +173,11 @@ static tahr_status clean(const tahr_host *host, const tahr__mesh_source *s, cons
 /* Takes the vertices that are in use, in their old order, and renumbers the triangles. remap is overwritten. */
 static tahr_status compact(const tahr_host *host, const tahr__mesh_source *s, uint32_t *remap, tahr__mesh *mesh)
 {
-    for (uint32_t i = 0; i < s->vertex_count; i++) remap[i] = NONE;
+    for (uint32_t i = 0; i < s->vertex_count; i++)
+        remap[i] = NONE;
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        for (int k = 0; k < 3; k++) remap[mesh->triangles[i].vertex[k]] = 0;
+        for (int k = 0; k < 3; k++)
+            remap[mesh->triangles[i].vertex[k]] = 0;
     }
     uint32_t used = 0;
     for (uint32_t i = 0; i < s->vertex_count; i++) {
@@ -191,7 +195,8 @@ static tahr_status compact(const tahr_host *host, const tahr__mesh_source *s, ui
         mesh->bounds.max = v_max(mesh->bounds.max, v);
     }
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        for (int k = 0; k < 3; k++) mesh->triangles[i].vertex[k] = remap[mesh->triangles[i].vertex[k]];
+        for (int k = 0; k < 3; k++)
+            mesh->triangles[i].vertex[k] = remap[mesh->triangles[i].vertex[k]];
     }
     return TAHR_OK;
 }
@@ -213,7 +218,8 @@ static tahr_status build_tree(const tahr_host *host, tahr__mesh *mesh)
     if (status == TAHR_OK) status = tahr__bvh_build(host, boxes, order, n, centre, &mesh->bvh);
     put(host, boxes, n, sizeof *boxes);
     if (status == TAHR_OK) {
-        for (uint32_t i = 0; i < n; i++) sorted[i] = mesh->triangles[order[i]];
+        for (uint32_t i = 0; i < n; i++)
+            sorted[i] = mesh->triangles[order[i]];
         tahr__triangle *old = mesh->triangles;
         mesh->triangles = sorted;
         sorted = old;
@@ -255,6 +261,18 @@ static tahr_status connect(const tahr_host *host, tahr__mesh *mesh)
     return TAHR_OK;
 }
 
+static tahr_status set_normals(const tahr_host *host, tahr__mesh *mesh)
+{
+    mesh->normals = get(host, mesh->triangle_count, sizeof *mesh->normals);
+    if (!mesh->normals) return TAHR_E_MEMORY;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t *v = mesh->triangles[i].vertex;
+        tahr_vec3 a = mesh->vertices[v[0]];
+        mesh->normals[i] = v_unit(v_cross(v_sub(mesh->vertices[v[1]], a), v_sub(mesh->vertices[v[2]], a)));
+    }
+    return TAHR_OK;
+}
+
 tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *source, tahr__mesh *mesh)
 {
     tahr__mesh m;
@@ -274,14 +292,18 @@ tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *sou
     put(host, remap, source->vertex_count, sizeof *remap);
     if (status == TAHR_OK) status = build_tree(host, &m);
     if (status == TAHR_OK) status = connect(host, &m);
-    if (status == TAHR_OK) *mesh = m;
-    else tahr__mesh_free(host, &m);
+    if (status == TAHR_OK) status = set_normals(host, &m);
+    if (status == TAHR_OK)
+        *mesh = m;
+    else
+        tahr__mesh_free(host, &m);
     return status;
 }
 
 void tahr__mesh_free(const tahr_host *host, tahr__mesh *mesh)
 {
     put(host, mesh->vertices, mesh->vertex_capacity, sizeof *mesh->vertices);
+    put(host, mesh->normals, mesh->triangle_count, sizeof *mesh->normals);
     put(host, mesh->triangles, mesh->triangle_capacity, sizeof *mesh->triangles);
     tahr__bvh_free(host, &mesh->bvh);
     memset(mesh, 0, sizeof *mesh);

@@ -23,6 +23,7 @@ typedef struct tahr__triangle {
 
 typedef struct tahr__mesh {
     tahr_vec3 *vertices;
+    tahr_vec3 *normals; /* of the triangles: unit, from exact corners */
     tahr__triangle *triangles;
     uint32_t vertex_count, triangle_count;
     uint32_t vertex_capacity, triangle_capacity;

@@ -147,7 +147,8 @@ static inline tahr__mat m_identity(void)
 static inline tahr__mat m_mul(const tahr__mat *a, const tahr__mat *b)
 {
     tahr__mat m;
-    for (int i = 0; i < 3; i++) m.row[i] = m_unapply(b, a->row[i]);
+    for (int i = 0; i < 3; i++)
+        m.row[i] = m_unapply(b, a->row[i]);
     return m;
 }
 

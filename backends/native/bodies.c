@@ -34,7 +34,8 @@ static tahr_status check(const tahr__native *world, uint32_t id, const tahr_body
 {
     const tahr_vec3 *h = &d->half_extents;
     if (d->type < TAHR_BODY_MESH || d->type > TAHR_BODY_CAPSULE) return refuse(world, id, "type", d->type);
-    if (d->flags > (TAHR_BODY_SENSOR | TAHR_BODY_TWO_SIDED | TAHR_BODY_MOVABLE)) return refuse(world, id, "flags", d->flags);
+    if (d->flags > (TAHR_BODY_SENSOR | TAHR_BODY_TWO_SIDED | TAHR_BODY_MOVABLE))
+        return refuse(world, id, "flags", d->flags);
     if (d->walkable_rule > TAHR_WALKABLE_NEVER) return refuse(world, id, "walkable_rule", d->walkable_rule);
     if (!pose_valid(&d->pose)) {
         tahr__log_body(world->host, id, "pose is not finite within 1e7 m, or its orientation is not a unit quaternion");
@@ -127,7 +128,8 @@ static tahr_status open_group(tahr__native *world, tahr__group *group, uint32_t 
     const tahr_allocator *a = &world->host->allocator;
     tahr_vec3 centre = v_make(0, 0, 0);
     uint32_t *ids, k = 0;
-    for (uint32_t i = 0; i < world->body_count; i++) group->count += (world->bodies[i].flags & TAHR_BODY_MOVABLE) == movable;
+    for (uint32_t i = 0; i < world->body_count; i++)
+        group->count += (world->bodies[i].flags & TAHR_BODY_MOVABLE) == movable;
     if (group->count == 0) return TAHR_OK;
     group->order = a->alloc(a->user, group->count * sizeof *group->order, 64);
     group->boxes = a->alloc(a->user, group->count * sizeof *group->boxes, 64);
@@ -142,7 +144,8 @@ static tahr_status open_group(tahr__native *world, tahr__group *group, uint32_t 
         ids[k++] = i;
     }
     if (status == TAHR_OK) status = tahr__bvh_build(world->host, group->boxes, group->order, k, centre, &group->tree);
-    for (uint32_t i = 0; status == TAHR_OK && i < k; i++) group->order[i] = ids[group->order[i]];
+    for (uint32_t i = 0; status == TAHR_OK && i < k; i++)
+        group->order[i] = ids[group->order[i]];
     if (ids) a->free(a->user, ids, group->count * sizeof *ids, 64);
     return status;
 }
@@ -165,7 +168,8 @@ tahr_status tahr__bodies_open(tahr__native *world, const tahr_world_desc *desc)
     if (!world->bodies) return TAHR_E_MEMORY;
     memset(world->bodies, 0, desc->body_count * sizeof *world->bodies);
     world->body_count = desc->body_count;
-    for (uint32_t i = 0; status == TAHR_OK && i < desc->body_count; i++) status = open_body(world, i, &desc->bodies[i]);
+    for (uint32_t i = 0; status == TAHR_OK && i < desc->body_count; i++)
+        status = open_body(world, i, &desc->bodies[i]);
     if (status == TAHR_OK) status = open_group(world, &world->fixed, 0);
     if (status == TAHR_OK) status = open_group(world, &world->movable, TAHR_BODY_MOVABLE);
     return status;
@@ -174,7 +178,8 @@ tahr_status tahr__bodies_open(tahr__native *world, const tahr_world_desc *desc)
 void tahr__bodies_close(tahr__native *world)
 {
     const tahr_allocator *a = &world->host->allocator;
-    for (uint32_t i = 0; i < world->body_count; i++) tahr__mesh_free(world->host, &world->bodies[i].mesh);
+    for (uint32_t i = 0; i < world->body_count; i++)
+        tahr__mesh_free(world->host, &world->bodies[i].mesh);
     close_group(world, &world->fixed);
     close_group(world, &world->movable);
     if (world->bodies) a->free(a->user, world->bodies, world->body_count * sizeof *world->bodies, 64);
@@ -187,7 +192,8 @@ tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses,
         if (!(world->bodies[poses[i].body].flags & TAHR_BODY_MOVABLE)) return TAHR_E_ARGUMENT;
         if (!pose_valid(&poses[i].pose)) return TAHR_E_ARGUMENT;
     }
-    for (uint32_t i = 0; i < count; i++) put_pose(&world->bodies[poses[i].body], &poses[i].pose);
+    for (uint32_t i = 0; i < count; i++)
+        put_pose(&world->bodies[poses[i].body], &poses[i].pose);
     tahr__group *group = &world->movable;
     if (count == 0 || group->count == 0) return TAHR_OK;
     for (uint32_t i = 0; i < group->count; i++) {

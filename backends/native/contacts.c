@@ -32,7 +32,8 @@ static void keep(contacts_state *s, const tahr__found *f)
         s->count--;
     }
     uint32_t k = s->count++;
-    for (; k > 0 && before(f, &s->records[k - 1]); k--) s->records[k] = s->records[k - 1];
+    for (; k > 0 && before(f, &s->records[k - 1]); k--)
+        s->records[k] = s->records[k - 1];
     s->records[k] = *f;
 }
 
@@ -76,9 +77,9 @@ static void fill(const tahr__query *query, const tahr__found *f, tahr_contact *c
     const tahr__body *body = &query->world->bodies[f->body];
     memset(c, 0, sizeof *c);
     c->distance = f->gap;
-    c->normal = tahr__frame_to_world(&query->frame, f->normal);
-    c->surface_normal = tahr__frame_to_world(&query->frame, f->face);
-    c->point = v_add(query->frame.origin, tahr__frame_to_world(&query->frame, f->point));
+    c->normal = tahr__frame_to_world(query->frame, f->normal);
+    c->surface_normal = tahr__frame_to_world(query->frame, f->face);
+    c->point = v_add(query->frame->origin, tahr__frame_to_world(query->frame, f->point));
     c->walkable_angle = body->walkable_angle;
     c->walkable_rule = body->walkable_rule;
     c->surface = body->surface;
@@ -102,14 +103,15 @@ tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const
     s.search.query = &query;
     s.search.box = tahr__query_box(&query, 0);
     s.search.reach = query.radius + query.margin;
-    s.search.narrowed = 0;
+    s.search.narrowed = s.search.reserved = 0;
     s.search.visit = visit;
     s.margin = contact_query->margin;
     s.count = s.lost = 0;
     tahr__search_run(&s.search);
     merge(&s);
     uint32_t n = s.count < capacity ? s.count : capacity;
-    for (uint32_t i = 0; i < n; i++) fill(&query, &s.records[i], &contacts[i]);
+    for (uint32_t i = 0; i < n; i++)
+        fill(&query, &s.records[i], &contacts[i]);
     *count = n;
     return n < s.count || s.lost ? TAHR_TRUNCATED : TAHR_OK;
 }

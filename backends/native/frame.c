@@ -2,6 +2,8 @@
  * frame.c: the local frame of a query and how bodies come into it. */
 #include "scene.h"
 
+#include <string.h>
+
 /* Side of a cell (m): small enough that a float has 2.4e-7 m steps in it, large enough to be left seldom. */
 #define CELL 4.0
 /* Coordinates up to this are rounded to float (steps of 1.9e-6 m just below it), larger ones keep double. */
@@ -10,12 +12,21 @@
 tahr__frame tahr__frame_make(const tahr__native *world, tahr_vec3 position, tahr_vec3 up)
 {
     tahr__frame frame;
-    frame.origin = v_make(floor(position.x / CELL) * CELL, floor(position.y / CELL) * CELL, floor(position.z / CELL) * CELL);
+    /* + 0.0: never minus zero, so that the same cell is the same bits. */
+    frame.origin = v_make(floor(position.x / CELL) * CELL + 0.0, floor(position.y / CELL) * CELL + 0.0,
+                          floor(position.z / CELL) * CELL + 0.0);
     frame.up = up;
     frame.turned = !(up.x == 0 && up.y == 0 && up.z == 1);
     frame.turn = frame.turned ? m_upright(up) : m_identity();
     frame.round = world->round;
     return frame;
+}
+
+int tahr__frame_holds(const tahr__frame *frame, tahr_vec3 position, tahr_vec3 up)
+{
+    const tahr_vec3 *o = &frame->origin;
+    return position.x >= o->x && position.x < o->x + CELL && position.y >= o->y && position.y < o->y + CELL &&
+           position.z >= o->z && position.z < o->z + CELL && memcmp(&frame->up, &up, sizeof up) == 0;
 }
 
 tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body)
@@ -37,7 +48,7 @@ tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body)
 tahr_vec3 tahr__map_point(const tahr__map *map, tahr_vec3 v)
 {
     tahr_vec3 p = v_add(map->offset, map->turned ? m_apply(&map->turn, v) : v);
-    if (map->round && fabs(p.x) <= FLOAT_RANGE && fabs(p.y) <= FLOAT_RANGE && fabs(p.z) <= FLOAT_RANGE) {
+    if (map->round && (fabs(p.x) <= FLOAT_RANGE) & (fabs(p.y) <= FLOAT_RANGE) & (fabs(p.z) <= FLOAT_RANGE)) {
         p = v_make(d_round_to_float(p.x), d_round_to_float(p.y), d_round_to_float(p.z));
     }
     return p;
@@ -46,7 +57,8 @@ tahr_vec3 tahr__map_point(const tahr__map *map, tahr_vec3 v)
 void tahr__map_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr_vec3 v[3])
 {
     const uint32_t *vertex = body->mesh.triangles[triangle].vertex;
-    for (int i = 0; i < 3; i++) v[i] = tahr__map_point(map, body->mesh.vertices[vertex[i]]);
+    for (int i = 0; i < 3; i++)
+        v[i] = tahr__map_point(map, body->mesh.vertices[vertex[i]]);
 }
 
 tahr_vec3 tahr__frame_to_world(const tahr__frame *frame, tahr_vec3 direction)
@@ -61,7 +73,8 @@ tahr_bounds tahr__frame_box_to_world(const tahr__frame *frame, const tahr_bounds
     if (frame->turned) {
         tahr_vec3 half = v_scale(v_sub(world.max, world.min), 0.5), middle = v_add(world.min, half);
         tahr__mat size = frame->turn;
-        for (int i = 0; i < 3; i++) size.row[i] = v_abs(size.row[i]);
+        for (int i = 0; i < 3; i++)
+            size.row[i] = v_abs(size.row[i]);
         half = m_unapply(&size, half);
         middle = m_unapply(&frame->turn, middle);
         world.min = v_sub(middle, half);
@@ -78,44 +91,75 @@ tahr_bounds tahr__frame_box_to_local(const tahr__frame *frame, const tahr_bounds
     if (!frame->turned) return local;
     tahr_vec3 half = v_scale(v_sub(local.max, local.min), 0.5), middle = m_apply(&frame->turn, v_add(local.min, half));
     tahr__mat size = frame->turn;
-    for (int i = 0; i < 3; i++) size.row[i] = v_abs(size.row[i]);
+    for (int i = 0; i < 3; i++)
+        size.row[i] = v_abs(size.row[i]);
     half = m_apply(&size, half);
     local.min = v_sub(middle, half);
     local.max = v_add(middle, half);
     return local;
 }
 
-void tahr__prim_round(const tahr__map *map, const tahr__body *body, uint32_t id, tahr__prim *prim)
+void tahr__prim_begin(const tahr__body *body, uint32_t id, tahr__prim *prim)
 {
-    prim->v[0] = tahr__map_point(map, v_make(0, 0, -body->reach));
-    prim->v[1] = prim->v[2] = tahr__map_point(map, v_make(0, 0, body->reach));
-    prim->radius = body->radius;
+    prim->radius = 0;
     prim->body = id;
+    prim->feature = 0;
+    prim->kind = (body->flags & TAHR_BODY_TWO_SIDED ? TAHR__TWO_SIDED : 0u) |
+                 (body->flags & TAHR_BODY_SENSOR ? TAHR__SENSOR : 0u) |
+                 (body->type == TAHR_BODY_BOX ? TAHR__OF_BOX : 0u);
+    prim->mask = body->mask;
+    prim->reserved = 0;
+}
+
+void tahr__prim_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr__prim *prim)
+{
+    const tahr__mesh *mesh = &body->mesh;
+    const tahr__triangle *t = &mesh->triangles[triangle];
+    for (int i = 0; i < 3; i++)
+        prim->facet.v[i] = tahr__map_point(map, mesh->vertices[t->vertex[i]]);
+    tahr__facet_finish(&prim->facet);
+    prim->face = map->turned ? m_apply(&map->turn, mesh->normals[triangle]) : mesh->normals[triangle];
+    prim->item = triangle;
+    prim->feature = tahr__triangle_source(t);
+    prim->kind = (prim->kind & ~(uint32_t)TAHR__THIN) | (t->source & TAHR__MESH_THIN ? TAHR__THIN : 0u);
+}
+
+void tahr__prim_round(const tahr__map *map, const tahr__body *body, tahr__prim *prim)
+{
+    prim->facet.v[0] = tahr__map_point(map, v_make(0, 0, -body->reach));
+    prim->facet.v[1] = prim->facet.v[2] = tahr__map_point(map, v_make(0, 0, body->reach));
+    tahr__facet_finish(&prim->facet);
+    prim->face = v_make(0, 0, 0);
+    prim->radius = body->radius;
     prim->item = TAHR__ITEM_ROUND;
 }
 
-void tahr__prim_solid(const tahr__map *map, uint32_t id, tahr__prim *prim)
+void tahr__prim_solid(const tahr__map *map, tahr__prim *prim)
 {
-    prim->v[0] = prim->v[1] = prim->v[2] = map->offset;
-    prim->radius = 0;
-    prim->body = id;
+    prim->facet.v[0] = prim->facet.v[1] = prim->facet.v[2] = map->offset;
+    tahr__facet_finish(&prim->facet);
+    prim->face = v_make(0, 0, 0);
     prim->item = TAHR__ITEM_SOLID;
 }
 
-tahr_bounds tahr__prim_bounds(const tahr__native *world, const tahr__map *map, const tahr__prim *prim)
+tahr_bounds tahr__prim_bounds(const tahr__query *query, const tahr__prim *prim)
 {
+    const tahr_vec3 *v = prim->facet.v;
+    tahr_bounds b = {v_min(v[0], v_min(v[1], v[2])), v_max(v[0], v_max(v[1], v[2]))};
+    if (!(prim->item & (TAHR__ITEM_SOLID | TAHR__ITEM_ROUND))) return b;
     tahr_vec3 grow = v_make(prim->radius, prim->radius, prim->radius);
     if (prim->item & TAHR__ITEM_SOLID) {
-        tahr_vec3 half = world->bodies[prim->body].half_extents;
-        for (int i = 0; i < 3 && map->turned; i++) {
-            double extent = v_dot(v_abs(map->turn.row[i]), world->bodies[prim->body].half_extents);
-            if (i == 0) half.x = extent;
-            if (i == 1) half.y = extent;
-            if (i == 2) half.z = extent;
+        const tahr__body *body = &query->world->bodies[prim->body];
+        tahr__map map = tahr__map_make(query->frame, body);
+        tahr_vec3 half = body->half_extents;
+        if (map.turned) {
+            half = v_make(v_dot(v_abs(map.turn.row[0]), body->half_extents),
+                          v_dot(v_abs(map.turn.row[1]), body->half_extents),
+                          v_dot(v_abs(map.turn.row[2]), body->half_extents));
         }
         grow = v_add(half, v_make(TAHR__SLACK, TAHR__SLACK, TAHR__SLACK));
     }
-    tahr_bounds b = {v_sub(v_min(prim->v[0], v_min(prim->v[1], prim->v[2])), grow),
-                     v_add(v_max(prim->v[0], v_max(prim->v[1], prim->v[2])), grow)};
+    b.min = v_sub(b.min, grow);
+    b.max = v_add(b.max, grow);
     return b;
 }

@@ -11,73 +11,82 @@
 /* Lanes keep a plane whose distance is within this of the reach (m): single precision over the 32 m in which triangles
  * have a plane at all is off by 1e-5 m. */
 #define PLANE_SLACK 4e-5
+#define PLANE_RANGE 32.0
 
-/* The arrays behind a cache's header: six float bounds, a plane, body, item, nine coordinates (float or double). */
-typedef struct arrays {
-    float *bound[6], *plane[4];
-    uint32_t *body, *item;
-    void *corners;
-} arrays;
-
-static size_t corner_bytes(const tahr__native *world)
+static size_t whole_lines(size_t bytes)
 {
-    return world->round ? sizeof(float) : sizeof(double);
+    return (bytes + 63) / 64 * 64;
 }
 
 static size_t header_bytes(void)
 {
-    return (sizeof(tahr__cache) + 63) / 64 * 64;
+    return whole_lines(sizeof(tahr__cache));
 }
 
 size_t tahr__cache_bytes(const tahr__native *world)
 {
-    size_t each = 10 * sizeof(float) + 2 * sizeof(uint32_t) + 9 * corner_bytes(world);
-    return header_bytes() + (world->no_cache ? 0 : each * world->capacity);
+    size_t lanes = whole_lines(world->capacity * TAHR__LANE_ROWS * sizeof(float));
+    return header_bytes() + (world->no_cache ? 0 : lanes + world->capacity * sizeof(tahr__prim));
 }
 
-static arrays arrays_of(const tahr__native *world, tahr__cache *cache)
+static float *blocks_of(tahr__cache *cache)
 {
-    arrays a;
-    /* The header ends on a multiple of 64, capacity is a multiple of 4: every array is aligned for its type. */
-    float *f = (float *)(void *)((unsigned char *)cache + header_bytes());
-    for (int i = 0; i < 6; i++) a.bound[i] = f + (size_t)i * world->capacity;
-    for (int i = 0; i < 4; i++) a.plane[i] = f + (size_t)(6 + i) * world->capacity;
-    a.body = (uint32_t *)(void *)(f + (size_t)10 * world->capacity);
-    a.item = a.body + world->capacity;
-    a.corners = a.item + world->capacity;
-    return a;
+    return (float *)(void *)((unsigned char *)cache + header_bytes());
 }
 
-static tahr__cache *cache_of(const tahr__query *query)
+static tahr__prim *prims_of(const tahr__native *world, tahr__cache *cache)
 {
-    return query->cache;
+    size_t lanes = whole_lines(world->capacity * TAHR__LANE_ROWS * sizeof(float));
+    return (tahr__prim *)(void *)((unsigned char *)cache + header_bytes() + lanes);
 }
 
 typedef struct gather {
     tahr__search search;
-    arrays arrays;
+    float *blocks;
+    tahr__prim *prims;
     tahr__cache *cache;
 } gather;
 
-/* Its plane for the lanes, if it is a triangle near enough for single precision to tell. */
-static void store_plane(const arrays *a, uint32_t n, const tahr__prim *prim, int usable)
+static int in_range(tahr_vec3 v)
 {
-    for (int i = 0; i < 4; i++) a->plane[i][n] = 0;
-    if (!usable || (prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID))) return;
-    tahr_vec3 normal = v_cross(v_sub(prim->v[1], prim->v[0]), v_sub(prim->v[2], prim->v[0]));
-    double length = v_length(normal);
-    if (!(length > 1e-6)) return; /* m2: of less area the direction may be rounding */
-    normal = v_scale(normal, 1 / length);
-    for (int i = 0; i < 3; i++) a->plane[i][n] = (float)v_get(normal, i);
-    a->plane[3][n] = (float)v_dot(normal, prim->v[0]);
+    return fabs(v.x) <= PLANE_RANGE && fabs(v.y) <= PLANE_RANGE && fabs(v.z) <= PLANE_RANGE;
+}
+
+/* Its planes for the lanes, if it is a triangle near enough for single precision to tell. */
+static void store_planes(float *to, const tahr__prim *prim)
+{
+    const tahr__facet *f = &prim->facet;
+    const tahr_vec3 *v = f->v;
+    /* 1e-6 m2: of less area the direction may be rounding. */
+    if ((prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) || !(f->length > 1e-6) || !in_range(v[0]) ||
+        !in_range(v[1]) || !in_range(v[2])) {
+        for (int i = 0; i < TAHR__LANE_ROWS - TAHR__LANE_NORMAL; i++)
+            to[i * TAHR__LANES] = 0;
+        return;
+    }
+    tahr_vec3 normal = v_scale(f->cross, 1 / f->length);
+    to[0] = (float)normal.x;
+    to[TAHR__LANES] = (float)normal.y;
+    to[2 * TAHR__LANES] = (float)normal.z;
+    to[3 * TAHR__LANES] = (float)v_dot(normal, v[0]);
+    to += (TAHR__LANE_EDGE - TAHR__LANE_NORMAL) * TAHR__LANES;
+    double turn = normal.z < 0 ? -1 : 1;
+    for (int i = 0; i < 3; i++, to += 3 * TAHR__LANES) {
+        tahr_vec3 e = v_sub(v[i < 2 ? i + 1 : 0], v[i]);
+        double wide = sqrt(e.x * e.x + e.y * e.y);
+        /* A metre up that is less than 1e-3 across has no side that float could tell. */
+        double scale = wide > 1e-3 * (1 + fabs(e.z)) ? turn / wide : 0, x = e.y * scale, y = -e.x * scale;
+        to[0] = (float)x;
+        to[TAHR__LANES] = (float)y;
+        to[2 * TAHR__LANES] = (float)(x * v[i].x + y * v[i].y);
+    }
 }
 
 static void store(tahr__search *search, const tahr__prim *prim)
 {
     gather *g = (gather *)search;
-    const tahr__native *world = search->query->world;
     uint32_t n = g->cache->count;
-    if (n == world->capacity) {
+    if (n == search->query->world->capacity) {
         /* Nothing more to find: what does not fit is never kept in part. */
         g->cache->overflow = 1;
         search->box.min = v_make(1e30, 1e30, 1e30);
@@ -85,35 +94,17 @@ static void store(tahr__search *search, const tahr__prim *prim)
         search->narrowed = 1;
         return;
     }
-    tahr__map map;
-    memset(&map, 0, sizeof map);
-    if (prim->item & TAHR__ITEM_SOLID) map = tahr__map_make(&search->query->frame, &world->bodies[prim->body]);
-    tahr_bounds b = tahr__prim_bounds(world, &map, prim);
-    uint32_t wide = 0;
-    int near = 1;
-    for (int i = 0; i < 3; i++) {
-        g->arrays.bound[i][n] = d_down(v_get(b.min, i));
-        g->arrays.bound[3 + i][n] = d_up(v_get(b.max, i));
-        for (int k = 0; k < 3; k++) {
-            double x = v_get(prim->v[i], k);
-            near = near && fabs(x) <= 32;
-            if (world->round) {
-                ((float *)g->arrays.corners)[9 * n + 3 * (uint32_t)i + (uint32_t)k] = (float)x;
-                if (d_round_to_float(x) != x) wide = TAHR__ITEM_WIDE;
-            } else {
-                ((double *)g->arrays.corners)[9 * n + 3 * (uint32_t)i + (uint32_t)k] = x;
-            }
-        }
-    }
-    store_plane(&g->arrays, n, prim, near);
-    g->arrays.body[n] = prim->body;
-    g->arrays.item[n] = prim->item | wide;
+    tahr_bounds b = tahr__prim_bounds(search->query, prim);
+    float *low = g->blocks + tahr__lane(n, TAHR__LANE_LOW), *high = g->blocks + tahr__lane(n, TAHR__LANE_HIGH);
+    low[0] = d_down(b.min.x);
+    low[TAHR__LANES] = d_down(b.min.y);
+    low[2 * TAHR__LANES] = d_down(b.min.z);
+    high[0] = d_up(b.max.x);
+    high[TAHR__LANES] = d_up(b.max.y);
+    high[2 * TAHR__LANES] = d_up(b.max.z);
+    store_planes(g->blocks + tahr__lane(n, TAHR__LANE_NORMAL), prim);
+    g->prims[n] = *prim;
     g->cache->count = n + 1;
-}
-
-static int same(const void *a, const void *b, size_t size)
-{
-    return memcmp(a, b, size) == 0;
 }
 
 static int inside(const tahr_bounds *a, const tahr_bounds *b)
@@ -130,7 +121,7 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     memset(&query, 0, sizeof query);
     query.world = world;
     query.context = context;
-    query.frame = cache->frame;
+    query.frame = &cache->frame;
     query.mask = p->mask;
     query.ignore_body = TAHR_NO_BODY;
     query.sensors = 1;
@@ -138,19 +129,24 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     tahr_vec3 m = v_make(world->cache_margin, world->cache_margin, world->cache_margin);
     cache->bounds.min = v_sub(p->bounds.min, m);
     cache->bounds.max = v_add(p->bounds.max, m);
+    cache->local = tahr__frame_box_to_local(&cache->frame, &cache->bounds);
     cache->mask = p->mask;
     cache->gathered = 1;
     cache->overflow = cache->count = 0;
+    cache->recent = TAHR__CACHE_MOST;
     g.search.query = &query;
-    g.search.box = tahr__frame_box_to_local(&cache->frame, &cache->bounds);
+    g.search.box = cache->local;
     g.search.reach = 0;
-    g.search.narrowed = 0;
+    g.search.narrowed = g.search.reserved = 0;
     g.search.visit = store;
-    g.arrays = arrays_of(world, cache);
+    g.blocks = blocks_of(cache);
+    g.prims = prims_of(world, cache);
     g.cache = cache;
     tahr__tree_search(&g.search, &world->fixed);
-    for (uint32_t n = cache->count; n % 4 != 0; n++) {
-        for (int i = 0; i < 6; i++) g.arrays.bound[i][n] = NOWHERE;
+    for (uint32_t n = cache->count; n % TAHR__LANES != 0; n++) {
+        for (uint32_t row = 0; row < TAHR__LANE_ROWS; row++) {
+            g.blocks[tahr__lane(n, row)] = row < TAHR__LANE_NORMAL ? NOWHERE : 0;
+        }
     }
     context->gathers++;
 }
@@ -159,12 +155,8 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
 {
     tahr__cache *cache = context ? context->cache : NULL;
     if (!cache) return TAHR_OK;
-    tahr__frame frame;
-    memset(&frame, 0, sizeof frame);
-    tahr__frame fresh = tahr__frame_make(world, p->position, p->up);
-    int keep = cache->announced && same(&cache->frame.origin, &fresh.origin, sizeof fresh.origin) &&
-               same(&cache->frame.up, &fresh.up, sizeof fresh.up);
-    cache->frame = fresh;
+    int keep = cache->announced && tahr__frame_holds(&cache->frame, p->position, p->up);
+    if (!keep) cache->frame = tahr__frame_make(world, p->position, p->up);
     cache->announced = 1;
     if (world->no_cache) return TAHR_OK;
     if (keep && cache->gathered && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds)) return TAHR_OK;
@@ -172,123 +164,73 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     return TAHR_OK;
 }
 
-/* One primitive out of the cache. */
-static void load(const tahr__query *query, const arrays *a, uint32_t n, tahr__prim *prim)
-{
-    const tahr__body *body = &query->world->bodies[a->body[n]];
-    prim->body = a->body[n];
-    prim->item = a->item[n] & ~TAHR__ITEM_WIDE;
-    prim->radius = body->radius;
-    if (a->item[n] & TAHR__ITEM_WIDE) {
-        tahr__map map = tahr__map_make(&query->frame, body);
-        if (prim->item & TAHR__ITEM_ROUND) tahr__prim_round(&map, body, prim->body, prim);
-        else if (prim->item & TAHR__ITEM_SOLID) tahr__prim_solid(&map, prim->body, prim);
-        else tahr__map_triangle(&map, body, prim->item, prim->v);
-        return;
-    }
-    for (uint32_t i = 0; i < 3; i++) {
-        if (query->world->round) {
-            const float *c = (const float *)a->corners + 9 * (size_t)n + 3 * i;
-            prim->v[i] = v_make((double)c[0], (double)c[1], (double)c[2]);
-        } else {
-            const double *c = (const double *)a->corners + 9 * (size_t)n + 3 * i;
-            prim->v[i] = v_make(c[0], c[1], c[2]);
-        }
-    }
-}
-
-static int concerns(const tahr__query *query, uint32_t id)
-{
-    const tahr__body *body = &query->world->bodies[id];
-    if (!(body->mask & query->mask) || id == query->ignore_body) return 0;
-    return query->sensors || !(body->flags & TAHR_BODY_SENSOR);
-}
-
-static void set_box(const tahr__search *s, tahr__lanes_query *q)
-{
-    for (int i = 0; i < 3; i++) {
-        q->lo[i] = d_down(v_get(s->box.min, i));
-        q->hi[i] = d_up(v_get(s->box.max, i));
-    }
-}
-
 static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
 {
     const tahr__query *query = s->query;
     /* d_up alone covers the rounding of the lanes' differences only down to 1e-7 of the reach; the slack covers zero. */
     q->limit = d_up((s->reach + 1e-6) * (s->reach + 1e-6) * (1 + 1e-5));
-    set_box(s, q);
-    for (int i = 0; i < 3; i++) {
-        q->start[i] = (float)v_get(query->start, i);
-        q->motion[i] = (float)v_get(query->motion, i);
-    }
-    q->half = query->core.axis_count == 1 ? (float)query->core.axis[0].z : 0;
+    q->lo[0] = d_down(s->box.min.x);
+    q->lo[1] = d_down(s->box.min.y);
+    q->lo[2] = d_down(s->box.min.z);
+    q->hi[0] = d_up(s->box.max.x);
+    q->hi[1] = d_up(s->box.max.y);
+    q->hi[2] = d_up(s->box.max.z);
+    q->start[0] = (float)query->start.x;
+    q->start[1] = (float)query->start.y;
+    q->start[2] = (float)query->start.z;
+    q->motion[0] = (float)query->motion.x;
+    q->motion[1] = (float)query->motion.y;
+    q->motion[2] = (float)query->motion.z;
+    q->half = (float)query->half;
     /* Boxes are not upright segments: their planes are looked at in double. */
     q->reach = query->core.axis_count < 2 ? (float)(s->reach + PLANE_SLACK) : 1e30f;
 }
 
-/* Begins with the box that is nearest to the core at its start: most often it holds the hit, which then rules out what
- * lies beyond. Any order gives the same answer. */
-static void first_the_nearest(const tahr__lanes *lanes, const tahr__query *query, uint16_t *index, uint32_t count)
+static int concerns(const tahr__query *query, const tahr__prim *prim)
 {
-    tahr_bounds box = tahr__query_box(query, 0);
-    float lo[3] = {(float)box.min.x, (float)box.min.y, (float)box.min.z};
-    float hi[3] = {(float)box.max.x, (float)box.max.y, (float)box.max.z};
-    uint32_t nearest = 0;
-    float least = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        float distance = tahr__lanes_distance(lanes, index[i], lo, hi);
-        if (i > 0 && distance >= least) continue;
-        least = distance;
-        nearest = i;
-    }
-    uint16_t first = index[nearest];
-    index[nearest] = index[0];
-    index[0] = first;
+    if (!(prim->mask & query->mask) || prim->body == query->ignore_body) return 0;
+    return query->sensors || !(prim->kind & TAHR__SENSOR);
 }
 
-static void search_cache(tahr__search *s)
+uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, uint16_t *index)
 {
     const tahr__query *query = s->query;
-    const tahr__native *world = query->world;
-    tahr__cache *cache = cache_of(query);
-    arrays a = arrays_of(world, cache);
-    tahr__lanes lanes = {{a.bound[0], a.bound[1], a.bound[2]},
-                         {a.bound[3], a.bound[4], a.bound[5]},
-                         {a.plane[0], a.plane[1], a.plane[2]},
-                         a.plane[3],
-                         cache->count};
-    uint16_t index[4096];
+    tahr__lanes lanes = {blocks_of(query->cache), query->cache->count};
+    const tahr__prim *all = *prims = prims_of(query->world, query->cache);
     tahr__lanes_query q;
     lanes_query(s, &q);
-    uint32_t count = (world->no_simd ? tahr__lanes_cull_scalar : tahr__lanes_cull)(&lanes, &q, index);
-    if (count > 1) first_the_nearest(&lanes, query, index, count);
-    int narrowed = 0;
-    tahr__prim prim;
+    uint32_t count = (query->world->no_simd ? tahr__lanes_cull_scalar : tahr__lanes_cull)(&lanes, &q, index), kept = 0;
     for (uint32_t i = 0; i < count; i++) {
-        if (!concerns(query, a.body[index[i]])) continue;
-        if (narrowed && !(tahr__lanes_distance(&lanes, index[i], q.lo, q.hi) <= q.limit)) continue;
-        load(query, &a, index[i], &prim);
-        s->narrowed = 0;
-        s->visit(s, &prim);
-        if (!s->narrowed) continue;
-        narrowed = 1;
-        set_box(s, &q);
+        index[kept] = index[i];
+        kept += (uint32_t)concerns(query, &all[index[i]]);
     }
+    return kept;
+}
+
+int tahr__cache_holds(const tahr__search *s)
+{
+    const tahr__query *query = s->query;
+    const tahr__cache *cache = query->cache;
+    if (!cache || !cache->gathered || cache->overflow || (query->mask & ~cache->mask)) return 0;
+    double reach = s->reach + 10 * TAHR__SLACK;
+    tahr_vec3 grow = v_make(reach, reach, reach);
+    tahr_bounds box = {v_sub(s->box.min, grow), v_add(s->box.max, grow)};
+    if (inside(&box, &cache->local)) return 1;
+    query->context->escapes++;
+    return 0;
 }
 
 void tahr__search_run(tahr__search *s)
 {
-    const tahr__query *query = s->query;
-    const tahr__native *world = query->world;
-    const tahr__cache *cache = cache_of(query);
-    int held = 0;
-    if (cache && !world->no_cache && cache->gathered && !cache->overflow && (query->mask & ~cache->mask) == 0) {
-        tahr_bounds box = tahr__frame_box_to_world(&query->frame, &s->box, s->reach + 10 * TAHR__SLACK);
-        held = inside(&box, &cache->bounds);
-        if (!held) query->context->escapes++;
+    const tahr__native *world = s->query->world;
+    if (tahr__cache_holds(s)) {
+        const tahr__prim *prims;
+        uint16_t index[TAHR__CACHE_MOST];
+        uint32_t count = tahr__cache_cull(s, &prims, index);
+        for (uint32_t i = 0; i < count; i++)
+            s->visit(s, &prims[index[i]]);
+    } else {
+        tahr__tree_search(s, &world->fixed);
     }
-    if (held) search_cache(s);
-    else tahr__tree_search(s, &world->fixed);
     tahr__tree_search(s, &world->movable);
 }

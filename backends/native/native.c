@@ -4,7 +4,9 @@
 
 #include <string.h>
 
-enum { CAPACITY_DEFAULT = 192, CAPACITY_MAX = 4096 };
+enum { CAPACITY_DEFAULT = 128, CAPACITY_MAX = TAHR__CACHE_MOST };
+/* A newer version may add this many bytes to the options; beyond is a size that was never set, and reading it a crash. */
+#define MOST_UNKNOWN 4096u
 /* Grown by half a metre a gather lasts 6 steps of a runner, at 6 times the area (robustness notes, measured). */
 #define MARGIN_DEFAULT 0.5
 
@@ -20,8 +22,8 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
     if (options) {
         uint32_t size;
         memcpy(&size, options, sizeof size);
-        if (size < sizeof d) {
-            complain(host, "native: options: struct_size is smaller than tahr_native_desc of version 0.1");
+        if (size < sizeof d || size > sizeof d + MOST_UNKNOWN) {
+            complain(host, "native: options: struct_size is smaller than tahr_native_desc of version 0.1, or garbage");
             return TAHR_E_STRUCT_SIZE;
         }
         for (uint32_t i = sizeof d; i < size; i++) {
@@ -31,10 +33,12 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
         }
         memcpy(&d, options, sizeof d);
     }
-    int counts = d.precision <= TAHR_NATIVE_DOUBLE && d.cache_triangles <= CAPACITY_MAX && d.no_cache <= 1 && d.no_simd <= 1;
+    int counts =
+        d.precision <= TAHR_NATIVE_DOUBLE && d.cache_triangles <= CAPACITY_MAX && d.no_cache <= 1 && d.no_simd <= 1;
     if (!counts || !(d.cache_margin >= 0 && d.cache_margin <= 1e3)) {
-        complain(host, "native: options: precision, cache_triangles (at most 4096), cache_margin (0 to 1000 m), no_cache or "
-                       "no_simd is out of range");
+        complain(host,
+                 "native: options: precision, cache_triangles (at most 4096), cache_margin (0 to 1000 m), no_cache or "
+                 "no_simd is out of range");
         return TAHR_E_ARGUMENT;
     }
     world->round = d.precision == TAHR_NATIVE_FLOAT;

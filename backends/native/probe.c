@@ -4,6 +4,7 @@
  * The distance between convex sets under translation is a convex function of time. Newton's method from the left on a
  * convex function never passes the root: every iterate is proven free. A plane is reached in one step, a curved contact
  * quadratically. */
+#include "plane.h"
 #include "scene.h"
 
 #include <string.h>
@@ -12,12 +13,6 @@ enum { ITERATIONS = 64, TARGETS = 5 };
 
 /* Below this distance (m) the direction between two points is rounding; the last one that was clear is used instead. */
 #define BLURRED 1e-9
-
-uint32_t tahr__prim_feature(const tahr__native *world, const tahr__prim *prim)
-{
-    if (prim->item & TAHR__ITEM_ROUND) return 0;
-    return tahr__triangle_source(&world->bodies[prim->body].mesh.triangles[prim->item]);
-}
 
 int tahr__found_before(const tahr__found *a, const tahr__found *b)
 {
@@ -32,7 +27,8 @@ int tahr__found_before(const tahr__found *a, const tahr__found *b)
 tahr_bounds tahr__query_box(const tahr__query *query, double t)
 {
     tahr_vec3 end = v_mad(query->start, query->motion, t), half = v_make(0, 0, 0);
-    for (int i = 0; i < query->core.axis_count; i++) half = v_add(half, v_abs(query->core.axis[i]));
+    for (int i = 0; i < query->core.axis_count; i++)
+        half = v_add(half, v_abs(query->core.axis[i]));
     tahr_bounds box = {v_sub(v_min(query->start, end), half), v_add(v_max(query->start, end), half)};
     return box;
 }
@@ -41,14 +37,15 @@ tahr_bounds tahr__query_box(const tahr__query *query, double t)
 static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__probe *out)
 {
     const tahr__body *body = &query->world->bodies[prim->body];
-    tahr__map map = tahr__map_make(&query->frame, body);
+    tahr__map map = tahr__map_make(query->frame, body);
     tahr_vec3 centre = query->start;
     tahr__core solid;
     solid.axis_count = 3;
     solid.axis[0] = v_make(body->half_extents.x, 0, 0);
     solid.axis[1] = v_make(0, body->half_extents.y, 0);
     solid.axis[2] = v_make(0, 0, body->half_extents.z);
-    for (int i = 0; i < 3 && map.turned; i++) solid.axis[i] = m_apply(&map.turn, solid.axis[i]);
+    for (int i = 0; i < 3 && map.turned; i++)
+        solid.axis[i] = m_apply(&map.turn, solid.axis[i]);
     double depth = tahr__core_leave_solid(&query->core, centre, &solid, map.offset, &out->witness.normal);
     if (depth <= 0) return 0;
     tahr_vec3 n = out->witness.normal;
@@ -65,8 +62,8 @@ static double leave_round(const tahr__core *core, const tahr__prim *prim, tahr_v
 {
     tahr__core axis;
     axis.axis_count = 1;
-    axis.axis[0] = v_scale(v_sub(prim->v[1], prim->v[0]), 0.5);
-    double depth = tahr__core_leave_solid(core, centre, &axis, v_add(prim->v[0], axis.axis[0]), normal);
+    axis.axis[0] = v_scale(v_sub(prim->facet.v[1], prim->facet.v[0]), 0.5);
+    double depth = tahr__core_leave_solid(core, centre, &axis, v_add(prim->facet.v[0], axis.axis[0]), normal);
     if (depth >= 0) return depth;
     /* Nothing has a volume here: any way across the axis will do, up if there is none. */
     tahr_vec3 along = core->axis_count ? core->axis[0] : axis.axis[0];
@@ -81,7 +78,7 @@ static unsigned sides_of(const tahr__query *query, const tahr__prim *prim)
 {
     const tahr__body *body = &query->world->bodies[prim->body];
     const tahr__triangle *t = &body->mesh.triangles[prim->item];
-    if (!(body->flags & TAHR_BODY_TWO_SIDED)) return 1;
+    if (!(prim->kind & TAHR__TWO_SIDED)) return 1;
     /* Past its edges only from a triangle that stands alone: beyond an edge with a neighbour lies the neighbour. */
     int alone = t->ring[0] == prim->item && t->ring[1] == prim->item && t->ring[2] == prim->item;
     return alone ? 7 : 3;
@@ -91,17 +88,17 @@ static unsigned sides_of(const tahr__query *query, const tahr__prim *prim)
  * wholly above it the upper one: exact, and a third of the work. */
 static void measure(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, tahr__witness *out)
 {
-    const tahr_vec3 *v = prim->v;
+    const tahr_vec3 *v = prim->facet.v;
     if (query->core.axis_count == 1) {
         double half = query->core.axis[0].z;
         tahr_vec3 low = v_make(centre.x, centre.y, centre.z - half), high = v_make(centre.x, centre.y, centre.z + half);
         int below = v[0].z <= low.z && v[1].z <= low.z && v[2].z <= low.z;
         if (below || (v[0].z >= high.z && v[1].z >= high.z && v[2].z >= high.z)) {
-            tahr__point_triangle(below ? low : high, v, out);
+            tahr__point_facet(below ? low : high, &prim->facet, out);
             return;
         }
     }
-    tahr__core_distance(&query->core, centre, v, out);
+    tahr__facet_distance(&query->core, centre, &prim->facet, out);
 }
 
 /* Signed distance at the start. 0 if the primitive cannot matter (the inside of a box that is not entered). */
@@ -119,73 +116,61 @@ static int probe_start(const tahr__query *query, const tahr__prim *prim, tahr__p
     if (prim->item & TAHR__ITEM_ROUND) {
         depth = leave_round(core, prim, centre, &out->witness.normal);
     } else {
-        const tahr__body *body = &query->world->bodies[prim->body];
-        if (body->type == TAHR_BODY_BOX && core->axis_count > 0) return 0; /* its inside answers */
-        depth = tahr__core_leave_triangle(core, centre, prim->v, sides_of(query, prim), &out->witness.normal);
+        if ((prim->kind & TAHR__OF_BOX) && core->axis_count > 0) return 0; /* its inside answers */
+        depth = tahr__core_leave_triangle(core, centre, prim->facet.v, sides_of(query, prim), &out->witness.normal);
         out->witness.feature = TAHR__FACE;
     }
     out->gap = -depth - touch;
     return 1;
 }
 
-#define NEVER 2.0
-
-/* Core and triangle are `gap` apart along an axis (less the target; times its length) and come nearer by `rate` over the
- * whole motion: moves the time before which nothing happens. Returns 0 if that is beyond the limit. */
-static int apart(double gap, double rate, double limit, double *t)
+/* Seen along an edge, the triangle is a ray in a plane and the core a point beside its end: h above and o (> 0) beyond it,
+ * both at least, changing by the rates. The time (from there) before which they are farther apart than the reach. */
+static double apart_from_edge(double h, double h_rate, double o, double o_rate, double reach2)
 {
-    if (gap > limit * rate) return 0; /* also: not coming nearer */
-    if (gap > *t * rate) *t = gap / rate;
-    return 1;
+    double c = h * h + o * o - reach2;
+    if (c <= 0) return 0;
+    double a = h_rate * h_rate + o_rate * o_rate, b = h * h_rate + o * o_rate, end = NEVER, root = NEVER;
+    /* It holds as long as the point stays beside the end, and above the plane. */
+    if (o + o_rate * NEVER < 0) end = o / -o_rate;
+    if (h + h_rate * end < 0) end = h / -h_rate;
+    double square = b * b - a * c;
+    if (b < 0 && square >= 0) root = c / (sqrt(square) - b);
+    return d_min(root, end);
 }
 
-/* The upright planes through the edges, which together with the face on either side bound the sum of triangle and upright
- * core. turn: 1 if the face looks up, -1 if down. */
-static int apart_sideways(const tahr__query *query, const tahr_vec3 v[3], double turn, double limit, double *t)
+/* What is beyond the reach by less than this (m) counts as reached: a thousand times the rounding of what follows. */
+#define ROOM 1e-7
+
+double tahr__probe_later(const tahr__query *query, const tahr__prim *prim, double earliest)
 {
-    double reach = query->radius + query->margin + 0.5 * TAHR__ARRIVED;
+    if ((prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) || (prim->kind & TAHR__THIN)) return earliest;
+    const tahr__facet *f = &prim->facet;
+    double reach = query->radius + query->margin + ROOM, reach2 = reach * reach, most = 0;
+    tahr_vec3 centre = v_mad(query->start, query->motion, earliest), n = f->cross;
+    double inverse = 1 / f->length, height = v_dot(n, v_sub(centre, f->v[0])) * inverse;
+    double h = fabs(height) - extent_along(query, n) * inverse, h_rate = 0;
+    if (h > 0)
+        h_rate = v_dot(n, query->motion) * (height < 0 ? -inverse : inverse);
+    else
+        h = 0;
     for (int i = 0; i < 3; i++) {
-        tahr_vec3 e = v_sub(v[(i + 1) % 3], v[i]);
-        double x = turn * e.y, y = -turn * e.x, out = x * (query->start.x - v[i].x) + y * (query->start.y - v[i].y);
-        if (!(out > 0)) continue;
-        double wide2 = x * x + y * y;
-        if (out * out <= reach * reach * wide2) continue; /* no root where it decides nothing */
-        if (!apart(out - reach * sqrt(wide2), -(x * query->motion.x + y * query->motion.y), limit, t)) return 0;
+        tahr_vec3 m = v_cross(v_sub(f->v[i < 2 ? i + 1 : 0], f->v[i]), n);
+        double o = v_dot(m, v_sub(centre, f->v[i]));
+        if (!(o > 0)) continue;
+        o -= extent_along(query, m);
+        double m2 = v_dot(m, m);
+        if (!(o > 0) || o * o <= (reach2 - h * h) * m2) continue;
+        double scale = 1 / sqrt(m2);
+        most = d_max(most, apart_from_edge(h, h_rate, o * scale, v_dot(m, query->motion) * scale, reach2));
     }
-    return 1;
-}
-
-/* What planes alone say. NEVER, if the core stays beyond the target on one side of a plane, or behind a one-sided face:
- * that is all most triangles get. Else a time before which nothing happens, for the distance to the triangle is at least
- * that to any plane that separates; 0: look at the start. */
-static double earliest(const tahr__query *query, const tahr__prim *prim, double limit)
-{
-    if (prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) return 0;
-    const tahr__body *body = &query->world->bodies[prim->body];
-    if (body->mesh.triangles[prim->item].source & TAHR__MESH_THIN) return 0;
-    tahr_vec3 n = v_cross(v_sub(prim->v[1], prim->v[0]), v_sub(prim->v[2], prim->v[0]));
-    double reach = query->radius + query->margin, length = v_length(n);
-    double first = v_dot(n, v_sub(query->start, prim->v[0])), change = v_dot(n, query->motion);
-    double extent = tahr__core_extent(&query->core, n);
-    double low = first + d_min(0, change) - extent, high = first + d_max(0, change) + extent;
-    if (low >= reach * length || high <= -reach * length) return NEVER;
-    /* Contacts from so far behind fail the test for one-sided faces (1e-6 of the distance) anyway. */
-    if (!(body->flags & TAHR_BODY_TWO_SIDED) && high < -(1e-5 * reach + 1e-8) * length) return NEVER;
-    double above = first < 0 ? -first : first, rate = first < 0 ? change : -change, t = 0;
-    /* Half of what counts as arrived is left, so that rounding never makes it late. */
-    double gap = above - extent - (reach + 0.5 * TAHR__ARRIVED) * length;
-    /* Touching the margin from outside and not coming nearer: a walker at rest on its clearance. */
-    if (rate <= 0 && gap >= -TAHR__ARRIVED * length) return NEVER;
-    if (reach < 1e-6) return 0; /* a target of nothing needs the way there to know its normal */
-    if (gap > 0 && !apart(gap, rate, limit, &t)) return NEVER;
-    if (query->core.axis_count < 2 && !apart_sideways(query, prim->v, n.z < 0 ? -1 : 1, limit, &t)) return NEVER;
-    return t;
+    return earliest + most;
 }
 
 /* Of a box that is left from inside: the face that the way out points through most. */
 static uint32_t solid_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3 normal)
 {
-    tahr__map map = tahr__map_make(&query->frame, &query->world->bodies[prim->body]);
+    tahr__map map = tahr__map_make(query->frame, &query->world->bodies[prim->body]);
     tahr_vec3 n = m_unapply(&map.turn, normal), a = v_abs(n);
     int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
     return 2 * (uint32_t)axis + (v_get(n, axis) > 0);
@@ -203,7 +188,7 @@ static void found_fill(const tahr__query *query, const tahr__prim *prim, const t
     out->overlap = out->unknown = 0;
     out->body = prim->body;
     out->item = prim->item;
-    out->feature = solid ? solid_face(query, prim, normals->normal) : tahr__prim_feature(query->world, prim);
+    out->feature = solid ? solid_face(query, prim, normals->normal) : prim->feature;
 }
 
 /* One primitive under way: where, and the distance it must come down to. */
@@ -224,7 +209,7 @@ static int approaching(const tahr__query *query, tahr_vec3 normal)
 static int blocks_at_start(const flight *f, const tahr__contact_normals *normals, tahr__found *out)
 {
     const tahr__query *query = f->query;
-    int overlap = f->probe.gap < 0, sensor = (query->world->bodies[f->prim->body].flags & TAHR_BODY_SENSOR) != 0;
+    int overlap = f->probe.gap < 0, sensor = (f->prim->kind & TAHR__SENSOR) != 0;
     int leaving_counts = overlap && (sensor || !(query->flags & TAHR_SWEEP_LEAVE_OVERLAP));
     if (!leaving_counts && !approaching(query, normals->normal)) return 0;
     out->t = 0;
@@ -298,13 +283,12 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
     return TAHR__FREE;
 }
 
-int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, double limit, const double *beside, tahr__found *out)
+int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const tahr__ask *ask, tahr__found *out)
 {
     flight f;
     f.query = query;
     f.prim = prim;
-    f.t = earliest(query, prim, limit);
-    if (f.t > 1) return TAHR__FREE;
+    f.t = ask->earliest;
     f.target = query->radius + prim->radius + query->margin;
     query->context->narrow_tests++;
     query->context->narrow_iterations++;
@@ -314,12 +298,12 @@ int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, double l
     } else if (!probe_start(query, prim, &f.probe)) {
         return TAHR__FREE;
     }
-    return fly(&f, limit, beside, out);
+    return fly(&f, ask->limit, ask->beside, out);
 }
 
 int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double margin, tahr__found *out)
 {
-    if (earliest(query, prim, 1.0) > 1) return 0;
+    if (plane_earliest(query, prim, 1.0) > 1) return 0;
     query->context->narrow_tests++;
     query->context->narrow_iterations++;
     tahr__probe probe;

@@ -49,17 +49,16 @@ static double meet(const ray_state *s, const tahr_vec3 v[3])
 static int probe_triangle(const ray_state *s, const tahr__prim *prim, tahr__found *f)
 {
     const tahr__query *query = s->search.query;
-    const tahr__body *body = &query->world->bodies[prim->body];
-    double t = meet(s, prim->v);
+    double t = meet(s, prim->facet.v);
     if (!(t >= 0 && t <= 1)) return 0;
-    tahr_vec3 n = v_cross(v_sub(prim->v[1], prim->v[0]), v_sub(prim->v[2], prim->v[0]));
+    tahr_vec3 n = prim->facet.cross;
     double along = v_dot(n, query->motion);
-    if (along == 0 || (along > 0 && !(body->flags & TAHR_BODY_TWO_SIDED))) return 0;
+    if (along == 0 || (along > 0 && !(prim->kind & TAHR__TWO_SIDED))) return 0;
     tahr__witness w;
     tahr__contact_normals normals;
     memset(&w, 0, sizeof w);
     w.feature = TAHR__FACE;
-    w.normal = v_scale(n, (along > 0 ? -1 : 1) / v_length(n));
+    w.normal = v_scale(n, (along > 0 ? -1 : 1) / prim->facet.length);
     if (tahr__resolve(query, prim, query->start, &w, query->motion, 0, &normals) != TAHR__ACCEPTED) return 0;
     f->t = t;
     f->gap = 0;
@@ -68,7 +67,7 @@ static int probe_triangle(const ray_state *s, const tahr__prim *prim, tahr__foun
     f->overlap = f->unknown = 0;
     f->body = prim->body;
     f->item = prim->item;
-    f->feature = tahr__prim_feature(query->world, prim);
+    f->feature = prim->feature;
     return 1;
 }
 
@@ -80,7 +79,8 @@ static void visit(tahr__search *search, const tahr__prim *prim)
     if (prim->item & TAHR__ITEM_SOLID) return;
     if (prim->item & TAHR__ITEM_ROUND) {
         /* A ray is the sweep of a point. One that starts inside leaves without a hit. */
-        if (tahr__probe_sweep(query, prim, s->found ? s->best.t : 1.0, NULL, &f) != TAHR__BLOCKED || f.overlap) return;
+        tahr__ask ask = {0, s->found ? s->best.t : 1.0, NULL};
+        if (tahr__probe_sweep(query, prim, &ask, &f) != TAHR__BLOCKED || f.overlap) return;
     } else {
         query->context->narrow_tests++;
         if (!probe_triangle(s, prim, &f)) return;
@@ -100,7 +100,7 @@ tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr
     tahr_vec3 up = cache && cache->announced ? cache->frame.up : v_make(0, 0, 1);
     *count = 0;
     tahr__query_begin(&query, self, context, ray->origin, up);
-    query.motion = query.frame.turned ? m_apply(&query.frame.turn, ray->motion) : ray->motion;
+    query.motion = query.frame->turned ? m_apply(&query.frame->turn, ray->motion) : ray->motion;
     query.motion_length = v_length(query.motion);
     if (!(query.motion_length > 0)) return TAHR_OK;
     query.mask = ray->mask;
@@ -108,7 +108,7 @@ tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr
     s.search.query = &query;
     s.search.box = tahr__query_box(&query, 1.0);
     s.search.reach = 0;
-    s.search.narrowed = 0;
+    s.search.narrowed = s.search.reserved = 0;
     s.search.visit = visit;
     s.found = 0;
     set_axes(&s, query.motion);

@@ -29,10 +29,7 @@ typedef struct work {
 /* Unit face normal in the local frame, from the unrounded corners. */
 static tahr_vec3 face_normal(const work *w, uint32_t triangle)
 {
-    const tahr__mesh *mesh = &w->body->mesh;
-    const uint32_t *v = mesh->triangles[triangle].vertex;
-    tahr_vec3 a = mesh->vertices[v[0]];
-    tahr_vec3 n = v_unit(v_cross(v_sub(mesh->vertices[v[1]], a), v_sub(mesh->vertices[v[2]], a)));
+    tahr_vec3 n = w->body->mesh.normals[triangle];
     return w->map.turned ? m_apply(&w->map.turn, n) : n;
 }
 
@@ -112,7 +109,8 @@ static void around_corner(work *w, uint32_t triangle, uint32_t corner)
         for (int k = 0; k < 2; k++) {
             for (uint32_t next = t->ring[edges[k]]; next != fan[i] && count < FAN;) {
                 uint32_t known = 0;
-                while (known < count && fan[known] != next) known++;
+                while (known < count && fan[known] != next)
+                    known++;
                 if (known == count) fan[count++] = next;
                 const tahr__triangle *o = &all[next];
                 uint32_t a = corner_of(o, t->vertex[edges[k]]), b = corner_of(o, t->vertex[(edges[k] + 1) % 3]);
@@ -128,17 +126,10 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
     out->normal = out->face = witness->normal;
     out->closer = witness->distance;
     if (prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) return TAHR__ACCEPTED;
-    work w;
-    w.core = &query->core;
-    w.body = &query->world->bodies[prim->body];
-    w.map = tahr__map_make(&query->frame, w.body);
-    w.centre = centre;
-    w.motion = motion;
-    w.out = out;
-    tahr_vec3 own = face_normal(&w, prim->item);
+    tahr_vec3 own = prim->face;
     double facing = v_dot(own, witness->normal);
     if (facing < -BEHIND) {
-        if (!(w.body->flags & TAHR_BODY_TWO_SIDED)) return TAHR__REJECTED;
+        if (!(prim->kind & TAHR__TWO_SIDED)) return TAHR__REJECTED;
         own = v_scale(own, -1);
     }
     out->face = own;
@@ -147,13 +138,22 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
         if (fabs(facing) > 0.999) out->normal = own;
         return TAHR__ACCEPTED;
     }
+    work w;
+    w.core = &query->core;
+    w.body = &query->world->bodies[prim->body];
+    w.map = tahr__map_make(query->frame, w.body);
+    w.centre = centre;
+    w.motion = motion;
+    w.out = out;
     w.best = v_dot(motion, own);
     w.measure = measure;
     w.nearer = 0;
-    if (witness->feature < TAHR__CORNER) around_edge(&w, prim->item, witness->feature - TAHR__EDGE);
-    else around_corner(&w, prim->item, witness->feature - TAHR__CORNER);
+    if (witness->feature < TAHR__CORNER)
+        around_edge(&w, prim->item, witness->feature - TAHR__EDGE);
+    else
+        around_corner(&w, prim->item, witness->feature - TAHR__CORNER);
     if (w.nearer) return TAHR__NEIGHBOUR;
-    double snap = query->frame.round ? SNAP_FLOAT : SNAP_DOUBLE;
+    double snap = query->frame->round ? SNAP_FLOAT : SNAP_DOUBLE;
     tahr_vec3 d = v_sub(out->normal, out->face);
     if (v_dot(d, d) < snap * snap) out->normal = out->face;
     return TAHR__ACCEPTED;

@@ -32,7 +32,7 @@ typedef struct tahr__body {
 /* A tree over some of the bodies. */
 typedef struct tahr__group {
     tahr__bvh tree;
-    uint32_t *order; /* leaf position -> body */
+    uint32_t *order;      /* leaf position -> body */
     tahr__bvh_box *boxes; /* scratch for refitting */
     uint32_t count;
 } tahr__group;
@@ -63,34 +63,45 @@ typedef struct tahr__map {
     uint32_t turned, round;
 } tahr__map;
 
-/* Which piece of a body a primitive is: a triangle (in leaf order), a round body, or the inside of a box. WIDE marks a
- * cached triangle that reaches beyond the range where float is good enough. */
-#define TAHR__ITEM_WIDE 0x80000000u
+/* Which piece of a body a primitive is: a triangle (in leaf order), a round body, or the inside of a box. */
 #define TAHR__ITEM_SOLID 0x40000000u
 #define TAHR__ITEM_ROUND 0x20000000u
 
+/* Of tahr__prim.kind: what a query asks about the body or the triangle before it measures anything. */
+enum { TAHR__TWO_SIDED = 1, TAHR__SENSOR = 2, TAHR__THIN = 4, TAHR__OF_BOX = 8 };
+
+/* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. */
 typedef struct tahr__prim {
-    tahr_vec3 v[3];
+    /* What the planes need. */
+    tahr__facet facet; /* local; a segment for round bodies, a point for solids */
     double radius;
-    uint32_t body, item;
+    uint32_t item, kind;
+    uint32_t body, mask; /* mask: of the body */
+    /* What a contact needs. */
+    tahr_vec3 face; /* triangles: the unit normal from exact corners, local */
+    uint32_t feature, reserved;
 } tahr__prim;
 
-/* One character's memory: a header and, behind it, the arrays that tahr__cache_arrays finds. */
+/* One character's memory: a header and, behind it, the lanes and the primitives (gather.c). */
 typedef struct tahr__cache {
     tahr__frame frame;
-    tahr_bounds bounds; /* world; everything static in it has been gathered */
-    uint32_t announced, gathered, overflow, mask, count, reserved;
+    tahr_bounds bounds; /* world: what was announced, grown by the margin */
+    tahr_bounds local;  /* everything static in it has been gathered */
+    uint32_t announced, gathered, overflow, mask, count;
+    uint32_t recent; /* index of what stopped the last motion that was stopped: likely to stop the next */
 } tahr__cache;
 
 typedef struct tahr__query {
     const tahr__native *world;
     tahr__cache *cache; /* or NULL */
     tahr_query_context *context;
-    tahr__frame frame;
+    const tahr__frame *frame; /* the cache's, or own_frame */
+    tahr__frame own_frame;
     tahr__core core;
     tahr_vec3 start, motion; /* local */
     double motion_length;
     double radius, margin;
+    double half; /* of an upright segment, 0 for a point */
     uint32_t mask, ignore_body, flags;
     uint32_t sensors; /* 0: sensor bodies are not looked at */
 } tahr__query;
@@ -100,24 +111,29 @@ typedef struct tahr__search {
     const tahr__query *query;
     tahr_bounds box; /* local, around the core */
     double reach;
-    uint32_t narrowed;
+    uint32_t narrowed, reserved;
     void (*visit)(struct tahr__search *search, const tahr__prim *prim);
 } tahr__search;
 
+/* Static bodies, from the cache if it holds all that is asked for, then movable ones. */
 void tahr__search_run(tahr__search *search);
 
 /* frame.c */
 tahr__frame tahr__frame_make(const tahr__native *world, tahr_vec3 position, tahr_vec3 up);
+/* Would the same frame be made again? */
+int tahr__frame_holds(const tahr__frame *frame, tahr_vec3 position, tahr_vec3 up);
 tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body);
 tahr_vec3 tahr__map_point(const tahr__map *map, tahr_vec3 v);
 void tahr__map_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr_vec3 v[3]);
 tahr_vec3 tahr__frame_to_world(const tahr__frame *frame, tahr_vec3 direction);
 tahr_bounds tahr__frame_box_to_world(const tahr__frame *frame, const tahr_bounds *box, double grow);
 tahr_bounds tahr__frame_box_to_local(const tahr__frame *frame, const tahr_bounds *box);
-/* The primitive of a whole round body, or of the inside of a box. */
-void tahr__prim_round(const tahr__map *map, const tahr__body *body, uint32_t id, tahr__prim *prim);
-void tahr__prim_solid(const tahr__map *map, uint32_t id, tahr__prim *prim);
-tahr_bounds tahr__prim_bounds(const tahr__native *world, const tahr__map *map, const tahr__prim *prim);
+/* What all primitives of a body share; then the rest of a triangle, of a whole round body, of the inside of a box. */
+void tahr__prim_begin(const tahr__body *body, uint32_t id, tahr__prim *prim);
+void tahr__prim_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr__prim *prim);
+void tahr__prim_round(const tahr__map *map, const tahr__body *body, tahr__prim *prim);
+void tahr__prim_solid(const tahr__map *map, tahr__prim *prim);
+tahr_bounds tahr__prim_bounds(const tahr__query *query, const tahr__prim *prim);
 
 /* bodies.c */
 tahr_status tahr__bodies_open(tahr__native *world, const tahr_world_desc *desc);
@@ -125,6 +141,11 @@ void tahr__bodies_close(tahr__native *world);
 tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses, uint32_t count);
 
 /* gather.c */
+enum { TAHR__CACHE_MOST = 4096 };
+/* Does the cache hold everything static within reach of the search? */
+int tahr__cache_holds(const tahr__search *search);
+/* Which cached primitives (prims[index[i]]) may be within reach. Returns how many, at most TAHR__CACHE_MOST. */
+uint32_t tahr__cache_cull(const tahr__search *search, const tahr__prim **prims, uint16_t *index);
 size_t tahr__cache_bytes(const tahr__native *world);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
 
@@ -160,13 +181,20 @@ typedef struct tahr__found {
 
 enum { TAHR__FREE = 0, TAHR__BLOCKED = 1, TAHR__LATER = 2, TAHR__BESIDE = 3 };
 
-/* Does the primitive stop the motion at or before limit (a fraction; what comes later may be missed)? BESIDE: within the
- * margin at the start (out->gap) and not blocking. LATER, only without beside: not before out->t; ask again with beside,
- * the smallest gap of all that were BESIDE (the margin if none), when everything has been asked. */
-int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, double limit, const double *beside, tahr__found *out);
+/* A time before which the triangle does not stop the motion, from what its edges say, not before earliest (plane.h). For
+ * ordering and leaving out, not to begin at. */
+double tahr__probe_later(const tahr__query *query, const tahr__prim *prim, double earliest);
+/* Does the primitive stop the motion at or before limit (what comes later may be missed)? earliest: what plane.h
+ * says, at most limit. BESIDE: within the margin at the start (out->gap) and not blocking. LATER, only without beside: not
+ * before out->t; ask again with beside, the smallest gap of all that were BESIDE (the margin if none), when everything has
+ * been asked. */
+typedef struct tahr__ask {
+    double earliest, limit;
+    const double *beside;
+} tahr__ask;
+int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const tahr__ask *ask, tahr__found *out);
 /* 1 if the primitive is within margin of the shape at its start. */
 int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double margin, tahr__found *out);
-uint32_t tahr__prim_feature(const tahr__native *world, const tahr__prim *prim);
 /* Is a before b? Overlaps first, the deepest of them; then (fraction, body, feature). */
 int tahr__found_before(const tahr__found *a, const tahr__found *b);
 tahr_bounds tahr__query_box(const tahr__query *query, double t);
@@ -180,6 +208,7 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
                                uint32_t capacity, uint32_t *count);
 tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
                                   tahr_contact *contacts, uint32_t capacity, uint32_t *count);
-tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr_ray *ray, tahr_hit *hit, uint32_t *count);
+tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr_ray *ray, tahr_hit *hit,
+                             uint32_t *count);
 
 #endif

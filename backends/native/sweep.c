@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * sweep.c: the sweep slot: the first blocking contact of a moving shape and the sensors before it. */
+#include "plane.h"
 #include "scene.h"
 
 #include <string.h>
@@ -7,31 +8,51 @@
 /* Sensor bodies remembered in one sweep; each reports its first contact. */
 enum { SENSORS = 32 };
 
+/* Cached primitives that wait for their turn, the earliest first; one more is probed at once. */
+enum { WAITING = 32 };
+
+typedef struct waiter {
+    double turn; /* not before this time */
+    double earliest;
+    const tahr__prim *prim;
+    uint32_t sure; /* turn is as late as is known */
+    uint32_t reserved;
+} waiter;
+
 typedef struct sweep_state {
     tahr__search search;
     tahr__found best;
-    uint32_t found, sensor_count, lost;
+    const tahr__prim *stopper; /* whose contact it is */
+    double limit;              /* best.t, or 1 */
+    uint32_t found, sensor_count, lost, waiting;
     uint32_t again; /* this is the second time */
     double beside;  /* the smallest gap of what is within the margin at the start and does not block */
     double later;   /* the earliest time at which something undecided may block; > 1: nothing */
+    waiter waiters[WAITING];
     tahr__found sensors[SENSORS];
 } sweep_state;
 
+/* Leaves to the slot: motion, margin, flags. Only what is read is set: a query is 500 bytes. */
 void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query_context *context, tahr_vec3 position,
                        tahr_vec3 up)
 {
-    memset(query, 0, sizeof *query);
+    tahr__cache *cache = context->cache;
     query->world = world;
     query->context = context;
-    tahr__cache *cache = context->cache;
     if (cache && cache->announced && memcmp(&cache->frame.up, &up, sizeof up) == 0) {
         query->cache = cache;
-        query->frame = cache->frame;
+        query->frame = &cache->frame;
     } else {
-        query->frame = tahr__frame_make(world, position, up);
+        query->cache = NULL;
+        query->own_frame = tahr__frame_make(world, position, up);
+        query->frame = &query->own_frame;
     }
-    query->start = v_sub(position, query->frame.origin);
-    if (query->frame.turned) query->start = m_apply(&query->frame.turn, query->start);
+    query->start = v_sub(position, query->frame->origin);
+    if (query->frame->turned) query->start = m_apply(&query->frame->turn, query->start);
+    query->core.axis_count = 0;
+    query->motion = v_make(0, 0, 0);
+    query->motion_length = query->radius = query->margin = query->half = 0;
+    query->flags = query->sensors = 0;
 }
 
 void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat orientation)
@@ -39,7 +60,8 @@ void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat or
     query->radius = shape->type == TAHR_SHAPE_BOX ? 0 : shape->radius;
     if (shape->type == TAHR_SHAPE_CAPSULE && shape->half_height > shape->radius) {
         query->core.axis_count = 1;
-        query->core.axis[0] = v_make(0, 0, shape->half_height - shape->radius);
+        query->half = shape->half_height - shape->radius;
+        query->core.axis[0] = v_make(0, 0, query->half);
     } else if (shape->type == TAHR_SHAPE_BOX) {
         tahr__mat turn = m_from_quat(orientation);
         query->core.axis_count = 3;
@@ -48,7 +70,7 @@ void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat or
         query->core.axis[2] = v_make(0, 0, shape->half_height);
         for (int i = 0; i < 3; i++) {
             query->core.axis[i] = m_apply(&turn, query->core.axis[i]);
-            if (query->frame.turned) query->core.axis[i] = m_apply(&query->frame.turn, query->core.axis[i]);
+            if (query->frame->turned) query->core.axis[i] = m_apply(&query->frame->turn, query->core.axis[i]);
         }
     }
 }
@@ -72,13 +94,13 @@ static void note_sensor(sweep_state *s, const tahr__found *f)
     s->lost = 1;
 }
 
-static void visit(tahr__search *search, const tahr__prim *prim)
+static void probe(sweep_state *s, const tahr__prim *prim, double earliest)
 {
-    sweep_state *s = (sweep_state *)search;
-    const tahr__query *query = search->query;
+    const tahr__query *query = s->search.query;
     tahr__found f;
-    int sensor = (query->world->bodies[prim->body].flags & TAHR_BODY_SENSOR) != 0;
-    int answer = tahr__probe_sweep(query, prim, s->found ? s->best.t : 1.0, s->again ? &s->beside : NULL, &f);
+    tahr__ask ask = {earliest, s->limit, s->again ? &s->beside : NULL};
+    int sensor = (prim->kind & TAHR__SENSOR) != 0;
+    int answer = tahr__probe_sweep(query, prim, &ask, &f);
     if (answer == TAHR__BESIDE && !sensor) s->beside = d_min(s->beside, f.gap);
     if (answer == TAHR__LATER) s->later = d_min(s->later, f.t);
     if (answer != TAHR__BLOCKED) return;
@@ -88,19 +110,91 @@ static void visit(tahr__search *search, const tahr__prim *prim)
     }
     if (s->found && !tahr__found_before(&f, &s->best)) return;
     s->best = f;
+    s->stopper = prim;
+    s->limit = f.t;
     s->found = 1;
-    search->box = tahr__query_box(query, f.t);
-    search->narrowed = 1;
+    s->search.box = tahr__query_box(query, f.t);
+    s->search.narrowed = 1;
+}
+
+static void visit(tahr__search *search, const tahr__prim *prim)
+{
+    sweep_state *s = (sweep_state *)search;
+    double t = plane_earliest(search->query, prim, s->limit);
+    if (t <= s->limit) probe(s, prim, t);
+}
+
+/* Those that may block earliest go first: most often the first one does, and the others are too late. */
+static void settle(sweep_state *s)
+{
+    waiter *w = s->waiters;
+    while (s->waiting > 0) {
+        uint32_t first = 0;
+        for (uint32_t i = 1; i < s->waiting; i++)
+            first = w[i].turn < w[first].turn ? i : first;
+        waiter next = w[first];
+        if (next.turn > s->limit) break;
+        if ((s->waiting > 1 || s->found) && !next.sure) {
+            w[first].turn = tahr__probe_later(s->search.query, next.prim, next.earliest);
+            w[first].sure = 1;
+            if (w[first].turn > next.turn) continue;
+        }
+        w[first] = w[--s->waiting];
+        probe(s, next.prim, next.earliest);
+    }
+    s->waiting = 0;
+}
+
+static void line_up(sweep_state *s, const tahr__prim *prim, uint32_t is_recent)
+{
+    double t = plane_earliest(s->search.query, prim, s->limit);
+    if (t > s->limit) return;
+    if (s->waiting == WAITING) {
+        probe(s, prim, t);
+        return;
+    }
+    s->waiters[s->waiting++] = (waiter){t, t, prim, is_recent, 0};
+}
+
+/* To the front with what stopped the last motion: of those that are equally early it is then the first. */
+static int recent_first(uint16_t *index, uint32_t count, uint32_t recent)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (index[i] != recent) continue;
+        index[i] = index[0];
+        index[0] = (uint16_t)recent;
+        return 1;
+    }
+    return 0;
+}
+
+static void search(sweep_state *s)
+{
+    const tahr__query *query = s->search.query;
+    if (tahr__cache_holds(&s->search)) {
+        const tahr__prim *prims;
+        uint16_t index[TAHR__CACHE_MOST];
+        uint32_t count = tahr__cache_cull(&s->search, &prims, index);
+        int known = recent_first(index, count, query->cache->recent);
+        for (uint32_t i = 0; i < count; i++)
+            line_up(s, &prims[index[i]], known && i == 0);
+        settle(s);
+        if (s->stopper) query->cache->recent = (uint32_t)(s->stopper - prims);
+    } else {
+        tahr__tree_search(&s->search, &query->world->fixed);
+    }
+    s->stopper = NULL;
+    tahr__tree_search(&s->search, &query->world->movable);
 }
 
 /* Nearly always once. A second time, with all that is beside the start known, if a contact that seemed to belong to a
  * neighbour may come first after all. */
 static void run(sweep_state *s)
 {
-    tahr__search_run(&s->search);
-    if (s->later > (s->found ? s->best.t : 1.0)) return;
+    search(s);
+    if (s->later > s->limit) return;
     s->again = 1;
-    tahr__search_run(&s->search);
+    search(s);
 }
 
 void tahr__fill_hit(const tahr__query *query, const tahr__found *f, tahr_hit *hit)
@@ -114,9 +208,9 @@ void tahr__fill_hit(const tahr__query *query, const tahr__found *f, tahr_hit *hi
     hit->fraction = f->t;
     hit->distance = f->gap;
     hit->depth = f->overlap ? -f->gap : 0;
-    hit->normal = tahr__frame_to_world(&query->frame, f->normal);
-    hit->surface_normal = tahr__frame_to_world(&query->frame, f->face);
-    hit->point = v_add(query->frame.origin, tahr__frame_to_world(&query->frame, f->point));
+    hit->normal = tahr__frame_to_world(query->frame, f->normal);
+    hit->surface_normal = tahr__frame_to_world(query->frame, f->face);
+    hit->point = v_add(query->frame->origin, tahr__frame_to_world(query->frame, f->point));
     hit->walkable_angle = body->walkable_angle;
     hit->walkable_rule = body->walkable_rule;
     hit->surface = body->surface;
@@ -132,10 +226,12 @@ static tahr_status report(sweep_state *s, tahr_hit *hits, uint32_t capacity, uin
         if (s->found && s->sensors[i].t > s->best.t) continue;
         tahr__found f = s->sensors[i];
         uint32_t k = kept++;
-        for (; k > 0 && tahr__found_before(&f, &s->sensors[k - 1]); k--) s->sensors[k] = s->sensors[k - 1];
+        for (; k > 0 && tahr__found_before(&f, &s->sensors[k - 1]); k--)
+            s->sensors[k] = s->sensors[k - 1];
         s->sensors[k] = f;
     }
-    for (; n < kept && n < room; n++) tahr__fill_hit(s->search.query, &s->sensors[n], &hits[n]);
+    for (; n < kept && n < room; n++)
+        tahr__fill_hit(s->search.query, &s->sensors[n], &hits[n]);
     int truncated = n < kept || s->lost;
     if (s->found && capacity > 0) tahr__fill_hit(s->search.query, &s->best, &hits[n++]);
     *count = n;
@@ -149,7 +245,7 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     sweep_state s;
     tahr__query_begin(&query, self, context, sweep->position, sweep->up);
     tahr__query_shape(&query, &sweep->shape, sweep->orientation);
-    query.motion = query.frame.turned ? m_apply(&query.frame.turn, sweep->motion) : sweep->motion;
+    query.motion = query.frame->turned ? m_apply(&query.frame->turn, sweep->motion) : sweep->motion;
     query.motion_length = v_length(query.motion);
     query.margin = sweep->margin;
     query.mask = sweep->mask;
@@ -159,9 +255,11 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     s.search.query = &query;
     s.search.box = tahr__query_box(&query, 1.0);
     s.search.reach = query.radius + query.margin;
-    s.search.narrowed = 0;
+    s.search.narrowed = s.search.reserved = 0;
     s.search.visit = visit;
-    s.found = s.sensor_count = s.lost = s.again = 0;
+    s.limit = 1;
+    s.stopper = NULL;
+    s.found = s.sensor_count = s.lost = s.again = s.waiting = 0;
     s.beside = query.margin;
     s.later = 2;
     run(&s);

@@ -10,7 +10,8 @@ static tahr_bounds to_mesh(const tahr__map *map, const tahr_bounds *box)
     if (!map->turned) return b;
     tahr_vec3 half = v_scale(v_sub(b.max, b.min), 0.5), middle = m_unapply(&map->turn, v_add(b.min, half));
     tahr__mat size = map->turn;
-    for (int i = 0; i < 3; i++) size.row[i] = v_abs(size.row[i]);
+    for (int i = 0; i < 3; i++)
+        size.row[i] = v_abs(size.row[i]);
     half = m_unapply(&size, half);
     b.min = v_sub(middle, half);
     b.max = v_add(middle, half);
@@ -22,13 +23,12 @@ static double gap(double low, double high, double box_low, double box_high)
     return d_max(0, d_max(low - box_high, box_low - high));
 }
 
-static int within(const tahr__search *s, const tahr_vec3 v[3])
+static int within(const tahr_bounds *b, double reach, tahr_vec3 v0, tahr_vec3 v1, tahr_vec3 v2)
 {
-    const tahr_bounds *b = &s->box;
-    double reach = s->reach + TAHR__SLACK;
-    double x = gap(d_min(v[0].x, d_min(v[1].x, v[2].x)), d_max(v[0].x, d_max(v[1].x, v[2].x)), b->min.x, b->max.x);
-    double y = gap(d_min(v[0].y, d_min(v[1].y, v[2].y)), d_max(v[0].y, d_max(v[1].y, v[2].y)), b->min.y, b->max.y);
-    double z = gap(d_min(v[0].z, d_min(v[1].z, v[2].z)), d_max(v[0].z, d_max(v[1].z, v[2].z)), b->min.z, b->max.z);
+    tahr_vec3 low = v_min(v0, v_min(v1, v2)), high = v_max(v0, v_max(v1, v2));
+    double x = gap(low.x, high.x, b->min.x, b->max.x);
+    double y = gap(low.y, high.y, b->min.y, b->max.y);
+    double z = gap(low.z, high.z, b->min.z, b->max.z);
     return x * x + y * y + z * z <= reach * reach;
 }
 
@@ -41,14 +41,14 @@ static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
     if (map->turned) near = m_unapply(&map->turn, near);
     tahr__bvh_walk_begin(&walk, &body->mesh.bvh, &box, s->reach + TAHR__SLACK, near);
     tahr__prim prim;
-    prim.radius = 0;
-    prim.body = id;
+    tahr__prim_begin(body, id, &prim);
     uint32_t first, count;
     while (tahr__bvh_walk_next(&walk, &first, &count)) {
         for (uint32_t i = first; i < first + count; i++) {
-            prim.item = i;
-            tahr__map_triangle(map, body, i, prim.v);
-            if (!within(s, prim.v)) continue;
+            const uint32_t *vertex = body->mesh.triangles[i].vertex;
+            const tahr_vec3 *v = body->mesh.vertices;
+            if (!within(&box, s->reach + TAHR__SLACK, v[vertex[0]], v[vertex[1]], v[vertex[2]])) continue;
+            tahr__prim_triangle(map, body, i, &prim);
             s->narrowed = 0;
             s->visit(s, &prim);
             if (!s->narrowed) continue;
@@ -63,15 +63,16 @@ static void search_body(tahr__search *s, uint32_t id)
     const tahr__body *body = &s->query->world->bodies[id];
     if (!(body->mask & s->query->mask) || id == s->query->ignore_body) return;
     if ((body->flags & TAHR_BODY_SENSOR) && !s->query->sensors) return;
-    tahr__map map = tahr__map_make(&s->query->frame, body);
+    tahr__map map = tahr__map_make(s->query->frame, body);
     tahr__prim prim;
+    tahr__prim_begin(body, id, &prim);
     if (body->type == TAHR_BODY_SPHERE || body->type == TAHR_BODY_CAPSULE) {
-        tahr__prim_round(&map, body, id, &prim);
+        tahr__prim_round(&map, body, &prim);
         s->visit(s, &prim);
         return;
     }
     if (body->type == TAHR_BODY_BOX) {
-        tahr__prim_solid(&map, id, &prim);
+        tahr__prim_solid(&map, &prim);
         s->visit(s, &prim);
     }
     search_mesh(s, id, &map);
@@ -81,13 +82,14 @@ void tahr__tree_search(tahr__search *s, const tahr__group *group)
 {
     if (group->count == 0) return;
     tahr__bvh_walk walk;
-    const tahr__frame *frame = &s->query->frame;
+    const tahr__frame *frame = s->query->frame;
     tahr_bounds box = tahr__frame_box_to_world(frame, &s->box, TAHR__SLACK);
     tahr_vec3 near = v_add(frame->origin, tahr__frame_to_world(frame, s->query->start));
     tahr__bvh_walk_begin(&walk, &group->tree, &box, s->reach + TAHR__SLACK, near);
     uint32_t first, count;
     while (tahr__bvh_walk_next(&walk, &first, &count)) {
-        for (uint32_t i = first; i < first + count; i++) search_body(s, group->order[i]);
+        for (uint32_t i = first; i < first + count; i++)
+            search_body(s, group->order[i]);
         box = tahr__frame_box_to_world(frame, &s->box, TAHR__SLACK);
         tahr__bvh_walk_narrow(&walk, &box);
     }
