@@ -23,11 +23,24 @@ static double power_of_two(int k)
 /* Taylor series of e^r - 1 for |r| <= ln 2 / 2: the first term left out is r^15 / 15! < 1e-19. */
 static double expm1_series(double r)
 {
-    double sum = 1.0;
-    for (int n = 14; n >= 2; n--) {
-        sum = 1.0 + sum * r / n;
+    static const double inverse_factorial[] = {0.5,
+                                               0.16666666666666666,
+                                               0.041666666666666664,
+                                               0.008333333333333333,
+                                               0.001388888888888889,
+                                               0.0001984126984126984,
+                                               2.48015873015873e-05,
+                                               2.7557319223985893e-06,
+                                               2.755731922398589e-07,
+                                               2.505210838544172e-08,
+                                               2.08767569878681e-09,
+                                               1.6059043836821613e-10,
+                                               1.1470745597729725e-11};
+    double sum = inverse_factorial[12];
+    for (int n = 11; n >= 0; n--) {
+        sum = inverse_factorial[n] + sum * r;
     }
-    return sum * r;
+    return r + r * r * sum; /* the first term stays exact */
 }
 
 double tahr__expm1(double x)
@@ -70,9 +83,15 @@ double tahr__log1p(double x)
     }
     double s = f / (2 + f);
     double z = s * s;
+    static const double inverse_odd[] = {0.3333333333333333,   0.2,
+                                         0.14285714285714285,  0.1111111111111111,
+                                         0.09090909090909091,  0.07692307692307693,
+                                         0.06666666666666667,  0.058823529411764705,
+                                         0.05263157894736842,  0.047619047619047616,
+                                         0.043478260869565216, 0.04};
     double sum = 0;
-    for (int n = 25; n >= 3; n -= 2) {
-        sum = (sum + 1.0 / n) * z;
+    for (int n = 11; n >= 0; n--) {
+        sum = (sum + inverse_odd[n]) * z;
     }
     return k * LN2_HIGH + ((2 * s + 2 * s * sum) + (lost + k * LN2_LOW));
 }

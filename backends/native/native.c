@@ -8,7 +8,7 @@ enum { CAPACITY_DEFAULT = 128, CAPACITY_MAX = TAHR__CACHE_MOST };
 /* A newer version may add this many bytes to the options; beyond is a size that was never set, and reading it a crash. */
 #define MOST_UNKNOWN 4096u
 /* Grown by half a metre a gather lasts 6 steps of a runner, at 6 times the area (robustness notes, measured). */
-#define MARGIN_DEFAULT 0.5
+#define MARGIN_DEFAULT 0.75
 
 static void complain(const tahr_host *host, const char *text)
 {

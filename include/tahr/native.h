@@ -20,7 +20,7 @@ typedef struct tahr_native_desc {
     uint32_t no_cache;        /* 1: every query walks the tree; same bits */
     uint32_t no_simd;         /* 1: the scalar twin; same bits */
     uint32_t reserved;
-    double cache_margin; /* m around the announced box, default 0.5; 0..1000 */
+    double cache_margin; /* m around the announced box, default 0.75; 0..1000 */
 } tahr_native_desc;
 
 /* The native backend: plain C, triangle meshes, boxes, spheres, capsules; for tahr_world_open, whose desc.options is a
