@@ -65,6 +65,8 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
 {
     w->began = 0;
     w->wall_count = 0;
+    w->turns = 0;
+    w->careful = 0;
     w->ease = 0;
     tahr__path_carry_floor(w, step);
     w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
@@ -223,6 +225,13 @@ void tahr__path_look_ahead(tahr__step *step, const tahr__path *w)
 }
 
 /* Walks the wish, bending it as things are met. */
+static int stands_here(tahr__step *step)
+{
+    tahr_floor floor;
+    tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+    return floor_is_walkable(&floor);
+}
+
 void tahr__path_walk(tahr__step *step, tahr__path *w)
 {
     tahr_hit hit;
@@ -242,6 +251,10 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         }
         if (hit.unknown || hit.start_overlap) {
             break;
+        }
+        w->turns++;
+        if (w->careful && !stands_here(step)) {
+            return;
         }
         tahr__path_look_ahead(step, w);
         tahr__planes_forget(step, w->walls, &w->wall_count);

@@ -23,6 +23,8 @@ typedef struct tahr__path {
     double ease; /* rise per metre that keeps rounding from pointing into a ramp */
     vec3 from;   /* the last straight piece of the way, to find the place where a floor ended */
     double left_before;
+    uint32_t turns;   /* times that something was met */
+    uint32_t careful; /* 1: the path ends where it meets something without a floor underfoot */
     double lost; /* s of the piece that a cap or an answer dropped */
 } tahr__path;
 

@@ -87,7 +87,10 @@ static tahr__next stand(tahr__step *step, double time, int looked)
 
 /* Walks on until the floor under the end of the walk is known. Where it seems to end it may only lie lower than one snap
  * reaches from the straight path of a long slice (stairs down at 10 Hz): goes down where it still was, and on from there.
- * Returns 1 with a floor, or 0 with the place where it ended as a part of the last piece. */
+ * Returns FLOOR; NO_FLOOR with the place where it ended as a part of the last piece; or WALK_AGAIN if it may have ended
+ * on an earlier piece. */
+enum { NO_FLOOR, FLOOR, WALK_AGAIN };
+
 static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
 {
     enum { DROPS = 6 };
@@ -95,16 +98,19 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
     for (int drop = 0; drop < DROPS; drop++) {
         tahr__path_walk(step, w);
         if (tahr__floor_is_current(step)) {
-            return 1;
+            return FLOOR;
         }
         tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
         if (floor_is_walkable(&floor)) {
             tahr__keep_floor(step, &floor);
-            return 1;
+            return FLOOR;
+        }
+        if (w->turns > 0 && !w->careful) {
+            return WALK_AGAIN;
         }
         if (!step->config->walk_off_ledges) {
             tahr__stay_on_ledge(step, w);
-            return 1;
+            return FLOOR;
         }
         vec3 to = step->state.position;
         double inside;
@@ -113,7 +119,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
         tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
         if (!floor_is_walkable(&floor) || floor.distance < 0.25 * step->config->snap_distance) {
             step->state.position = to;
-            return 0;
+            return NO_FLOOR;
         }
         tahr__keep_floor(step, &floor);
         w->left = w->left_before - (w->left_before - w->left) * inside;
@@ -122,7 +128,19 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
         tahr__path_carry_floor(w, step);
     }
     w->lost = w->duration - tahr__path_used(w);
-    return 1;
+    return FLOOR;
+}
+
+/* The floor ended under a path that was bent on the way: walks the slice once more from its begin, and looks at the floor
+ * at every bend. */
+static int walk_again(tahr__step *step, tahr__path *w, const tahr_state *begin, double time, double *part)
+{
+    step->state = *begin;
+    step->ahead = 0;
+    tahr__path_begin(step, w, time);
+    tahr__path_find_slope(w, step);
+    w->careful = 1;
+    return walk_over_floor(step, w, part);
 }
 
 tahr__next tahr__walk(tahr__step *step, double time)
@@ -139,13 +157,21 @@ tahr__next tahr__walk(tahr__step *step, double time)
         tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
         return fall;
     }
-    double part = 1;
+    double part = 1, offset = step->report.step_offset;
+    uint32_t events = step->report.event_count;
+    tahr_state begin = step->state;
     tahr__path_begin(step, &w, time);
     if (length_squared(w.wish) == 0) {
         return stand(step, time, looked);
     }
     tahr__path_find_slope(&w, step);
-    if (!walk_over_floor(step, &w, &part)) {
+    int answer = walk_over_floor(step, &w, &part);
+    if (answer == WALK_AGAIN) {
+        step->report.event_count = events;
+        step->report.step_offset = offset;
+        answer = walk_again(step, &w, &begin, time, &part);
+    }
+    if (answer == NO_FLOOR) {
         return fall_off(step, &w, step->state.position, part);
     }
     step->report.time_lost += w.lost;

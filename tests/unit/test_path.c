@@ -185,9 +185,40 @@ static void time_that_falling_takes_over_is_not_lost(void **unused)
     rig_close(&r[1]);
 }
 
+/* A plateau that ends at x = 0, and over the void beyond it a wall at x = 1 that bends the way: the floor ends before the
+ * wall is met, at the perch radius and the skin over the edge. */
+static void a_floor_that_ends_before_a_bend_is_left_where_it_ends(void **unused)
+{
+    const double dts[] = {0.4, 0.3, 0.1, 1.0 / 60};
+    fake_world w;
+    (void)unused;
+    fake_world_init(&w);
+    fake_add_box(&w, fake_vec(-60, -50, -1), fake_vec(0, 50, 0));
+    fake_add_box(&w, fake_vec(1, -50, -100), fake_vec(2, 50, 10));
+    for (int i = 0; i < 4; i++) {
+        rig r;
+        const tahr_event *left = NULL;
+        rig_open(&r, &w, NULL, fake_vec(-0.5, 0, 0.9125));
+        rig_settle(&r);
+        r.input.move = fake_vec(0.8, 0.6, 0);
+        r.state.velocity = fake_vec(4.8, 3.6, 0);
+        double time = 0;
+        for (; !left && time < 0.45; time += dts[i]) {
+            rig_step(&r, dts[i]);
+            left = rig_event(&r, TAHR_EVENT_LEFT_GROUND);
+            rig_assert_in_order(&r, dts[i]);
+        }
+        assert_non_null(left);
+        assert_near(left->position.x, 0.35 - 0.15 + 0.01, 1e-5);
+        assert_near(time - dts[i] + left->time, (0.5 + 0.21) / 4.8, 1e-5);
+        rig_close(&r);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_step_after_a_wall_carries_its_own_time),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_floor_that_ends_before_a_bend_is_left_where_it_ends),
+                                       cmocka_unit_test(a_step_after_a_wall_carries_its_own_time),
                                        cmocka_unit_test(steps_of_one_long_step_come_at_their_times),
                                        cmocka_unit_test(motion_dropped_at_the_cap_of_slides_is_reported_as_time),
                                        cmocka_unit_test(time_that_a_long_step_loses_on_stairs_up_is_reported),
