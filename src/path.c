@@ -200,21 +200,34 @@ static int take_step(tahr__step *step, tahr__path *w, vec3 level, const tahr_hit
     return 1;
 }
 
+/* The walls that one wall is to something that stays on the ramps. One that leans over is in the way of the ramp that rises
+ * most, whichever that is for a direction: it is a wall for each of them. Returns 0 if one of them leaves no way at all. */
+static int add_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
+{
+    uint32_t count = dot(hit->normal, step->state.up) < 0 && w->ramp_count > 1 ? w->ramp_count : 1;
+    for (uint32_t i = 0; i < count; i++) {
+        tahr__plane wall = tahr__plane_of(step, hit);
+        if (!tahr__level_wall(step, w->ramp_count ? w->ramps[i] : step->state.up, &wall)) {
+            return 0;
+        }
+        wall.body ^= i << 24; /* a key of its own for every ramp */
+        tahr__planes_add(w->walls, &w->wall_count, &wall);
+    }
+    return 1;
+}
+
 static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
 {
-    tahr__plane wall = tahr__plane_of(step, hit);
-    vec3 floor_normal = w->ramp_count ? w->ramps[0] : step->state.up;
     double used = tahr__path_used(w);
     vec3 velocity = tahr__law_advance(&w->law, w->velocity, used).velocity;
     step->ahead = w->began + used;
     tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(velocity, hit->normal), 0));
     step->report.slides++;
-    if (!tahr__level_wall(step, floor_normal, &wall)) {
+    if (!add_wall(step, w, hit)) {
         return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");
     }
-    tahr__planes_add(w->walls, &w->wall_count, &wall);
     tahr__path_bend(step, w);
-    return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(wall.normal, step->state.up), 0, "slides along");
+    return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(hit->normal, step->state.up), 0, "slides along");
 }
 
 void tahr__path_look_ahead(tahr__step *step, const tahr__path *w)
