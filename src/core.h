@@ -44,7 +44,6 @@ struct tahr_mover {
 
 /* One step in progress: working copies, so that an error leaves the caller's state untouched. */
 typedef struct tahr__step {
-    const tahr_mover *mover;
     const tahr_config *config;
     const tahr__limits *limits;
     tahr_world *world;

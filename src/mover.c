@@ -323,7 +323,6 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         return status;
     }
     tahr__step step;
-    step.mover = mover;
     step.config = &mover->config;
     step.limits = &mover->limits;
     step.world = mover->world;

@@ -112,12 +112,17 @@ double tahr__path_used(const tahr__path *w)
     return time_of_part(w, 1 - w->left);
 }
 
+/* Ends the piece after `used` seconds, with the velocity then, and begins the next. */
+static void end_piece(tahr__step *step, tahr__path *w, double used, vec3 velocity)
+{
+    w->began += used;
+    begin_piece(step, w, velocity, w->duration - used);
+}
+
 void tahr__path_bend(tahr__step *step, tahr__path *w)
 {
     double used = tahr__path_used(w);
-    tahr__motion m = tahr__law_advance(&w->law, w->velocity, used);
-    w->began += used;
-    begin_piece(step, w, m.velocity, w->duration - used);
+    end_piece(step, w, used, tahr__law_advance(&w->law, w->velocity, used).velocity);
 }
 
 /* The bevelled edge of a step is no slope to slow down on. On a slope the contact lies up to 0.25 m off the axis: if the
@@ -226,7 +231,7 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
     if (!add_wall(step, w, hit)) {
         return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");
     }
-    tahr__path_bend(step, w);
+    end_piece(step, w, used, velocity);
     return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(hit->normal, step->state.up), 0, "slides along");
 }
 
@@ -237,7 +242,6 @@ void tahr__path_look_ahead(tahr__step *step, const tahr__path *w)
     }
 }
 
-/* Walks the wish, bending it as things are met. */
 static int stands_here(tahr__step *step)
 {
     tahr_floor floor;

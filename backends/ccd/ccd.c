@@ -52,10 +52,3 @@ const tahr_backend *tahr_backend_v1_ccd(void)
 {
     return &backend;
 }
-#ifdef TAHR_PLUGIN
-TAHR_API const tahr_backend *tahr_backend_v1(void);
-const tahr_backend *tahr_backend_v1(void)
-{
-    return &backend;
-}
-#endif
