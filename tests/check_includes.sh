@@ -60,7 +60,7 @@ for backend in backends/*/; do
     name=$(basename "$backend")
     case $name in
     ccd) third='|<ccd/[a-z0-9_]+\.h>' ;;
-    native) third='|<emmintrin\.h>' ;; # the processor's own vectors
+    native) third='|<[ei]mmintrin\.h>' ;; # the processor's own vectors
     *) third= ;;
     esac
     check "backends/$name" "backends/$name" \

@@ -121,7 +121,7 @@ void tahr__prim_triangle(const tahr__map *map, const tahr__body *body, uint32_t 
     prim->face = map->turned ? m_apply(&map->turn, mesh->normals[triangle]) : mesh->normals[triangle];
     prim->item = triangle;
     prim->feature = tahr__triangle_source(t);
-    prim->kind = (prim->kind & ~(uint32_t)TAHR__THIN) | (t->source & TAHR__MESH_THIN ? TAHR__THIN : 0u);
+    prim->kind = (prim->kind & ~(uint32_t)TAHR__PLANELESS) | (t->source & TAHR__MESH_THIN ? TAHR__PLANELESS : 0u);
 }
 
 void tahr__prim_round(const tahr__map *map, const tahr__body *body, tahr__prim *prim)
@@ -132,6 +132,7 @@ void tahr__prim_round(const tahr__map *map, const tahr__body *body, tahr__prim *
     prim->face = v_make(0, 0, 0);
     prim->radius = body->radius;
     prim->item = TAHR__ITEM_ROUND;
+    prim->kind |= TAHR__PLANELESS;
 }
 
 void tahr__prim_solid(const tahr__map *map, tahr__prim *prim)
@@ -140,6 +141,7 @@ void tahr__prim_solid(const tahr__map *map, tahr__prim *prim)
     tahr__facet_finish(&prim->facet);
     prim->face = v_make(0, 0, 0);
     prim->item = TAHR__ITEM_SOLID;
+    prim->kind |= TAHR__PLANELESS;
 }
 
 tahr_bounds tahr__prim_bounds(const tahr__query *query, const tahr__prim *prim)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
  * gather.c: one character's cache of nearby static primitives, and the search that uses it where it holds everything. */
-#include "lanes.h"
 #include "scene.h"
 
 #include <string.h>
@@ -104,6 +103,7 @@ static void store(tahr__search *search, const tahr__prim *prim)
     high[2 * TAHR__LANES] = d_up(b.max.z);
     store_planes(g->blocks + tahr__lane(n, TAHR__LANE_NORMAL), prim);
     g->prims[n] = *prim;
+    g->cache->plain &= !(prim->kind & TAHR__SENSOR);
     g->cache->count = n + 1;
 }
 
@@ -133,7 +133,8 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     cache->mask = p->mask;
     cache->gathered = 1;
     cache->overflow = cache->count = 0;
-    cache->recent = TAHR__CACHE_MOST;
+    cache->plain = 1;
+    cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
     g.search.query = &query;
     g.search.box = cache->local;
     g.search.reach = 0;
@@ -151,6 +152,24 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     context->gathers++;
 }
 
+/* Brings what the sweeps of this step will read nearer, while the step is still busy with other things: in a crowd it has
+ * left the nearest memory since the last step. */
+static void fetch(const tahr__native *world, tahr__cache *cache)
+{
+#if defined(__GNUC__)
+    const unsigned char *lanes = (const unsigned char *)blocks_of(cache);
+    size_t bytes = (cache->count + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES * TAHR__LANE_ROWS * sizeof(float);
+    for (size_t at = 0; at < bytes; at += 64)
+        __builtin_prefetch(lanes + at);
+    const unsigned char *prim = (const unsigned char *)(prims_of(world, cache) + cache->recent[0] % world->capacity);
+    for (size_t at = 0; at < sizeof(tahr__prim); at += 64)
+        __builtin_prefetch(prim + at);
+#else
+    (void)world;
+    (void)cache;
+#endif
+}
+
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
 {
     tahr__cache *cache = context ? context->cache : NULL;
@@ -159,7 +178,10 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     if (!keep) cache->frame = tahr__frame_make(world, p->position, p->up);
     cache->announced = 1;
     if (world->no_cache) return TAHR_OK;
-    if (keep && cache->gathered && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds)) return TAHR_OK;
+    if (keep && cache->gathered && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds)) {
+        fetch(world, cache);
+        return TAHR_OK;
+    }
     gather_now(world, context, p);
     return TAHR_OK;
 }
@@ -183,7 +205,7 @@ static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
     q->motion[2] = (float)query->motion.z;
     q->half = (float)query->half;
     /* Boxes are not upright segments: their planes are looked at in double. */
-    q->reach = query->core.axis_count < 2 ? (float)(s->reach + PLANE_SLACK) : 1e30f;
+    q->reach = query->core.axis_count < 2 ? (float)(s->reach + PLANE_SLACK + 1e-6 * query->motion_length) : 1e30f;
 }
 
 static int concerns(const tahr__query *query, const tahr__prim *prim)
@@ -199,7 +221,8 @@ uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, uint1
     const tahr__prim *all = *prims = prims_of(query->world, query->cache);
     tahr__lanes_query q;
     lanes_query(s, &q);
-    uint32_t count = (query->world->no_simd ? tahr__lanes_cull_scalar : tahr__lanes_cull)(&lanes, &q, index), kept = 0;
+    uint32_t count = query->world->cull(&lanes, &q, index), kept = 0;
+    if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY) return count;
     for (uint32_t i = 0; i < count; i++) {
         index[kept] = index[i];
         kept += (uint32_t)concerns(query, &all[index[i]]);
@@ -232,5 +255,5 @@ void tahr__search_run(tahr__search *s)
     } else {
         tahr__tree_search(s, &world->fixed);
     }
-    tahr__tree_search(s, &world->movable);
+    if (world->movable.count) tahr__tree_search(s, &world->movable);
 }

@@ -42,9 +42,9 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
         return TAHR_E_ARGUMENT;
     }
     world->round = d.precision == TAHR_NATIVE_FLOAT;
-    world->capacity = ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + 3) / 4 * 4;
+    world->capacity = ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
     world->no_cache = d.no_cache;
-    world->no_simd = d.no_simd;
+    world->cull = d.no_simd ? tahr__lanes_cull_1 : tahr__lanes_best();
     world->cache_margin = d.cache_margin > 0 ? d.cache_margin : MARGIN_DEFAULT;
     return TAHR_OK;
 }

@@ -9,16 +9,6 @@
 /* A fraction that no motion has. */
 #define NEVER 2.0
 
-/* Core and triangle are `gap` (> 0) apart along an axis (less the target; times its length) and come nearer by `rate` over
- * the whole motion: moves the time before which nothing happens. Returns 0 if that is beyond the limit. */
-static inline int apart(double gap, double rate, double limit, double *t)
-{
-    /* Also: not coming nearer. A little more than the limit, so that the quotient alone decides what ties with it. */
-    if (gap > limit * rate * (1 + 1e-15)) return 0;
-    if (gap > *t * rate) *t = gap / rate;
-    return *t <= limit;
-}
-
 /* Half the extent of an upright segment, or of a point, along n. */
 static inline double upright_extent(const tahr__query *query, tahr_vec3 n)
 {
@@ -30,47 +20,69 @@ static inline double extent_along(const tahr__query *query, tahr_vec3 n)
     return query->core.axis_count < 2 ? upright_extent(query, n) : tahr__core_extent(&query->core, n);
 }
 
-/* The upright planes through the edges, which together with the face on either side bound the sum of triangle and upright
- * core. turn: 1 if the face looks up, -1 if down. */
-static inline int apart_sideways(const tahr__query *query, const tahr_vec3 v[3], double turn, double limit, double *t)
+/* Core and triangle are `gap` (> 0) apart along an axis (less the target; times its length) and come nearer by `rate` over
+ * the whole motion: the time before which nothing happens; NEVER, if that is beyond the limit or they do not. */
+static inline double closing_time(double gap, double rate, double limit)
 {
-    double reach = query->radius + query->margin + 0.5 * TAHR__ARRIVED, reach2 = reach * reach;
-    tahr_vec3 start = query->start;
-    for (int i = 0; i < 3; i++) {
-        int j = i < 2 ? i + 1 : 0;
-        double x = turn * (v[j].y - v[i].y), y = -turn * (v[j].x - v[i].x);
-        double out = x * (start.x - v[i].x) + y * (start.y - v[i].y);
-        if (!(out > 0)) continue;
-        double wide2 = x * x + y * y;
-        if (out * out <= reach2 * wide2) continue; /* no root where it decides nothing */
-        if (!apart(out - reach * sqrt(wide2), -(x * query->motion.x + y * query->motion.y), limit, t)) return 0;
-    }
-    return 1;
+    /* A little more than the limit, so that the quotient alone decides what ties with it. */
+    return gap > limit * rate * (1 + 1e-15) ? NEVER : gap / rate;
 }
 
-/* What planes alone say: a time before which the primitive does not stop the motion; NEVER, if that is beyond limit: the
- * core stays beyond the target on one side of a plane, or behind a one-sided face, which is all most triangles get. For
+/* Does the core stay behind a one-sided face? Contacts from so far behind fail the test for one-sided faces (1e-6 of the
+ * distance) anyway. */
+static inline int stays_behind(double first, double last, double extent, double reach, double length)
+{
+    return d_max(first, last) + extent < -(1e-5 * reach + 1e-8) * length;
+}
+
+/* What the plane alone says: a time before which the primitive does not stop the motion; NEVER, if that is beyond limit: the
+ * core stays beyond the target on one side of it, or behind a one-sided face, which is all most triangles get. For
  * the distance to the triangle is at least that to any plane that separates. 0: look at the start. */
 static inline double plane_earliest(const tahr__query *query, const tahr__prim *prim, double limit)
 {
-    if ((prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) || (prim->kind & TAHR__THIN)) return 0;
+    if (prim->kind & TAHR__PLANELESS) return 0;
     tahr_vec3 n = prim->facet.cross;
-    double reach = query->radius + query->margin, length = prim->facet.length;
+    double reach = query->radius + query->margin, length = prim->facet.length, extent = extent_along(query, n);
     double first = v_dot(n, v_sub(query->start, prim->facet.v[0])), change = v_dot(n, query->motion);
-    double extent = extent_along(query, n), last = first + change;
-    double low = d_min(first, last) - extent, high = d_max(first, last) + extent;
-    if (low >= reach * length || high <= -reach * length) return NEVER;
-    /* Contacts from so far behind fail the test for one-sided faces (1e-6 of the distance) anyway. */
-    if (high < 0 && !(prim->kind & TAHR__TWO_SIDED) && high < -(1e-5 * reach + 1e-8) * length) return NEVER;
-    double above = fabs(first), rate = first < 0 ? change : -change, t = 0;
+    if (!(prim->kind & TAHR__TWO_SIDED) && stays_behind(first, first + change, extent, reach, length)) return NEVER;
+    double rate = first < 0 ? change : -change, beyond = fabs(first) - extent;
+    if (beyond >= reach * length && beyond - rate >= reach * length) return NEVER;
     /* Half of what counts as arrived is left, so that rounding never makes it late. */
-    double gap = above - extent - (reach + 0.5 * TAHR__ARRIVED) * length;
+    double gap = beyond - (reach + 0.5 * TAHR__ARRIVED) * length;
     /* Touching the margin from outside and not coming nearer: a walker at rest on its clearance. */
-    if (rate <= 0 && gap >= -TAHR__ARRIVED * length) return NEVER;
-    if (reach < 1e-6) return 0; /* a target of nothing needs the way there to know its normal */
-    if (gap > 0 && !apart(gap, rate, limit, &t)) return NEVER;
-    if (query->core.axis_count < 2 && !apart_sideways(query, prim->facet.v, n.z < 0 ? -1 : 1, limit, &t)) return NEVER;
-    return t;
+    if (rate <= 0) return gap >= -TAHR__ARRIVED * length ? NEVER : 0;
+    /* A target of nothing needs the way there to know its normal. */
+    return gap <= 0 || reach < 1e-6 ? 0 : closing_time(gap, rate, limit);
+}
+
+/* Taken off distances, so that no rounding of what follows, a thousandth of it, makes a time too late (m). */
+#define ROOM 1e-7
+
+/* The same by the edges, not before `earliest`, what the plane says: for ordering and leaving out, not to begin at. Seen
+ * along an edge the triangle is a ray, and the core a point h above its line and o beyond its end; the plane through that
+ * end across the way to the point separates them. Of the edges the one that is farthest is asked. */
+static inline double edges_earliest(const tahr__query *query, const tahr__prim *prim, double limit, double earliest)
+{
+    if (prim->kind & TAHR__PLANELESS) return earliest;
+    const tahr__facet *f = &prim->facet;
+    double reach = query->radius + query->margin + ROOM, length2 = f->length * f->length, far2 = 0, far_rate = 0;
+    tahr_vec3 n = f->cross, d = v_sub(v_mad(query->start, query->motion, earliest), f->v[0]), x = v_cross(d, n);
+    tahr_vec3 e[3] = {v_sub(f->v[1], f->v[0]), v_sub(f->v[2], f->v[1]), v_sub(f->v[0], f->v[2])};
+    /* Beyond edge i by out[i] times its length and that of n; the sum of the three is -n . n. */
+    double out[3] = {-v_dot(e[0], x), 0, -v_dot(e[2], x)};
+    out[1] = -length2 - out[0] - out[2];
+    for (int i = 0; i < 3; i++) {
+        tahr_vec3 across = v_cross(e[i], n);
+        double o = out[i] - extent_along(query, across), e2 = v_dot(e[i], e[i]) * length2;
+        if (o <= 0 || o * o <= far2 * e2) continue;
+        far2 = o * o / e2;
+        far_rate = o * v_dot(across, query->motion) / e2;
+    }
+    double height = v_dot(n, d), h = d_max(fabs(height) - extent_along(query, n), 0), away2 = far2 + h * h / length2;
+    if (far2 == 0 || away2 <= reach * reach) return earliest;
+    double h_rate = h * v_dot(n, query->motion) / length2, away = sqrt(away2);
+    double rate = -(far_rate + (height < 0 ? -h_rate : h_rate));
+    return earliest + closing_time((away - reach) * away, rate, limit - earliest);
 }
 
 #endif

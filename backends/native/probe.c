@@ -26,10 +26,8 @@ int tahr__found_before(const tahr__found *a, const tahr__found *b)
 
 tahr_bounds tahr__query_box(const tahr__query *query, double t)
 {
-    tahr_vec3 end = v_mad(query->start, query->motion, t), half = v_make(0, 0, 0);
-    for (int i = 0; i < query->core.axis_count; i++)
-        half = v_add(half, v_abs(query->core.axis[i]));
-    tahr_bounds box = {v_sub(v_min(query->start, end), half), v_add(v_max(query->start, end), half)};
+    tahr_vec3 end = v_mad(query->start, query->motion, t);
+    tahr_bounds box = {v_sub(v_min(query->start, end), query->extent), v_add(v_max(query->start, end), query->extent)};
     return box;
 }
 
@@ -122,49 +120,6 @@ static int probe_start(const tahr__query *query, const tahr__prim *prim, tahr__p
     }
     out->gap = -depth - touch;
     return 1;
-}
-
-/* Seen along an edge, the triangle is a ray in a plane and the core a point beside its end: h above and o (> 0) beyond it,
- * both at least, changing by the rates. The time (from there) before which they are farther apart than the reach. */
-static double apart_from_edge(double h, double h_rate, double o, double o_rate, double reach2)
-{
-    double c = h * h + o * o - reach2;
-    if (c <= 0) return 0;
-    double a = h_rate * h_rate + o_rate * o_rate, b = h * h_rate + o * o_rate, end = NEVER, root = NEVER;
-    /* It holds as long as the point stays beside the end, and above the plane. */
-    if (o + o_rate * NEVER < 0) end = o / -o_rate;
-    if (h + h_rate * end < 0) end = h / -h_rate;
-    double square = b * b - a * c;
-    if (b < 0 && square >= 0) root = c / (sqrt(square) - b);
-    return d_min(root, end);
-}
-
-/* What is beyond the reach by less than this (m) counts as reached: a thousand times the rounding of what follows. */
-#define ROOM 1e-7
-
-double tahr__probe_later(const tahr__query *query, const tahr__prim *prim, double earliest)
-{
-    if ((prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) || (prim->kind & TAHR__THIN)) return earliest;
-    const tahr__facet *f = &prim->facet;
-    double reach = query->radius + query->margin + ROOM, reach2 = reach * reach, most = 0;
-    tahr_vec3 centre = v_mad(query->start, query->motion, earliest), n = f->cross;
-    double inverse = 1 / f->length, height = v_dot(n, v_sub(centre, f->v[0])) * inverse;
-    double h = fabs(height) - extent_along(query, n) * inverse, h_rate = 0;
-    if (h > 0)
-        h_rate = v_dot(n, query->motion) * (height < 0 ? -inverse : inverse);
-    else
-        h = 0;
-    for (int i = 0; i < 3; i++) {
-        tahr_vec3 m = v_cross(v_sub(f->v[i < 2 ? i + 1 : 0], f->v[i]), n);
-        double o = v_dot(m, v_sub(centre, f->v[i]));
-        if (!(o > 0)) continue;
-        o -= extent_along(query, m);
-        double m2 = v_dot(m, m);
-        if (!(o > 0) || o * o <= (reach2 - h * h) * m2) continue;
-        double scale = 1 / sqrt(m2);
-        most = d_max(most, apart_from_edge(h, h_rate, o * scale, v_dot(m, query->motion) * scale, reach2));
-    }
-    return earliest + most;
 }
 
 /* Of a box that is left from inside: the face that the way out points through most. */
@@ -303,7 +258,7 @@ int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const ta
 
 int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double margin, tahr__found *out)
 {
-    if (plane_earliest(query, prim, 1.0) > 1) return 0;
+    if (plane_earliest(query, prim, 1.0) > 1 || edges_earliest(query, prim, 1.0, 0) > 1) return 0;
     query->context->narrow_tests++;
     query->context->narrow_iterations++;
     tahr__probe probe;

@@ -5,6 +5,7 @@
 
 #include "../common/core.h"
 #include "../common/mesh.h"
+#include "lanes.h"
 
 #include <tahr/native.h>
 
@@ -42,8 +43,9 @@ typedef struct tahr__native {
     tahr__body *bodies;
     uint32_t body_count;
     uint32_t round;    /* local coordinates are rounded to float */
-    uint32_t capacity; /* of a cache, a multiple of 4 */
-    uint32_t no_cache, no_simd;
+    uint32_t capacity; /* of a cache, a multiple of TAHR__LANES */
+    uint32_t no_cache;
+    tahr__lanes_fn *cull;
     double cache_margin;
     tahr__group fixed, movable;
 } tahr__native;
@@ -68,7 +70,12 @@ typedef struct tahr__map {
 #define TAHR__ITEM_ROUND 0x20000000u
 
 /* Of tahr__prim.kind: what a query asks about the body or the triangle before it measures anything. */
-enum { TAHR__TWO_SIDED = 1, TAHR__SENSOR = 2, TAHR__THIN = 4, TAHR__OF_BOX = 8 };
+enum {
+    TAHR__TWO_SIDED = 1,
+    TAHR__SENSOR = 2,
+    TAHR__PLANELESS = 4, /* round, solid, or so thin that the direction of its plane may be rounding */
+    TAHR__OF_BOX = 8
+};
 
 /* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. */
 typedef struct tahr__prim {
@@ -88,7 +95,8 @@ typedef struct tahr__cache {
     tahr_bounds bounds; /* world: what was announced, grown by the margin */
     tahr_bounds local;  /* everything static in it has been gathered */
     uint32_t announced, gathered, overflow, mask, count;
-    uint32_t recent; /* index of what stopped the last motion that was stopped: likely to stop the next */
+    uint32_t plain;  /* no sensors: what has been gathered concerns every query of the same mask */
+    uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
 } tahr__cache;
 
 typedef struct tahr__query {
@@ -98,6 +106,7 @@ typedef struct tahr__query {
     const tahr__frame *frame; /* the cache's, or own_frame */
     tahr__frame own_frame;
     tahr__core core;
+    tahr_vec3 extent;        /* half extents of the core along the axes */
     tahr_vec3 start, motion; /* local */
     double motion_length;
     double radius, margin;
@@ -181,9 +190,6 @@ typedef struct tahr__found {
 
 enum { TAHR__FREE = 0, TAHR__BLOCKED = 1, TAHR__LATER = 2, TAHR__BESIDE = 3 };
 
-/* A time before which the triangle does not stop the motion, from what its edges say, not before earliest (plane.h). For
- * ordering and leaving out, not to begin at. */
-double tahr__probe_later(const tahr__query *query, const tahr__prim *prim, double earliest);
 /* Does the primitive stop the motion at or before limit (what comes later may be missed)? earliest: what plane.h
  * says, at most limit. BESIDE: within the margin at the start (out->gap) and not blocking. LATER, only without beside: not
  * before out->t; ask again with beside, the smallest gap of all that were BESIDE (the margin if none), when everything has

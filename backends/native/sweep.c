@@ -12,10 +12,10 @@ enum { SENSORS = 32 };
 enum { WAITING = 32 };
 
 typedef struct waiter {
-    double turn; /* not before this time */
-    double earliest;
+    double turn;     /* it does not stop the motion before this time: by its plane, later by its edges too */
+    double earliest; /* by its plane alone: where its probe begins, whatever has been asked */
     const tahr__prim *prim;
-    uint32_t sure; /* turn is as late as is known */
+    uint32_t sure; /* there is no use in asking its edges */
     uint32_t reserved;
 } waiter;
 
@@ -50,7 +50,7 @@ void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query
     query->start = v_sub(position, query->frame->origin);
     if (query->frame->turned) query->start = m_apply(&query->frame->turn, query->start);
     query->core.axis_count = 0;
-    query->motion = v_make(0, 0, 0);
+    query->extent = query->motion = v_make(0, 0, 0);
     query->motion_length = query->radius = query->margin = query->half = 0;
     query->flags = query->sensors = 0;
 }
@@ -61,7 +61,7 @@ void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat or
     if (shape->type == TAHR_SHAPE_CAPSULE && shape->half_height > shape->radius) {
         query->core.axis_count = 1;
         query->half = shape->half_height - shape->radius;
-        query->core.axis[0] = v_make(0, 0, query->half);
+        query->core.axis[0] = query->extent = v_make(0, 0, query->half);
     } else if (shape->type == TAHR_SHAPE_BOX) {
         tahr__mat turn = m_from_quat(orientation);
         query->core.axis_count = 3;
@@ -71,6 +71,7 @@ void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat or
         for (int i = 0; i < 3; i++) {
             query->core.axis[i] = m_apply(&turn, query->core.axis[i]);
             if (query->frame->turned) query->core.axis[i] = m_apply(&query->frame->turn, query->core.axis[i]);
+            query->extent = v_add(query->extent, v_abs(query->core.axis[i]));
         }
     }
 }
@@ -121,7 +122,7 @@ static void visit(tahr__search *search, const tahr__prim *prim)
 {
     sweep_state *s = (sweep_state *)search;
     double t = plane_earliest(search->query, prim, s->limit);
-    if (t <= s->limit) probe(s, prim, t);
+    if (t <= s->limit && edges_earliest(search->query, prim, s->limit, t) <= s->limit) probe(s, prim, t);
 }
 
 /* Those that may block earliest go first: most often the first one does, and the others are too late. */
@@ -129,43 +130,47 @@ static void settle(sweep_state *s)
 {
     waiter *w = s->waiters;
     while (s->waiting > 0) {
-        uint32_t first = 0;
+        waiter *next = w;
         for (uint32_t i = 1; i < s->waiting; i++)
-            first = w[i].turn < w[first].turn ? i : first;
-        waiter next = w[first];
-        if (next.turn > s->limit) break;
-        if ((s->waiting > 1 || s->found) && !next.sure) {
-            w[first].turn = tahr__probe_later(s->search.query, next.prim, next.earliest);
-            w[first].sure = 1;
-            if (w[first].turn > next.turn) continue;
+            next = w[i].turn < next->turn ? &w[i] : next;
+        double turn = next->turn;
+        if (turn > s->limit) break;
+        if (!next->sure) {
+            next->sure = 1;
+            next->turn = edges_earliest(s->search.query, next->prim, s->limit, turn);
+            if (next->turn > turn) continue;
         }
-        w[first] = w[--s->waiting];
-        probe(s, next.prim, next.earliest);
+        const tahr__prim *prim = next->prim;
+        double earliest = next->earliest;
+        *next = w[--s->waiting];
+        probe(s, prim, earliest);
     }
     s->waiting = 0;
 }
 
-static void line_up(sweep_state *s, const tahr__prim *prim, uint32_t is_recent)
+static void line_up(sweep_state *s, const tahr__prim *prim)
 {
     double t = plane_earliest(s->search.query, prim, s->limit);
     if (t > s->limit) return;
     if (s->waiting == WAITING) {
-        probe(s, prim, t);
+        visit(&s->search, prim);
         return;
     }
-    s->waiters[s->waiting++] = (waiter){t, t, prim, is_recent, 0};
+    s->waiters[s->waiting++] = (waiter){t, t, prim, 0, 0};
 }
 
-/* To the front with what stopped the last motion: of those that are equally early it is then the first. */
-static int recent_first(uint16_t *index, uint32_t count, uint32_t recent)
+/* What stopped the last such motion goes first: what it leaves of this one is most often so little that the others are
+ * soon too late. Taken out of the list. */
+static uint32_t ask_recent(sweep_state *s, const tahr__prim *prims, uint16_t *index, uint32_t count, uint32_t recent)
 {
     for (uint32_t i = 0; i < count; i++) {
         if (index[i] != recent) continue;
-        index[i] = index[0];
-        index[0] = (uint16_t)recent;
-        return 1;
+        index[i] = index[--count];
+        double t = plane_earliest(s->search.query, &prims[recent], s->limit);
+        if (t <= s->limit) probe(s, &prims[recent], t);
+        break;
     }
-    return 0;
+    return count;
 }
 
 static void search(sweep_state *s)
@@ -174,17 +179,18 @@ static void search(sweep_state *s)
     if (tahr__cache_holds(&s->search)) {
         const tahr__prim *prims;
         uint16_t index[TAHR__CACHE_MOST];
+        uint32_t *recent = &query->cache->recent[query->core.axis_count != 1];
         uint32_t count = tahr__cache_cull(&s->search, &prims, index);
-        int known = recent_first(index, count, query->cache->recent);
+        count = ask_recent(s, prims, index, count, *recent);
         for (uint32_t i = 0; i < count; i++)
-            line_up(s, &prims[index[i]], known && i == 0);
+            line_up(s, &prims[index[i]]);
         settle(s);
-        if (s->stopper) query->cache->recent = (uint32_t)(s->stopper - prims);
+        if (s->stopper) *recent = (uint32_t)(s->stopper - prims);
     } else {
         tahr__tree_search(&s->search, &query->world->fixed);
     }
     s->stopper = NULL;
-    tahr__tree_search(&s->search, &query->world->movable);
+    if (query->world->movable.count) tahr__tree_search(&s->search, &query->world->movable);
 }
 
 /* Nearly always once. A second time, with all that is beside the start known, if a contact that seemed to belong to a

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: MIT
+ * lanes_avx2.c: the cull eight lanes at a time. Only called where the processor has AVX2; without FMA, so that it does the
+ * operations of the scalar twin. */
+#include "lanes.h"
+
+#if defined(__GNUC__) && defined(__x86_64__)
+
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC target("avx2")
+#endif
+
+#include <immintrin.h>
+
+enum { WIDTH = 8 };
+
+typedef float lane __attribute__((vector_size(32)));
+typedef int32_t mask __attribute__((vector_size(32)));
+
+static inline lane splat(float x)
+{
+    return (lane){x, x, x, x, x, x, x, x};
+}
+
+static inline unsigned bits(mask m)
+{
+    return (unsigned)_mm256_movemask_ps((__m256)m);
+}
+
+static inline lane larger(lane a, lane b)
+{
+    return (lane)_mm256_max_ps((__m256)a, (__m256)b);
+}
+
+#include "lanes_kernel.h"
+
+uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *query, uint16_t *index)
+{
+    return lanes_cull(lanes, query, index);
+}
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#endif
+
+#else
+
+uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *query, uint16_t *index)
+{
+    return tahr__lanes_cull_4(lanes, query, index);
+}
+
+#endif
