@@ -144,16 +144,19 @@ static vec3 least_squares(const tahr__plane *planes, uint32_t count, vec3 u)
 
 int tahr__project(const tahr__plane *planes, uint32_t count, vec3 u, vec3 *x)
 {
-    double size = length(u);
-    for (uint32_t i = 0; i < count; i++) {
-        size = max_of(size, planes[i].offset);
-    }
-    double slack = FEASIBLE * size;
     if (feasible(planes, count, u, 0)) {
         *x = u;
         return 1;
     }
-    if (enumerate(planes, count, u, slack, x)) {
+    if (count == 1) {
+        *x = on_one(planes, u);
+        return 1;
+    }
+    double size = length(u);
+    for (uint32_t i = 0; i < count; i++) {
+        size = max_of(size, planes[i].offset);
+    }
+    if (enumerate(planes, count, u, FEASIBLE * size, x)) {
         return 1;
     }
     int is_cone = 1;

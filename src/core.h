@@ -26,11 +26,28 @@ struct tahr_world {
     uint32_t body_count;
 };
 
+/* Gravity and what follows from it. */
+typedef struct tahr__pull {
+    vec3 gravity; /* m/s2 */
+    double size;  /* its length */
+    vec3 up;      /* unit, opposite; zero without gravity */
+} tahr__pull;
+
+/* What is swept downward to find the floor, and how far the centre of it lies from the character's along up. */
+typedef struct tahr__foot {
+    tahr_shape shape;
+    double offset; /* m */
+} tahr__foot;
+
 /* Numbers derived from the config once, when the mover is created. */
 typedef struct tahr__limits {
     double walkable;            /* cosine of the steepest walkable floor */
     double walkable_hysteresis; /* the same for a floor that was walkable */
     double width;               /* m, half width of the shape: what perch and edge rules measure against */
+    double around;              /* m, radius of the circle around the shape seen along its axis */
+    double axis;                /* m, half of the segment that rounding makes a capsule, or half the height of a box */
+    tahr__pull pull;            /* of config.gravity */
+    tahr__foot foot;            /* of the whole shape */
 } tahr__limits;
 
 struct tahr_mover {
@@ -42,16 +59,16 @@ struct tahr_mover {
     uint32_t busy;
 };
 
-/* One step in progress: working copies, so that an error leaves the caller's state untouched. */
+/* One step in progress: working copies of what it writes, so that an error leaves the caller's untouched. */
 typedef struct tahr__step {
     const tahr_config *config;
     const tahr__limits *limits;
     tahr_world *world;
-    tahr_input input;
+    const tahr_input *input;
+    const tahr__pull *pull;
     tahr_state state;
     tahr_report report;
     tahr_query_context context;
-    vec3 gravity;      /* m/s2 */
     double time;       /* s since the start of the step, at the begin of the slice */
     double ahead;      /* s from there to what is being worked on: events happen then */
     double push_left;  /* m of depenetration still allowed */

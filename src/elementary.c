@@ -45,6 +45,9 @@ static double expm1_series(double r)
 
 double tahr__expm1(double x)
 {
+    if (x > -0.34 && x < 0.34) {
+        return expm1_series(x);
+    }
     double shifted = x * INVERSE_LN2;
     int k = (int)(shifted < 0 ? shifted - 0.5 : shifted + 0.5);
     double r = (x - k * LN2_HIGH) - k * LN2_LOW;
@@ -59,41 +62,43 @@ double tahr__expm1(double x)
     return p * e + (p - 1);
 }
 
-/* 2 atanh(s) = ln((1 + s) / (1 - s)); |s| <= 0.172 (m between sqrt 1/2 and sqrt 2): 0.0295^12 / 25 < 1e-19. */
-double tahr__log1p(double x)
+/* 2 atanh(s) = ln((1 + s) / (1 - s)) with s = f / (2 + f), for 1 + f between sqrt 1/2 and sqrt 2. |s| <= 0.172: 0.0295^12 / 25
+ * < 1e-19; for s^2 < 1e-5 three terms do: 1e-20 / 9. */
+static double log1p_series(double f)
 {
-    double u = 1 + x;
-    double lost = u - 1 == x ? 0 : (x - (u - 1)) / u; /* what rounding 1 + x threw away, relative to u */
-    uint64_t bits;
-    memcpy(&bits, &u, sizeof bits);
-    int k = (int)(bits >> 52) - 1023;
-    double f;
-    if (u > 0.7072 && u < 1.4142) {
-        k = 0;
-        f = x; /* exact */
-        lost = 0;
-    } else {
-        bits = (bits & 0x000FFFFFFFFFFFFFu) | ((uint64_t)1023 << 52);
-        memcpy(&f, &bits, sizeof f);
-        if (f > 1.41421356237309514547) {
-            f *= 0.5;
-            k++;
-        }
-        f -= 1;
-    }
-    double s = f / (2 + f);
-    double z = s * s;
     static const double inverse_odd[] = {0.3333333333333333,   0.2,
                                          0.14285714285714285,  0.1111111111111111,
                                          0.09090909090909091,  0.07692307692307693,
                                          0.06666666666666667,  0.058823529411764705,
                                          0.05263157894736842,  0.047619047619047616,
                                          0.043478260869565216, 0.04};
+    double s = f / (2 + f);
+    double z = s * s;
     double sum = 0;
-    for (int n = 11; n >= 0; n--) {
+    for (int n = z < 1e-5 ? 2 : 11; n >= 0; n--) {
         sum = (sum + inverse_odd[n]) * z;
     }
-    return k * LN2_HIGH + ((2 * s + 2 * s * sum) + (lost + k * LN2_LOW));
+    return 2 * s + 2 * s * sum;
+}
+
+double tahr__log1p(double x)
+{
+    if (x > -0.29 && x < 0.41) {
+        return log1p_series(x); /* x is exact, 1 + x is not */
+    }
+    double u = 1 + x;
+    double lost = u - 1 == x ? 0 : (x - (u - 1)) / u; /* what rounding 1 + x threw away, relative to u */
+    uint64_t bits;
+    memcpy(&bits, &u, sizeof bits);
+    int k = (int)(bits >> 52) - 1023;
+    double f;
+    bits = (bits & 0x000FFFFFFFFFFFFFu) | ((uint64_t)1023 << 52);
+    memcpy(&f, &bits, sizeof f);
+    if (f > 1.41421356237309514547) {
+        f *= 0.5;
+        k++;
+    }
+    return k * LN2_HIGH + (log1p_series(f - 1) + (lost + k * LN2_LOW));
 }
 
 /* Reduction by quarter turns, then Taylor series for |r| <= pi / 4: r^19 / 19! < 1e-19. */

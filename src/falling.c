@@ -26,12 +26,12 @@ typedef struct fall {
 static arc arc_of(const tahr__step *step)
 {
     const tahr_config *c = step->config;
-    arc a = {.gravity = length(step->gravity), .terminal = c->terminal_speed};
-    a.axis = a.gravity > 1e-6 ? scale(step->gravity, -1.0 / a.gravity) : step->state.up;
+    arc a = {.gravity = step->pull->size, .terminal = c->terminal_speed};
+    a.axis = a.gravity > 1e-6 ? step->pull->up : step->state.up;
     if (vec_equal(a.axis, step->state.up) || dot(a.axis, step->state.up) > 1 - 1e-15) {
         a.axis = step->state.up;
     }
-    vec3 wish = reject(step->input.move, a.axis);
+    vec3 wish = reject(step->input->move, a.axis);
     double size = length(wish);
     a.law.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0);
     a.law.speed = c->max_speed * min_of(size, 1);
@@ -39,7 +39,7 @@ static arc arc_of(const tahr__step *step)
     a.law.turn_friction = c->air_turn_friction;
     a.rise = dot(step->state.velocity, a.axis);
     a.level = add_scaled(step->state.velocity, a.axis, -a.rise);
-    a.hold = (step->state.flags & TAHR_STATE_JUMPING) && step->input.jump ? step->state.jump_hold : 0;
+    a.hold = (step->state.flags & TAHR_STATE_JUMPING) && step->input->jump ? step->state.jump_hold : 0;
     return a;
 }
 
@@ -191,7 +191,9 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     } else if (hit->blocking) {
         used = hit->start_overlap ? duration : duration * hit->fraction;
     }
-    arc_at(&a, used, &v);
+    if (used != duration) {
+        arc_at(&a, used, &v);
+    }
     step->state.velocity = slide_in_air(step, f, v);
     use_time(step, f, used);
     if (reaches_apex && used == duration) {

@@ -38,25 +38,48 @@ int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable)
     return tahr__decide(step, TAHR_RULE_WALKABLE, walkable && up >= limit, hit, up, limit, "cosine of the face's slope");
 }
 
-/* How far inside the rim of the shape and its skin, seen from above, a point lies. */
-static double inside_rim(const tahr__step *step, vec3 point)
+static double inside_box(const tahr__step *step, vec3 offset)
 {
-    vec3 offset = step_level(step, sub(point, step->state.position));
     const tahr_shape *s = &step->config->shape;
-    double skin = step->config->skin;
-    if (s->type != TAHR_SHAPE_BOX) {
-        return s->radius + skin - length(offset);
-    }
     vec3 x = rotate(step->state.orientation, vec(1, 0, 0));
     vec3 y = rotate(step->state.orientation, vec(0, 1, 0));
     double dx = dot(offset, x), dy = dot(offset, y);
-    return skin + min_of(s->half_x - max_of(dx, -dx), s->half_y - max_of(dy, -dy));
+    return min_of(s->half_x - max_of(dx, -dx), s->half_y - max_of(dy, -dy));
 }
 
-/* The shape, thinner all round, with its foot where it was. */
-static tahr_shape thinner(const tahr_shape *shape, double by)
+/* How far inside the rim of the shape and its skin, seen from above, the point of a hit lies. */
+static inline double inside_rim(const tahr__step *step, const tahr_hit *hit)
 {
-    tahr_shape s = *shape;
+    vec3 offset = step_level(step, sub(hit->point, step->state.position));
+    const tahr_shape *s = &step->config->shape;
+    double skin = step->config->skin;
+    return s->type == TAHR_SHAPE_BOX ? skin + inside_box(step, offset) : s->radius + skin - length(offset);
+}
+
+/* An upright capsule that moves along its own axis enters new space with its lower cap alone: a sphere there is the same
+ * sweep and a fraction of the geometry. What overlaps higher up is found by the sweep of the move. */
+tahr__foot tahr__foot_of(const tahr_shape *shape, uint32_t capabilities)
+{
+    tahr__foot foot = {*shape, 0};
+    if (shape->type == TAHR_SHAPE_CAPSULE && (capabilities & TAHR_CAP_SPHERE)) {
+        foot.shape.type = TAHR_SHAPE_SPHERE;
+        foot.shape.half_height = shape->radius;
+        foot.offset = shape->radius - shape->half_height;
+    }
+    return foot;
+}
+
+static void sweep_down(tahr__step *step, const tahr__foot *foot, double range, tahr_hit *hit)
+{
+    vec3 up = step->state.up;
+    vec3 from = add_scaled(step->state.position, up, foot->offset);
+    tahr__sweep(step, &foot->shape, from, scale(up, -range), step->config->skin, 0, hit);
+}
+
+/* The foot of the shape, thinner all round, with its end where it was. */
+static tahr__foot thinner(const tahr__step *step, double by)
+{
+    tahr_shape s = step->config->shape;
     if (s.type == TAHR_SHAPE_BOX) {
         s.half_x = max_of(s.half_x - by, 1e-3 * s.half_x);
         s.half_y = max_of(s.half_y - by, 1e-3 * s.half_y);
@@ -64,7 +87,7 @@ static tahr_shape thinner(const tahr_shape *shape, double by)
         s.type = TAHR_SHAPE_CAPSULE;
         s.radius = max_of(s.radius - by, 1e-3 * s.radius);
     }
-    return s;
+    return tahr__foot_of(&s, step->world->backend->capabilities);
 }
 
 /* Clearance below in the direction of up, from a downward sweep over `range`. */
@@ -79,20 +102,6 @@ static double clearance(const tahr__step *step, const tahr_hit *hit, double rang
     return skin - (skin - max_of(hit->distance, 0)) / rate;
 }
 
-/* An upright capsule that moves along its own axis enters new space with its lower cap alone: a sphere there is the same
- * sweep and a fraction of the geometry. What overlaps higher up is found by the sweep of the move. */
-static void sweep_down(tahr__step *step, const tahr_shape *shape, double range, tahr_hit *hit)
-{
-    vec3 up = step->state.up, from = step->state.position;
-    tahr_shape cap = *shape;
-    if (shape->type == TAHR_SHAPE_CAPSULE && (step->world->backend->capabilities & TAHR_CAP_SPHERE)) {
-        cap.type = TAHR_SHAPE_SPHERE;
-        cap.half_height = shape->radius;
-        from = add_scaled(from, up, shape->radius - shape->half_height);
-    }
-    tahr__sweep(step, &cap, from, scale(up, -range), step->config->skin, 0, hit);
-}
-
 /* The same face as a moment ago keeps the benefit of the hysteresis. */
 static int was_walkable(const tahr__step *step, const tahr_hit *hit)
 {
@@ -101,12 +110,14 @@ static int was_walkable(const tahr__step *step, const tahr_hit *hit)
            dot(old->surface_normal, hit->surface_normal) > 0.9999; /* within 0.8 degrees, less than the hysteresis */
 }
 
-static void fill(tahr_floor *floor, const tahr_hit *hit, double distance)
+static void fill(tahr_floor *floor, const tahr_hit *hit, double distance, uint32_t flags)
 {
     floor->normal = hit->normal;
     floor->surface_normal = hit->surface_normal;
     floor->point = hit->point;
     floor->distance = distance;
+    floor->perch_distance = 0;
+    floor->flags = flags;
     floor->body = hit->body;
     floor->feature = hit->feature;
     floor->surface = hit->surface;
@@ -116,7 +127,7 @@ static void fill(tahr_floor *floor, const tahr_hit *hit, double distance)
  * face that is itself no floor it may lie no deeper than a step: that is a bevelled step, not a rock to lean on. */
 static int perches(tahr__step *step, double reach, int surface_walkable, tahr_floor *floor)
 {
-    tahr_shape inner = thinner(&step->config->shape, step->config->perch_threshold);
+    tahr__foot inner = thinner(step, step->config->perch_threshold);
     double deepest = surface_walkable ? reach + step->config->perch_extra : step->config->step_height;
     double range = deepest + step->config->skin;
     tahr_hit hit;
@@ -146,29 +157,26 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
     double range = reach + (c->floor_max - 1) * c->skin;
     tahr_hit hit;
     uint32_t flags = TAHR_FLOOR_BLOCKING;
-    memset(floor, 0, sizeof *floor);
-    floor->body = TAHR_NO_BODY;
-    floor->distance = range + c->skin;
     if (supplied) {
         hit = *supplied;
         hit.fraction = 0; /* it ended here */
     } else {
-        sweep_down(step, &c->shape, range, &hit);
+        sweep_down(step, &step->limits->foot, range, &hit);
     }
-    double inside = hit.blocking ? inside_rim(step, hit.point) : 0;
+    double inside = hit.blocking ? inside_rim(step, &hit) : 0;
     if (hit.blocking && !hit.start_overlap && inside < c->edge_tolerance) {
         tahr__decide(step, TAHR_RULE_EDGE_TOLERANCE, 0, &hit, inside, c->edge_tolerance, "touches the rim");
-        tahr_shape inner = thinner(&c->shape, 2 * c->edge_tolerance);
+        tahr__foot inner = thinner(step, 2 * c->edge_tolerance);
         sweep_down(step, &inner, range, &hit);
-        inside = hit.blocking ? inside_rim(step, hit.point) : 0;
+        inside = hit.blocking ? inside_rim(step, &hit) : 0;
         flags |= TAHR_FLOOR_RIM;
     }
     if (!hit.blocking || step->error < 0) {
+        *floor = (tahr_floor){.distance = range + c->skin, .body = TAHR_NO_BODY};
         tahr__decide(step, TAHR_RULE_FLOOR, 0, NULL, floor->distance, range, "nothing below");
         return;
     }
-    fill(floor, &hit, hit.start_overlap ? -hit.depth : clearance(step, &hit, range));
-    floor->flags = flags;
+    fill(floor, &hit, hit.start_overlap ? -hit.depth : clearance(step, &hit, range), flags);
     int surface = tahr__is_walkable(step, &hit, was_walkable(step, &hit));
     /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
     int on_face = dot(hit.normal, hit.surface_normal) > 1 - 1e-6;
@@ -182,20 +190,6 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
     }
     floor->flags |= (ok ? TAHR_FLOOR_WALKABLE : 0u) | (surface ? TAHR_FLOOR_FACE : 0u);
     tahr__decide(step, TAHR_RULE_FLOOR, ok, &hit, floor->distance, range, "floor distance");
-}
-
-void tahr__keep_floor(tahr__step *step, const tahr_floor *floor)
-{
-    step->state.floor = *floor;
-    step->state.floor_position = step->state.position;
-    step->state.floor_revision = step->world->revision;
-    step->state.flags &= ~(uint32_t)TAHR_STATE_FLOOR_MOVED;
-}
-
-int tahr__floor_is_current(const tahr__step *step)
-{
-    return step->state.floor_revision == step->world->revision &&
-           vec_equal(step->state.floor_position, step->state.position);
 }
 
 /* The floor goes with the character, so that the next move starts from it; a character that stands looks again. */
@@ -212,8 +206,7 @@ double tahr__adjust_height(tahr__step *step)
     const tahr_floor *floor = &step->state.floor;
     double target = c->floor_target * c->skin;
     double gap = floor->distance;
-    /* Below skin by no more than a backend's rounding is inside the band. */
-    if (!floor_is_walkable(floor) || (gap >= c->skin - 1e-6 && gap <= c->floor_max * c->skin)) {
+    if (!floor_is_walkable(floor) || floor_is_in_band(step)) {
         return 0;
     }
     vec3 before = step->state.position;

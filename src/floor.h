@@ -19,12 +19,32 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
 enum { TAHR__FLOOR_QUERIES = 4 };
 
 /* Makes `floor` the state's floor as found at this position. */
-void tahr__keep_floor(tahr__step *step, const tahr_floor *floor);
+static inline void tahr__keep_floor(tahr__step *step, const tahr_floor *floor)
+{
+    step->state.floor = *floor;
+    step->state.floor_position = step->state.position;
+    step->state.floor_revision = step->world->revision;
+    step->state.flags &= ~(uint32_t)TAHR_STATE_FLOOR_MOVED;
+}
 
 /* Is the state's floor that of this position and this world? */
-int tahr__floor_is_current(const tahr__step *step);
+static inline int floor_is_current(const tahr__step *step)
+{
+    return step->state.floor_revision == step->world->revision &&
+           vec_equal(step->state.floor_position, step->state.position);
+}
 
-/* Brings the clearance into the band [skin, floor_max * skin], following the floor down or rising off it. Returns the
+/* What sweeps the way down for a shape on a backend with these TAHR_CAP_*. */
+tahr__foot tahr__foot_of(const tahr_shape *shape, uint32_t capabilities);
+
+/* Is the clearance in the band [skin, floor_max * skin]? Below it by no more than a backend's rounding is inside. */
+static inline int floor_is_in_band(const tahr__step *step)
+{
+    double gap = step->state.floor.distance, skin = step->config->skin;
+    return gap >= skin - 1e-6 && gap <= step->config->floor_max * skin;
+}
+
+/* Brings the clearance into the band, following the floor down or rising off it. Returns the
  * change of height. No query going down what the floor sweep has proven free, else one sweep. */
 double tahr__adjust_height(tahr__step *step);
 

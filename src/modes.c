@@ -21,14 +21,7 @@ typedef struct entry {
 
 /* Indexed by TAHR_MODE_*. Transitions: walking -> falling when the floor ends or a jump starts; falling -> walking when
  * a floor is landed on; none stays. */
-static const entry modes[] = {{"none", rest}, {"walking", tahr__walk}, {"falling", tahr__fall}};
-
-enum { MODE_COUNT = sizeof modes / sizeof modes[0] };
-
-int tahr__is_mode(uint32_t mode)
-{
-    return mode < MODE_COUNT;
-}
+static const entry modes[TAHR_MODE_FALLING + 1] = {{"none", rest}, {"walking", tahr__walk}, {"falling", tahr__fall}};
 
 const char *tahr_mode_name(uint32_t mode)
 {

@@ -12,6 +12,9 @@ double tahr__run_mode(tahr__step *step, double time);
 void tahr__change_mode(tahr__step *step, uint32_t mode);
 
 /* Is there such a mode? */
-int tahr__is_mode(uint32_t mode);
+static inline int tahr__is_mode(uint32_t mode)
+{
+    return mode <= TAHR_MODE_FALLING;
+}
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "core.h"
 #include "elementary.h"
+#include "floor.h"
 #include "message.h"
 #include "modes.h"
 #include "query.h"
@@ -23,13 +24,26 @@ static const double MIN_SLICE = 1e-9;
  * Each time costs some 40 queries to find where the floor ended. */
 enum { MAX_SLICES = 6 };
 
-static tahr__limits limits_of(const tahr_config *c)
+static tahr__pull pull_of(vec3 gravity)
+{
+    double size = length(gravity);
+    tahr__pull pull = {gravity, size, size > 0 ? scale(gravity, -1.0 / size) : vec(0, 0, 0)};
+    return pull;
+}
+
+static tahr__limits limits_of(const tahr_config *c, uint32_t capabilities)
 {
     tahr__limits limits;
     double sine;
     tahr__sincos(c->walkable_angle, &sine, &limits.walkable);
     tahr__sincos(c->walkable_angle + c->walkable_hysteresis, &sine, &limits.walkable_hysteresis);
-    limits.width = shape_width(&c->shape);
+    const tahr_shape *s = &c->shape;
+    int box = s->type == TAHR_SHAPE_BOX;
+    limits.width = shape_width(s);
+    limits.around = box ? sqrt(s->half_x * s->half_x + s->half_y * s->half_y) : s->radius;
+    limits.axis = s->half_height - (box ? 0 : s->radius);
+    limits.pull = pull_of(c->gravity);
+    limits.foot = tahr__foot_of(s, capabilities);
     return limits;
 }
 
@@ -64,7 +78,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     }
     mover->world = world;
     memcpy(&mover->config, config, sizeof mover->config);
-    mover->limits = limits_of(&mover->config);
+    mover->limits = limits_of(&mover->config, world->backend->capabilities);
     mover->cache = cache;
     mover->cache_size = cache_size;
     *out = mover;
@@ -82,15 +96,21 @@ void tahr_mover_destroy(tahr_mover *mover)
     }
 }
 
+/* False too for what is not finite: its square is not either. */
+static int is_within(vec3 v, double most)
+{
+    return length_squared(v) <= most * most;
+}
+
 static const char *bad_input(const tahr_input *in)
 {
-    if (!vec_is_finite(in->move) || length(in->move) > 1e6) {
+    if (!is_within(in->move, 1e6)) {
         return "input.move";
     }
-    if ((in->flags & TAHR_INPUT_FACING) && !(vec_is_finite(in->facing) && length(in->facing) <= 1e6)) {
+    if ((in->flags & TAHR_INPUT_FACING) && !is_within(in->facing, 1e6)) {
         return "input.facing";
     }
-    if ((in->flags & TAHR_INPUT_GRAVITY) && !(vec_is_finite(in->gravity) && length(in->gravity) <= 1e4)) {
+    if ((in->flags & TAHR_INPUT_GRAVITY) && !is_within(in->gravity, 1e4)) {
         return "input.gravity";
     }
     if (in->reserved) {
@@ -101,28 +121,38 @@ static const char *bad_input(const tahr_input *in)
 
 static int all_zero(const uint8_t tail[sizeof((tahr_state *)0)->reserved])
 {
-    uint64_t any = 0, words[8];
-    for (size_t at = 0; at < sizeof((tahr_state *)0)->reserved; at += sizeof words) {
-        memcpy(words, tail + at, sizeof words);
-        any |= (words[0] | words[1] | words[2] | words[3]) | (words[4] | words[5] | words[6] | words[7]);
+    uint64_t any = 0, word;
+    for (size_t at = 0; at < sizeof((tahr_state *)0)->reserved; at += sizeof word) {
+        memcpy(&word, tail + at, sizeof word);
+        any |= word;
     }
     return any == 0;
+}
+
+/* A sum is finite only if all its terms are (and no floor is so far away that it overflows). */
+static int floor_is_finite(const tahr_state *s)
+{
+    const tahr_floor *f = &s->floor;
+    const vec3 n = f->normal, surface = f->surface_normal, point = f->point, at = s->floor_position;
+    double sum = n.x + n.y + n.z + surface.x + surface.y + surface.z + point.x + point.y + point.z + f->distance;
+    return is_finite(sum + f->perch_distance + at.x + at.y + at.z + s->jump_hold);
 }
 
 static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
 {
     tahr_quat q = s->orientation;
     double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
-    if (!vec_is_finite(s->position) || length(s->position) > 2e7) {
+    double up2 = length_squared(s->up);
+    if (!is_within(s->position, 2e7)) {
         return "state.position";
     }
-    if (!vec_is_finite(s->velocity) || length(s->velocity) > 1e5) {
+    if (!is_within(s->velocity, 1e5)) {
         return "state.velocity";
     }
     if (!(q2 > 1 - 1e-6 && q2 < 1 + 1e-6)) {
         return "state.orientation";
     }
-    if (!(length_squared(s->up) > 1 - 1e-9 && length_squared(s->up) < 1 + 1e-9)) {
+    if (!(up2 > 1 - 1e-9 && up2 < 1 + 1e-9)) {
         return "state.up";
     }
     if (shape->type == TAHR_SHAPE_BOX && !(dot(rotate(s->orientation, vec(0, 0, 1)), s->up) > 1 - 1e-6)) {
@@ -138,10 +168,7 @@ static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
     if (!all_zero(s->reserved)) {
         return "state.reserved";
     }
-    int floor_ok = vec_is_finite(s->floor_position) && is_finite(s->floor.perch_distance) &&
-                   vec_is_finite(s->floor.normal) && vec_is_finite(s->floor.surface_normal) &&
-                   vec_is_finite(s->floor.point) && is_finite(s->floor.distance) && is_finite(s->jump_hold);
-    return floor_ok ? NULL : "state.floor";
+    return floor_is_finite(s) ? NULL : "state.floor";
 }
 
 static tahr_status check_arguments(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
@@ -170,25 +197,18 @@ static tahr_status check_arguments(const tahr_mover *mover, const tahr_input *in
 static void announce(tahr__step *step, double dt)
 {
     const tahr_config *c = step->config;
-    const tahr_shape *s = &c->shape;
     vec3 v = step->state.velocity;
-    double g = length(step->gravity);
     double level = max_of(length(v), c->max_speed) * dt + 4 * c->skin;
-    double fall = step->state.mode == TAHR_MODE_FALLING ? 0.5 * g * dt * dt : 0;
-    double rise = max_of(c->step_height, c->jump_speed * dt) + level;
-    double drop = c->snap_distance + c->perch_extra + fall + level;
-    vec3 up = step->state.up;
+    double fall = step->state.mode == TAHR_MODE_FALLING ? 0.5 * step->pull->size * dt * dt : 0;
+    double rise = max_of(c->step_height, c->jump_speed * dt);
+    double drop = c->snap_distance + c->perch_extra + fall;
+    vec3 up = step->state.up, p = step->state.position;
     vec3 away = vec(max_of(up.x, -up.x), max_of(up.y, -up.y), max_of(up.z, -up.z));
-    double width = s->type == TAHR_SHAPE_BOX ? sqrt(s->half_x * s->half_x + s->half_y * s->half_y) : s->radius;
-    double core = s->half_height - (s->type == TAHR_SHAPE_BOX ? 0 : s->radius);
-    double around = width + level;
-    vec3 half = add_scaled(vec(around, around, around), away, core);
-    vec3 top = scale(up, rise - level), bottom = scale(up, level - drop);
-    vec3 p = step->state.position;
-    tahr_bounds b;
-    b.min = sub(add(p, vec(min_of(top.x, bottom.x), min_of(top.y, bottom.y), min_of(top.z, bottom.z))), half);
-    b.max = add(add(p, vec(max_of(top.x, bottom.x), max_of(top.y, bottom.y), max_of(top.z, bottom.z))), half);
-    tahr__announce(step, &b);
+    double around = step->limits->around + level;
+    vec3 half = add_scaled(vec(around, around, around), away, step->limits->axis + 0.5 * (rise + drop));
+    vec3 middle = add_scaled(p, up, 0.5 * (rise - drop));
+    tahr_prepare a = {.bounds = {sub(middle, half), add(middle, half)}, .position = p, .up = up, .mask = c->mask};
+    tahr__announce(step, &a);
 }
 
 /* A jump starts when the button goes down on ground. */
@@ -196,7 +216,7 @@ static void begin_jump(tahr__step *step)
 {
     tahr_state *s = &step->state;
     int held = (s->flags & TAHR_STATE_JUMP_HELD) != 0;
-    if (!step->input.jump) {
+    if (!step->input->jump) {
         s->flags &= ~(uint32_t)TAHR_STATE_JUMP_HELD;
         s->jump_hold = 0;
         return;
@@ -218,8 +238,12 @@ static void begin_jump(tahr__step *step)
 
 static void run(tahr__step *step, double dt)
 {
-    tahr__right(step);
-    tahr__face(step, dt);
+    if (!is_upright(step)) {
+        tahr__right(step);
+    }
+    if (step->input->flags & TAHR_INPUT_FACING) {
+        tahr__face(step, dt);
+    }
     begin_jump(step);
     announce(step, dt);
     double left = dt;
@@ -233,34 +257,41 @@ static void run(tahr__step *step, double dt)
     }
 }
 
-static void clean(vec3 *v)
+static vec3 clean(vec3 v)
 {
-    v->x += 0.0;
-    v->y += 0.0;
-    v->z += 0.0;
+    return vec(v.x + 0.0, v.y + 0.0, v.z + 0.0);
 }
 
-/* -0.0 and 0.0 are one number; a state holds only one of them, so that memcmp agrees with ==. */
-static void canonical(tahr_state *s)
+/* -0.0 and 0.0 are one number; the caller's state holds only one of them, so that memcmp agrees with ==. The tail is zero
+ * on both sides of a step, and stays where it is. */
+static void hand_over(const tahr_state *s, tahr_state *out)
 {
-    clean(&s->position);
-    clean(&s->velocity);
-    s->orientation.x += 0.0;
-    s->orientation.y += 0.0;
-    s->orientation.z += 0.0;
-    s->orientation.w += 0.0;
-    clean(&s->up);
-    clean(&s->floor.normal);
-    clean(&s->floor.surface_normal);
-    clean(&s->floor.point);
-    clean(&s->floor_position);
-    s->floor.distance += 0.0;
-    s->floor.perch_distance += 0.0;
-    s->jump_hold += 0.0;
+    const tahr_quat q = s->orientation;
+    out->position = clean(s->position);
+    out->velocity = clean(s->velocity);
+    out->orientation = (tahr_quat){q.x + 0.0, q.y + 0.0, q.z + 0.0, q.w + 0.0};
+    out->up = clean(s->up);
+    out->mode = s->mode;
+    out->flags = s->flags;
+    out->floor.normal = clean(s->floor.normal);
+    out->floor.surface_normal = clean(s->floor.surface_normal);
+    out->floor.point = clean(s->floor.point);
+    out->floor.distance = s->floor.distance + 0.0;
+    out->floor.perch_distance = s->floor.perch_distance + 0.0;
+    out->floor.flags = s->floor.flags;
+    out->floor.body = s->floor.body;
+    out->floor.feature = s->floor.feature;
+    out->floor.surface = s->floor.surface;
+    out->floor_position = clean(s->floor_position);
+    out->floor_revision = s->floor_revision;
+    out->jump_hold = s->jump_hold + 0.0;
 }
 
 static tahr_status worst(uint32_t flags)
 {
+    if (flags == 0) {
+        return TAHR_OK;
+    }
     if (flags & TAHR_REPORT_QUERY_CAP) {
         return TAHR_QUERY_CAP;
     }
@@ -278,7 +309,9 @@ static tahr_status worst(uint32_t flags)
 
 static void start_report(tahr_report *r, const tahr_report *user)
 {
-    memset(r, 0, sizeof *r);
+    const size_t half = sizeof *r / 2; /* compilers clear more than 96 bytes at once with a slow string instruction */
+    memset(r, 0, half);
+    memset((char *)r + half, 0, sizeof *r - half);
     r->struct_size = sizeof *r;
     if (user) {
         r->struct_size = user->struct_size;
@@ -301,9 +334,11 @@ static void finish_report(tahr__step *step)
 /* Asked to move, nothing in the way that it could have slid along, and yet not moved: held by an overlap. */
 static void detect_stuck(tahr__step *step, const tahr_state *before)
 {
-    int wanted = length_squared(step_level(step, step->input.move)) > 0;
-    int moved = !vec_equal(step->state.position, before->position);
-    if (wanted && !moved && (step->report.flags & (TAHR_REPORT_CRUSHED | TAHR_REPORT_UNKNOWN))) {
+    if (!(step->report.flags & (TAHR_REPORT_CRUSHED | TAHR_REPORT_UNKNOWN))) {
+        return;
+    }
+    int wanted = length_squared(step_level(step, step->input->move)) > 0;
+    if (wanted && vec_equal(step->state.position, before->position)) {
         step->report.flags |= TAHR_REPORT_STUCK;
         tahr__event(step, TAHR_EVENT_STUCK, NULL, 0);
     }
@@ -323,15 +358,19 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         return status;
     }
     tahr__step step;
+    tahr__pull pull;
     step.config = &mover->config;
     step.limits = &mover->limits;
     step.world = mover->world;
-    step.input = *input;
-    memcpy(&step.state, state, USED); /* the tail is zero on both sides of a step, and stays where it is */
+    step.input = input;
+    memcpy(&step.state, state, USED);
     start_report(&step.report, report);
-    memset(&step.context, 0, sizeof step.context);
-    step.context.cache = mover->cache;
-    step.gravity = input->flags & TAHR_INPUT_GRAVITY ? input->gravity : mover->config.gravity;
+    step.context = (tahr_query_context){.cache = mover->cache};
+    step.pull = &mover->limits.pull;
+    if (input->flags & TAHR_INPUT_GRAVITY) {
+        pull = pull_of(input->gravity);
+        step.pull = &pull;
+    }
     step.time = 0;
     step.ahead = 0;
     step.push_left = mover->config.max_depenetration;
@@ -344,9 +383,8 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         if (step.error < 0) {
             return step.error;
         }
-        canonical(&step.state);
         detect_stuck(&step, state);
-        memcpy(state, &step.state, USED);
+        hand_over(&step.state, state);
     }
     finish_report(&step);
     if (report) {

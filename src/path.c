@@ -11,24 +11,24 @@
 
 /* The velocity asked for, and how it is approached. Along walls what they leave of it is asked for: pushing slantwise into
  * a wall is walking along it at the wish's part along it, at every rate. */
-static tahr__law law_of(const tahr__step *step, const tahr__plane *walls, uint32_t wall_count)
+static inline void set_law(tahr__path *w, const tahr__step *step)
 {
     const tahr_config *c = step->config;
-    vec3 wish = step_level(step, step->input.move);
+    vec3 wish = step_level(step, step->input->move);
     double size = length(wish);
     double asked = c->max_speed * min_of(size, 1);
-    wish = tahr__slide(walls, wall_count, wish);
-    double kept = size > 0 ? length(wish) / size : 0; /* cosine to the wall: of the speed and of the acceleration */
-    size *= kept;
-    tahr__law law = {.speed = asked * kept,
-                     .acceleration = c->acceleration * kept,
-                     .turn_friction = c->turn_friction,
-                     .braking = c->braking_deceleration,
-                     .drag = c->braking_drag};
-    if (size > 0) {
-        law.wish = scale(wish, 1.0 / size);
+    double kept = 1; /* cosine to the wall: of the speed and of the acceleration */
+    if (w->wall_count > 0 && size > 0) {
+        wish = tahr__bend(w->walls, w->wall_count, wish);
+        kept = length(wish) / size;
+        size *= kept;
     }
-    return law;
+    w->law.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0);
+    w->law.speed = asked * kept;
+    w->law.acceleration = c->acceleration * kept;
+    w->law.turn_friction = c->turn_friction;
+    w->law.braking = c->braking_deceleration;
+    w->law.drag = c->braking_drag;
 }
 
 /* Ramps are not merged as walls are: two faces that differ by a hair both carry, and the steeper one decides. */
@@ -47,9 +47,9 @@ void tahr__path_carry_floor(tahr__path *w, const tahr__step *step)
 }
 
 /* Begins a piece with the velocity that the walls leave. */
-static void begin_piece(tahr__step *step, tahr__path *w, vec3 velocity, double duration)
+static inline void begin_piece(tahr__step *step, tahr__path *w, vec3 velocity, double duration)
 {
-    w->law = law_of(step, w->walls, w->wall_count);
+    set_law(w, step);
     w->velocity = tahr__slide(w->walls, w->wall_count, velocity);
     w->duration = duration;
     tahr__motion m = tahr__law_advance(&w->law, w->velocity, duration);
@@ -73,38 +73,18 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     begin_piece(step, w, step_level(step, step->state.velocity), duration);
 }
 
-/* s of the piece at which a part of its displacement is covered, measured along the whole of it. The speed changes on the
- * way, so the part of the time is not the part of the way: Newton, held within the piece, from the root for a constant
- * acceleration (from rest the rate at a small part is nearly 0, and any other guess halves its way down): 6 rounds reach
- * rounding. */
+/* s of the piece at which a part of its displacement is covered. */
 static double time_of_part(const tahr__path *w, double part)
 {
     const double touched = 1e-5; /* m: a thousandth of the skin, above the sweep error of every exact backend */
-    double low = 0, high = w->duration, size2 = length_squared(w->wish);
+    double size2 = length_squared(w->wish);
     if (part <= 0 || part >= 1 || size2 == 0) {
-        return part <= 0 ? 0 : high;
+        return part <= 0 ? 0 : w->duration;
     }
-    double rate0 = dot(w->velocity, w->wish) / size2;
-    if (rate0 < 0 && part * part * size2 <= touched * touched) {
+    if (dot(w->velocity, w->wish) < 0 && part * part * size2 <= touched * touched) {
         return 0; /* turns round first, and passes here again later: what is met at once was touched at the begin */
     }
-    double gain = (1 - rate0 * high) / (high * high);
-    double root = sqrt(max_of(rate0 * rate0 + 4 * gain * part, 0));
-    double t = rate0 >= 0 ? 2 * part / (rate0 + root) : (root - rate0) / (2 * gain);
-    t = t >= 0 && t <= high ? t : part * high;
-    for (int i = 0; i < 6; i++) {
-        tahr__motion m = tahr__law_advance(&w->law, w->velocity, t);
-        double excess = dot(m.displacement, w->wish) / size2 - part;
-        double rate = dot(m.velocity, w->wish) / size2;
-        *(excess > 0 ? &high : &low) = t;
-        double next = rate > 0 ? t - excess / rate : 0.5 * (low + high);
-        next = next >= low && next <= high ? next : 0.5 * (low + high);
-        if (next == t) {
-            break;
-        }
-        t = next;
-    }
-    return t;
+    return tahr__law_time(&w->law, w->velocity, w->duration, w->wish, part);
 }
 
 double tahr__path_used(const tahr__path *w)
@@ -221,9 +201,9 @@ static int add_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
     return 1;
 }
 
-static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
+/* used: s of the piece at which it was met. */
+static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit, double used)
 {
-    double used = tahr__path_used(w);
     vec3 velocity = tahr__law_advance(&w->law, w->velocity, used).velocity;
     step->ahead = w->began + used;
     tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(velocity, hit->normal), 0));
@@ -235,11 +215,14 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
     return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(hit->normal, step->state.up), 0, "slides along");
 }
 
-void tahr__path_look_ahead(tahr__step *step, const tahr__path *w)
+double tahr__path_look_ahead(tahr__step *step, const tahr__path *w)
 {
-    if (step->report.events) { /* else nobody asks */
-        step->ahead = w->began + tahr__path_used(w);
+    if (!step->report.events) { /* nobody asks */
+        return -1;
     }
+    double used = tahr__path_used(w);
+    step->ahead = w->began + used;
+    return used;
 }
 
 static int stands_here(tahr__step *step)
@@ -273,7 +256,7 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         if (w->careful && !stands_here(step)) {
             return;
         }
-        tahr__path_look_ahead(step, w);
+        double used = tahr__path_look_ahead(step, w);
         tahr__planes_forget(step, w->walls, &w->wall_count);
         if (take_ramp(step, w, &hit)) {
             continue;
@@ -282,7 +265,7 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         if (length_squared(level) > 0 && take_step(step, w, level, &hit)) {
             continue;
         }
-        if (!take_wall(step, w, &hit)) {
+        if (!take_wall(step, w, &hit, used >= 0 ? used : tahr__path_used(w))) {
             step->state.velocity = vec(0, 0, 0);
             return;
         }

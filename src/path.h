@@ -25,7 +25,7 @@ typedef struct tahr__path {
     double left_before;
     uint32_t turns;   /* times that something was met */
     uint32_t careful; /* 1: the path ends where it meets something without a floor underfoot */
-    double lost; /* s of the piece that a cap or an answer dropped */
+    double lost;      /* s of the piece that a cap or an answer dropped */
 } tahr__path;
 
 /* Starts a path of `duration` seconds at the state's position and velocity. No query. */
@@ -41,8 +41,9 @@ void tahr__path_walk(tahr__step *step, tahr__path *w);
 /* s of the present piece that are used up where the path is now. No query. */
 double tahr__path_used(const tahr__path *w);
 
-/* Events from here on happen where the path is now. No query. */
-void tahr__path_look_ahead(tahr__step *step, const tahr__path *w);
+/* Events from here on happen where the path is now. Returns the s of the present piece that are used up; < 0 if nobody
+ * asks for events, and it was not worked out. No query. */
+double tahr__path_look_ahead(tahr__step *step, const tahr__path *w);
 
 /* A wall was added to the set: the rest of the slice is a piece of its own. No query. */
 void tahr__path_bend(tahr__step *step, tahr__path *w);

@@ -11,6 +11,19 @@
 /* Normals of user callbacks are often single precision: their length is accepted within this and then made exact. */
 static const double UNIT_TOLERANCE = 1e-3;
 
+/* Field by field: compilers clear more than 96 bytes at once with a slow string instruction. */
+static void set_free(tahr_hit *hit)
+{
+    const vec3 none = {0, 0, 0};
+    hit->blocking = hit->start_overlap = hit->unknown = hit->sensor = 0;
+    hit->fraction = 1;
+    hit->distance = hit->depth = 0;
+    hit->normal = hit->surface_normal = hit->point = none;
+    hit->walkable_angle = 0;
+    hit->walkable_rule = hit->surface = hit->feature = 0;
+    hit->body = TAHR_NO_BODY;
+}
+
 static int is_unit(vec3 n)
 {
     double l = length_squared(n);
@@ -63,11 +76,38 @@ static const char *bad_contact(const tahr_contact *c)
     return c->walkable_rule > TAHR_WALKABLE_NEVER || !is_finite(c->walkable_angle) ? "walkable_rule" : NULL;
 }
 
-/* A normal that is unit to double precision already keeps its bits. */
-static vec3 exact_unit(vec3 n)
+/* Unit to double precision: such a normal keeps its bits. */
+static inline int is_exact(vec3 n)
 {
     double l = length_squared(n);
-    return l > 1 - 1e-15 && l < 1 + 1e-15 ? n : unit(n);
+    return l > 1 - 1e-15 && l < 1 + 1e-15;
+}
+
+static vec3 exact_unit(vec3 n)
+{
+    return is_exact(n) ? n : unit(n);
+}
+
+/* What almost every hit is: nothing to find bad, and nothing to make exact. A sum is finite only if all its terms are. */
+static inline int is_flawless(const tahr_hit *h)
+{
+    double sum = ((h->point.x + h->point.y) + (h->point.z + h->distance)) + h->walkable_angle;
+    return h->fraction >= 0 && h->fraction <= 1 && !h->start_overlap && !h->unknown && is_exact(h->normal) &&
+           is_exact(h->surface_normal) && is_finite(sum) && h->walkable_rule <= TAHR_WALKABLE_NEVER;
+}
+
+/* Returns the name of the first bad field, or makes the normals exact. */
+static const char *refine(tahr_hit *h)
+{
+    if (is_flawless(h)) {
+        return NULL;
+    }
+    const char *bad = bad_hit(h);
+    if (!bad) {
+        h->normal = exact_unit(h->normal);
+        h->surface_normal = exact_unit(h->surface_normal);
+    }
+    return bad;
 }
 
 static tahr_status bad_answer(const tahr_world *world, const char *slot, const char *field)
@@ -104,31 +144,40 @@ static void deflate(const tahr_sweep *q, double margin, tahr_hit *h)
     }
 }
 
-static tahr_status checked_sweep(const tahr_world *world, tahr_query_context *context, const tahr_sweep *query,
-                                 tahr_hit *hits, uint32_t capacity, uint32_t *count)
+static tahr_status check_hits(const tahr_world *world, tahr_status status, tahr_hit *hits, uint32_t capacity,
+                              uint32_t count)
 {
-    tahr_sweep larger;
-    int inflated = !(world->backend->capabilities & TAHR_CAP_MARGIN) && query->margin > 0;
-    if (inflated) {
-        larger = *query;
-        inflate(&larger);
-    }
-    *count = 0;
-    tahr_status status = world->backend->sweep(world->self, context, inflated ? &larger : query, hits, capacity, count);
-    if (status < 0 || *count > capacity) {
+    if (status < 0 || count > capacity) {
         return bad_answer(world, "sweep", status < 0 ? "status" : "count");
     }
-    for (uint32_t i = 0; i < *count; i++) {
-        tahr_hit *h = &hits[i];
-        const char *bad = bad_hit(h);
+    for (uint32_t i = 0; i < count; i++) {
+        const char *bad = refine(&hits[i]);
         if (bad) {
             return bad_answer(world, "sweep", bad);
         }
-        h->normal = exact_unit(h->normal);
-        h->surface_normal = exact_unit(h->surface_normal);
-        if (inflated) {
-            deflate(query, query->margin, h);
-        }
+    }
+    return status;
+}
+
+static inline tahr_status margin_sweep(const tahr_world *world, tahr_query_context *context, const tahr_sweep *query,
+                                       tahr_hit *hits, uint32_t capacity, uint32_t *count)
+{
+    *count = 0;
+    tahr_status status = world->backend->sweep(world->self, context, query, hits, capacity, count);
+    if (status == TAHR_OK && (*count == 0 || (*count == 1 && is_flawless(hits)))) {
+        return status;
+    }
+    return check_hits(world, status, hits, capacity, *count);
+}
+
+static tahr_status inflated_sweep(const tahr_world *world, tahr_query_context *context, const tahr_sweep *query,
+                                  tahr_hit *hits, uint32_t capacity, uint32_t *count)
+{
+    tahr_sweep larger = *query;
+    inflate(&larger);
+    tahr_status status = margin_sweep(world, context, &larger, hits, capacity, count);
+    for (uint32_t i = 0; status >= 0 && i < *count; i++) {
+        deflate(query, query->margin, &hits[i]);
     }
     return status;
 }
@@ -180,11 +229,16 @@ static int may_ask(tahr__step *step)
 
 static void blocked_here(const tahr__step *step, tahr_hit *hit)
 {
-    memset(hit, 0, sizeof *hit);
-    hit->blocking = 1;
-    hit->unknown = 1;
-    hit->body = TAHR_NO_BODY;
+    *hit = (tahr_hit){.blocking = 1, .unknown = 1, .body = TAHR_NO_BODY};
     hit->normal = hit->surface_normal = step->state.up;
+}
+
+static inline tahr_status checked_sweep(const tahr_world *world, tahr_query_context *context, const tahr_sweep *query,
+                                        tahr_hit *hits, uint32_t capacity, uint32_t *count)
+{
+    int inflates = !(world->backend->capabilities & TAHR_CAP_MARGIN) && query->margin > 0;
+    return inflates ? inflated_sweep(world, context, query, hits, capacity, count)
+                    : margin_sweep(world, context, query, hits, capacity, count);
 }
 
 void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
@@ -212,9 +266,7 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
         return;
     }
     if (count == 0 || !(hit->blocking || hit->start_overlap || hit->unknown)) {
-        memset(hit, 0, sizeof *hit);
-        hit->fraction = 1;
-        hit->body = TAHR_NO_BODY;
+        set_free(hit);
         return;
     }
     hit->blocking = 1;
@@ -270,20 +322,14 @@ void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit)
         step->error = status;
         blocked_here(step, hit);
     } else if (count == 0) {
-        memset(hit, 0, sizeof *hit);
-        hit->fraction = 1;
-        hit->body = TAHR_NO_BODY;
+        set_free(hit);
     }
 }
 
-void tahr__announce(tahr__step *step, const tahr_bounds *bounds)
+void tahr__announce(tahr__step *step, const tahr_prepare *announcement)
 {
-    if (!step->world->backend->prepare) {
-        return;
-    }
-    tahr_prepare p = {
-        .bounds = *bounds, .position = step->state.position, .up = step->state.up, .mask = step->config->mask};
-    if (step->world->backend->prepare(step->world->self, &step->context, &p) < 0) {
+    const tahr_backend *backend = step->world->backend;
+    if (backend->prepare && backend->prepare(step->world->self, &step->context, announcement) < 0) {
         step->error = bad_answer(step->world, "prepare", "status");
     }
 }

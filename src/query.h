@@ -20,7 +20,7 @@ void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit);
 /* The TAHR_CAP_* that a character of this shape needs. */
 uint32_t tahr__shape_capability(uint32_t type);
 
-/* Announces the box in which this step is expected to ask. No query. */
-void tahr__announce(tahr__step *step, const tahr_bounds *bounds);
+/* Tells the backend where this step is expected to ask. No query. */
+void tahr__announce(tahr__step *step, const tahr_prepare *announcement);
 
 #endif

@@ -26,13 +26,10 @@ void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double va
     r->events[r->event_count++] = event;
 }
 
-int tahr__decide(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value, double limit,
-                 const char *reason)
+int tahr__trace(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value, double limit,
+                const char *reason)
 {
     tahr_report *r = &step->report;
-    if (!r->decisions) {
-        return accepted;
-    }
     if (r->decision_count == r->decision_capacity) {
         r->decisions_lost++;
         r->flags |= TAHR_REPORT_TRUNCATED;

@@ -8,8 +8,15 @@
 /* Appends an event at step->time + step->ahead; hit may be NULL. */
 void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double value);
 
-/* Appends a decision to the trace, if the caller asked for one; hit may be NULL. Returns accepted. */
-int tahr__decide(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value, double limit,
-                 const char *reason);
+/* Appends a decision to the trace; hit may be NULL. Returns accepted. */
+int tahr__trace(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value, double limit,
+                const char *reason);
+
+/* The same if the caller asked for a trace; seldom does anybody. */
+static inline int tahr__decide(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value,
+                               double limit, const char *reason)
+{
+    return step->report.decisions ? tahr__trace(step, rule, accepted, hit, value, limit, reason) : accepted;
+}
 
 #endif

@@ -5,12 +5,9 @@
  * tilted planes of edges that are near but not in the way, which as planes block what the edges themselves let pass. */
 #include "slide.h"
 
-vec3 tahr__slide(const tahr__plane *planes, uint32_t count, vec3 motion)
+vec3 tahr__bend(const tahr__plane *planes, uint32_t count, vec3 motion)
 {
     vec3 x, off = vec(0, 0, 0);
-    if (count == 0) {
-        return motion;
-    }
     tahr__project(planes, count, motion, &x);
     double size = length(motion);
     if (length_squared(x) < 1e-12 * size * size) { /* a millionth of the wish is rounding in a corner, not a way out */

@@ -6,8 +6,14 @@
 #include "core.h"
 
 /* The part of `motion` that all planes leave: projected at once, then lifted off them by a ten-billionth, so that rounding
- * never points into a wall. No query. */
-vec3 tahr__slide(const tahr__plane *planes, uint32_t count, vec3 motion);
+ * never points into a wall. count > 0. No query. */
+vec3 tahr__bend(const tahr__plane *planes, uint32_t count, vec3 motion);
+
+/* The same, and all of the motion where nothing was touched. */
+static inline vec3 tahr__slide(const tahr__plane *planes, uint32_t count, vec3 motion)
+{
+    return count ? tahr__bend(planes, count, motion) : motion;
+}
 
 /* The plane of a hit, met at the character's present position. */
 tahr__plane tahr__plane_of(const tahr__step *step, const tahr_hit *hit);

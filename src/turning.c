@@ -8,16 +8,9 @@
 
 void tahr__right(tahr__step *step)
 {
-    double g = length(step->gravity);
     tahr_state *s = &step->state;
     tahr_contact contact;
-    if (g < 1e-6) {
-        return; /* weightless: up stays what it was */
-    }
-    vec3 up = scale(step->gravity, -1.0 / g);
-    if (dot(up, s->up) > 1 - 1e-15) {
-        return;
-    }
+    vec3 up = step->pull->up;
     tahr_state before = *s;
     vec3 foot = step_foot(step);
     s->orientation = quat_unit(quat_multiply(quat_between(s->up, up), s->orientation));
@@ -38,10 +31,7 @@ void tahr__right(tahr__step *step)
 void tahr__face(tahr__step *step, double dt)
 {
     tahr_state *s = &step->state;
-    if (!(step->input.flags & TAHR_INPUT_FACING)) {
-        return;
-    }
-    vec3 goal = unit(step_level(step, step->input.facing));
+    vec3 goal = unit(step_level(step, step->input->facing));
     vec3 forward = unit(step_level(step, rotate(s->orientation, vec(1, 0, 0))));
     if (length_squared(goal) == 0 || length_squared(forward) == 0) {
         return;

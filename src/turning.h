@@ -5,6 +5,12 @@
 
 #include "core.h"
 
+/* Does the shape stand against gravity? Weightless up stays what it was. */
+static inline int is_upright(const tahr__step *step)
+{
+    return step->pull->size < 1e-6 || dot(step->pull->up, step->state.up) > 1 - 1e-15;
+}
+
 /* Rights the shape against gravity, pivoting about its foot; refused with a flag where it would overlap something. 0 or 1
  * contact query. */
 void tahr__right(tahr__step *step);

@@ -16,6 +16,15 @@ static const double SMALL = 1e-4;
 /* Relative excess over the asked speed that is rounding, not over-speed. */
 static const double ROUNDING = 1e-12;
 
+/* A part across the wish, squared and relative to V, of less than half a unit in the last place is rounding too. */
+static const double ROUNDING_ACROSS = 1e-30;
+
+/* Up to here, likewise, V - c and what it takes off the way are below half a unit in the last place: q^2 / (2 V^2). */
+static const double FLAT_CAP = 2.5e-17;
+
+/* A Newton step of this part of the time leaves an error of its square: the last one. */
+static const double NEWTON_ENDS = 1e-9;
+
 /* (1 - e^(-f t)) / f */
 static double decay_integral(double f, double t)
 {
@@ -51,48 +60,51 @@ static double brake(double v, double b, double f, double t, double *distance)
     return v1 > 0 ? v1 : 0;
 }
 
-/* When the free line p0 + A s crosses the cap upward; INFINITY if not within t. F(s) = p0 + A s - c(s) is convex, and as
- * c <= V it is not negative at (V - p0) / A: Newton from there falls monotonically onto the upper root, which is the
- * crossing (a lower root at s = 0 belongs to a velocity wholly across the wish). 8 rounds reach rounding. q1 = q(t). */
-static double meeting_time(const tahr__law *law, double p0, double q0, double q1, double t)
+static double cap(const tahr__law *law, double q2)
 {
-    double v = law->speed, a = law->acceleration, f = law->turn_friction;
-    double c0 = sqrt(max_of(v * v - q0 * q0, 0));
-    if (p0 >= c0 && a * c0 >= f * q0 * q0) { /* on the cap, and the line is steeper: stays on it */
-        return 0;
+    return sqrt(max_of(law->speed * law->speed - q2, 0));
+}
+
+/* When the free line p0 + A s crosses the cap upward; t if not before. q2 = q(0)^2, e = expm1(-f t). F(s) = p0 + A s - c(s)
+ * is convex, and as c <= V it is not negative at (V - p0) / A: Newton from there falls monotonically onto the upper root,
+ * which is the crossing (a lower root at s = 0 belongs to a velocity wholly across the wish). 8 rounds reach rounding;
+ * after a step of a billionth the next one would be of its square. */
+static double meeting_time(const tahr__law *law, double p0, double q2, double e, double t)
+{
+    double a = law->acceleration, f = law->turn_friction;
+    if (p0 + a * t <= cap(law, q2 * (1 + e) * (1 + e))) {
+        return t;
     }
-    if (p0 + a * t <= sqrt(max_of(v * v - q1 * q1, 0))) {
-        return INFINITY;
-    }
-    double s = min_of(t, (v - p0) / a);
-    for (int i = 0; i < 8 && q0 > 0; i++) {
-        double q = q0 * (1 + tahr__expm1(-f * s));
-        double c = sqrt(max_of(v * v - q * q, 0));
+    double s = min_of(t, (law->speed - p0) / a);
+    for (int i = 0; i < 8; i++) {
+        double decay = 1 + tahr__expm1(-f * s);
+        double qs2 = q2 * decay * decay;
+        double c = cap(law, qs2);
         double value = p0 + a * s - c;
-        double slope = c > 0 ? a - f * q * q / c : 0;
+        double slope = c > 0 ? a - f * qs2 / c : 0;
         if (value <= 0 || slope <= 0) {
             break;
         }
-        s = max_of(s - value / slope, 0);
+        double back = value / slope;
+        s = max_of(s - back, 0);
+        if (back < NEWTON_ENDS * s) {
+            break;
+        }
     }
     return s;
 }
 
-/* Along the cap from q0 to q1 = q0 (1 + e), e = expm1(-f t): p and its integral. The integral of c is
+/* Along the cap from c0 = c(0) for t, e = expm1(-f t): the way, [out] c(t). The integral of c is
  * V t + (V ln((V + c1)/(V + c0)) - (c1 - c0)) / f. */
-static double on_cap(const tahr__law *law, double q0, double e, double t, double *distance)
+static double on_cap(const tahr__law *law, double q2, double c0, double e, double t, double *c1)
 {
     double v = law->speed, f = law->turn_friction;
-    double q1 = q0 * (1 + e);
-    double c0 = sqrt(max_of(v * v - q0 * q0, 0));
-    double c1 = sqrt(max_of(v * v - q1 * q1, 0));
-    if (f * t < 1e-12 || c0 + c1 <= 0) {
-        *distance = c0 * t;
-        return c1;
+    *c1 = cap(law, q2 * (1 + e) * (1 + e));
+    if (f * t < 1e-12 || c0 + *c1 <= 0) {
+        return c0 * t;
     }
-    double rise = -q0 * q0 * e * (2 + e) / (c0 + c1); /* c1 - c0 without cancellation */
-    *distance = v * t + (v * tahr__log1p(rise / (v + c0)) - rise) / f;
-    return c1;
+    double rise = -q2 * e * (2 + e) / (c0 + *c1); /* c1 - c0 without cancellation */
+    return v * t + (v * tahr__log1p(rise / (v + c0)) - rise) / f;
 }
 
 /* No wish, or above the speed asked for. Returns the time used: all of t, or until the speed fell to the wish's. */
@@ -114,51 +126,142 @@ static double brake_phase(const tahr__law *law, vec3 v, double t, tahr__motion *
     return until <= t && floor_speed == 0 ? t : used;
 }
 
-static void wish_phase(const tahr__law *law, vec3 v, double t, tahr__motion *m)
+/* Along the wish: the free line, and from where it meets the cap along the cap. q2 = q(0)^2, e = expm1(-f t). Returns the
+ * way, [out] the speed at the end. */
+static double bent(const tahr__law *law, double p, double q2, double e, double t, double *p1)
 {
-    double speed = law->speed, f = law->turn_friction;
+    double f = law->turn_friction, a = law->acceleration, c = cap(law, q2);
+    if (p >= c && a > 0 && a * c >= f * q2) { /* on the cap, and the line is steeper: stays on it */
+        return on_cap(law, q2, c, e, t, p1);
+    }
+    p = min_of(p, c);
+    double free = a > 0 ? meeting_time(law, p, q2, e, t) : t;
+    double along = p * free + 0.5 * a * free * free;
+    *p1 = p + a * free;
+    if (free < t) {
+        double decay = free > 0 ? 1 + tahr__expm1(-f * free) : 1;
+        q2 *= decay * decay;
+        along += on_cap(law, q2, cap(law, q2), free > 0 ? tahr__expm1(-f * (t - free)) : e, t - free, p1);
+    }
+    return along;
+}
+
+/* Along the wish while the part across it is too small to bend the cap: the free line, and from where it meets the speed
+ * asked for that speed. Returns the way, [out] the speed at the end. */
+static double straight(const tahr__law *law, double p, double t, double *p1)
+{
+    double v = law->speed, a = law->acceleration;
+    double free = t;
+    if (p >= v && a > 0) {
+        *p1 = v;
+        return v * t;
+    }
+    if (p + a * t > v) {
+        free = min_of(t, (v - p) / a);
+    }
+    double along = p * free + 0.5 * a * free * free;
+    *p1 = free < t ? v : p + a * free;
+    return free < t ? along + v * (t - free) : along;
+}
+
+/* From a velocity that is not above the speed asked for. */
+static inline tahr__motion toward_wish(const tahr__law *law, vec3 v, double t)
+{
+    double most = law->speed, f = law->turn_friction, along, p1;
     double p = dot(v, law->wish);
-    vec3 across = reject(v, law->wish);
-    double q = length(across);
-    vec3 side = q > 0 ? scale(across, 1.0 / q) : vec(0, 0, 0);
-    q = min_of(q, speed);    /* more is only rounding: over-speed was braked before */
-    if (q < 1e-15 * speed) { /* and so is a part across the wish of less than half a unit in the last place */
-        q = 0;
+    vec3 across = add_scaled(v, law->wish, -p);
+    double q2 = length_squared(across);
+    tahr__motion m;
+    m.stop_time = -1;
+    if (q2 <= ROUNDING_ACROSS * most * most) {
+        m.displacement = scale(law->wish, straight(law, min_of(p, most), t, &p1));
+        m.velocity = scale(law->wish, p1);
+        return m;
     }
-    p = min_of(p, sqrt(max_of(speed * speed - q * q, 0)));
-    double e = q > 0 ? tahr__expm1(-f * t) : 0;
-    double q1 = q * (1 + e);
-    double meet = law->acceleration > 0 ? meeting_time(law, p, q, q1, t) : INFINITY;
-    double free = min_of(t, meet);
-    double along = p * free + 0.5 * law->acceleration * free * free;
-    double sideways = q > 0 ? q * (f * t < SMALL ? decay_integral(f, t) : -e / f) : 0;
-    double p1 = p + law->acceleration * free;
-    if (meet < t) {
-        double on;
-        double qm = free > 0 ? q * (1 + tahr__expm1(-f * free)) : q;
-        p1 = on_cap(law, qm, free > 0 && q > 0 ? tahr__expm1(-f * (t - free)) : e, t - free, &on);
-        along += on;
+    double e = tahr__expm1(-f * t);
+    double sideways = f * t < SMALL ? decay_integral(f, t) : -e / f;
+    along = q2 <= FLAT_CAP * most * most ? straight(law, min_of(p, most), t, &p1) : bent(law, p, q2, e, t, &p1);
+    m.displacement = add_scaled(scale(law->wish, along), across, sideways);
+    m.velocity = add_scaled(scale(law->wish, p1), across, 1 + e);
+    return m;
+}
+
+static int brakes(const tahr__law *law, vec3 v)
+{
+    double most = law->speed * (1 + ROUNDING);
+    return length_squared(v) > most * most;
+}
+
+/* Brakes to rest or to the speed asked for, and goes on from there. */
+static tahr__motion brake_first(const tahr__law *law, vec3 v, double t, int wishes)
+{
+    tahr__motion m = {{0, 0, 0}, v, -1};
+    double rest = t - brake_phase(law, v, t, &m);
+    if (wishes && rest > 0) {
+        tahr__motion then = toward_wish(law, m.velocity, rest);
+        m.displacement = add(m.displacement, then.displacement);
+        m.velocity = then.velocity;
     }
-    m->displacement = add(m->displacement, add(scale(law->wish, along), scale(side, sideways)));
-    m->velocity = add(scale(law->wish, p1), scale(side, q1));
+    return m;
 }
 
 tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t)
 {
-    tahr__motion m = {{0, 0, 0}, v, -1};
-    double speed = length(v);
-    int wishes = length_squared(law->wish) > 0 && law->speed > 0;
-    double rest = t;
-    if (speed == 0 && !wishes) {
-        return m;
+    int wishes = law->speed > 0 && length_squared(law->wish) > 0;
+    if (wishes && !brakes(law, v)) {
+        return toward_wish(law, v, t);
     }
-    if (!wishes || speed > law->speed * (1 + ROUNDING)) {
-        rest = t - brake_phase(law, v, t, &m);
+    if (wishes || length_squared(v) > 0) {
+        return brake_first(law, v, t, wishes);
     }
-    if (wishes && rest > 0) {
-        wish_phase(law, m.velocity, rest, &m);
+    tahr__motion rest = {{0, 0, 0}, v, -1};
+    return rest;
+}
+
+/* Straight at the wish, not backward: when a way is covered. */
+static double straight_time(const tahr__law *law, double p, double way)
+{
+    double v = law->speed, a = law->acceleration;
+    double gain = v * v - p * p; /* on the free line 2 A way */
+    if (p >= v || (a > 0 && 2 * a * way > gain)) {
+        double free = p < v ? (v - p) / a : 0;
+        return free + (way - 0.5 * (p + v) * free) / v;
     }
-    return m;
+    return 2 * way / (p + sqrt(p * p + 2 * a * way));
+}
+
+/* Newton, held within the duration, from the root for a constant acceleration (from rest the rate at a small part is nearly
+ * 0, and any other guess halves its way down): 6 rounds reach rounding. */
+double tahr__law_time(const tahr__law *law, vec3 v, double duration, vec3 whole, double part)
+{
+    double low = 0, high = duration, size2 = length_squared(whole);
+    vec3 measure = scale(whole, 1.0 / size2);
+    double rate = dot(v, measure);
+    if (law->speed > 0 && rate > 0 && !brakes(law, v)) {
+        double p = dot(v, law->wish), most = law->speed;
+        double q2 = length_squared(add_scaled(v, law->wish, -p));
+        if (p > 0 && q2 <= ROUNDING_ACROSS * most * most) {
+            return min_of(straight_time(law, min_of(p, most), part * dot(whole, law->wish)), duration);
+        }
+    }
+    double gain = (1 - rate * high) / (high * high);
+    double root = sqrt(max_of(rate * rate + 4 * gain * part, 0));
+    double t = rate >= 0 ? 2 * part / (rate + root) : (root - rate) / (2 * gain);
+    t = t >= 0 && t <= high ? t : part * high;
+    for (int i = 0; i < 6; i++) {
+        tahr__motion m = tahr__law_advance(law, v, t);
+        double over = dot(m.displacement, measure) - part;
+        rate = dot(m.velocity, measure);
+        *(over > 0 ? &high : &low) = t;
+        double next = rate > 0 ? t - over / rate : 0.5 * (low + high);
+        next = next >= low && next <= high ? next : 0.5 * (low + high);
+        double moved = next > t ? next - t : t - next;
+        t = next;
+        if (moved <= NEWTON_ENDS * duration) {
+            break;
+        }
+    }
+    return t;
 }
 
 double tahr__fall_advance(double v0, double g, double terminal, double hold, double t, double *v)

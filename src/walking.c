@@ -47,6 +47,9 @@ static tahr__next fall_off(tahr__step *step, tahr__path *w, vec3 to, double part
 /* Follows the floor down, or rises off it, and says so when it was a step. */
 static void settle(tahr__step *step)
 {
+    if (floor_is_in_band(step)) {
+        return;
+    }
     double height = tahr__adjust_height(step);
     step->report.step_offset += height;
     if (height < -2 * step->config->skin) {
@@ -66,7 +69,7 @@ static tahr__next stand(tahr__step *step, double time, int looked)
         return next;
     }
     int moved = (step->state.flags & TAHR_STATE_FLOOR_MOVED) != 0;
-    if (step->config->cached_floor && !moved && tahr__floor_is_current(step)) {
+    if (step->config->cached_floor && !moved && floor_is_current(step)) {
         step->report.flags |= TAHR_REPORT_CACHED_FLOOR;
         tahr__decide(step, TAHR_RULE_CACHED_FLOOR, 1, NULL, 0, 0, "neither the character nor the world moved");
         step->time += time;
@@ -97,7 +100,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
     tahr_floor floor;
     for (int drop = 0; drop < DROPS; drop++) {
         tahr__path_walk(step, w);
-        if (tahr__floor_is_current(step)) {
+        if (floor_is_current(step)) {
             return FLOOR;
         }
         tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
@@ -131,23 +134,31 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
     return FLOOR;
 }
 
-/* The floor ended under a path that was bent on the way: walks the slice once more from its begin, and looks at the floor
- * at every bend. */
-static int walk_again(tahr__step *step, tahr__path *w, const tahr_state *begin, double time, double *part)
+/* What a slice begins with, on a floor found there, and changes. */
+typedef struct start {
+    vec3 position, velocity;
+    uint32_t flags;
+    uint32_t event_count;
+    double step_offset;
+    tahr_floor floor;
+} start;
+
+static void go_back(tahr__step *step, const start *begin)
 {
-    step->state = *begin;
+    step->state.position = begin->position;
+    step->state.velocity = begin->velocity;
+    tahr__keep_floor(step, &begin->floor);
+    step->state.flags = begin->flags;
+    step->report.event_count = begin->event_count;
+    step->report.step_offset = begin->step_offset;
     step->ahead = 0;
-    tahr__path_begin(step, w, time);
-    tahr__path_find_slope(w, step);
-    w->careful = 1;
-    return walk_over_floor(step, w, part);
 }
 
 tahr__next tahr__walk(tahr__step *step, double time)
 {
     tahr__path w;
     tahr_floor floor;
-    int looked = !tahr__floor_is_current(step);
+    int looked = !floor_is_current(step);
     if (looked) {
         tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
         tahr__keep_floor(step, &floor);
@@ -157,19 +168,21 @@ tahr__next tahr__walk(tahr__step *step, double time)
         tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
         return fall;
     }
-    double part = 1, offset = step->report.step_offset;
-    uint32_t events = step->report.event_count;
-    tahr_state begin = step->state;
-    tahr__path_begin(step, &w, time);
-    if (length_squared(w.wish) == 0) {
-        return stand(step, time, looked);
-    }
-    tahr__path_find_slope(&w, step);
-    int answer = walk_over_floor(step, &w, &part);
-    if (answer == WALK_AGAIN) {
-        step->report.event_count = events;
-        step->report.step_offset = offset;
-        answer = walk_again(step, &w, &begin, time, &part);
+    double part = 1;
+    start begin = {step->state.position,     step->state.velocity,     step->state.flags,
+                   step->report.event_count, step->report.step_offset, step->state.floor};
+    int answer = WALK_AGAIN;
+    for (uint32_t careful = 0; answer == WALK_AGAIN; careful = 1) {
+        tahr__path_begin(step, &w, time);
+        if (length_squared(w.wish) == 0) {
+            return stand(step, time, looked);
+        }
+        tahr__path_find_slope(&w, step);
+        w.careful = careful;
+        answer = walk_over_floor(step, &w, &part);
+        if (answer == WALK_AGAIN) { /* the path was bent on the way: once more, with a look at the floor at every bend */
+            go_back(step, &begin);
+        }
     }
     if (answer == NO_FLOOR) {
         return fall_off(step, &w, step->state.position, part);
