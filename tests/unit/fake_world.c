@@ -25,7 +25,7 @@ static double dot3(v3 a, v3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-static v3 turn(tahr_quat q, v3 v)
+v3 fake_turn(tahr_quat q, v3 v)
 {
     double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
     double wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
@@ -34,16 +34,22 @@ static v3 turn(tahr_quat q, v3 v)
                     2 * (xz - wy) * v.x + 2 * (yz + wx) * v.y + (1 - 2 * (xx + yy)) * v.z);
 }
 
-static v3 turn_back(tahr_quat q, v3 v)
+v3 fake_turn_back(tahr_quat q, v3 v)
 {
     tahr_quat c = {-q.x, -q.y, -q.z, q.w};
-    return turn(c, v);
+    return fake_turn(c, v);
 }
 
 void fake_world_init(fake_world *world)
 {
     memset(world, 0, sizeof *world);
     world->frame.w = 1;
+}
+
+void fake_world_flat(fake_world *world)
+{
+    fake_world_init(world);
+    fake_add_plane(world, fake_vec(0, 0, 1), 0);
 }
 
 static fake_solid *add_solid(fake_world *world, int kind)
@@ -244,9 +250,9 @@ static v3 touch_point(const fake_solid *s, const probe *p, v3 at, answer a)
 
 static probe probe_of(const fake_world *w, const tahr_shape *shape, v3 at, v3 up, tahr_quat q)
 {
-    probe p = {turn_back(w->frame, at), {0, 0, 0}, turn_back(w->frame, up), {1, 0, 0}, {0, 1, 0}, *shape};
-    p.x = turn_back(w->frame, turn(q, p.x));
-    p.y = turn_back(w->frame, turn(q, p.y));
+    probe p = {fake_turn_back(w->frame, at), {0, 0, 0}, fake_turn_back(w->frame, up), {1, 0, 0}, {0, 1, 0}, *shape};
+    p.x = fake_turn_back(w->frame, fake_turn(q, p.x));
+    p.y = fake_turn_back(w->frame, fake_turn(q, p.y));
     return p;
 }
 
@@ -260,9 +266,9 @@ static void fill_hit(const fake_world *w, uint32_t i, const probe *p, double t, 
     hit->fraction = t;
     hit->distance = a.distance;
     hit->feature = face_of(s, a.normal, p->motion, &face);
-    hit->normal = turn(w->frame, a.normal);
-    hit->surface_normal = turn(w->frame, face);
-    hit->point = turn(w->frame, touch_point(s, p, at, a));
+    hit->normal = fake_turn(w->frame, a.normal);
+    hit->surface_normal = fake_turn(w->frame, face);
+    hit->point = fake_turn(w->frame, touch_point(s, p, at, a));
     hit->walkable_rule = s->walkable_rule;
     hit->walkable_angle = s->walkable_angle;
     hit->surface = s->surface;
@@ -278,7 +284,7 @@ tahr_status fake_sweep(void *user, const tahr_sweep *query, tahr_hit *hit)
     fake_world *w = user;
     probe p = probe_of(w, &query->shape, query->position, query->up, query->orientation);
     double first = INFINITY, deepest = 0;
-    p.motion = turn_back(w->frame, query->motion);
+    p.motion = fake_turn_back(w->frame, query->motion);
     w->sweeps++;
     if (w->on_sweep) {
         w->on_sweep(w);
@@ -338,6 +344,12 @@ tahr_status fake_contacts(void *user, const tahr_contact_query *query, tahr_cont
     *count = n < capacity ? n : capacity;
     memcpy(contacts, all, *count * sizeof all[0]);
     return n > capacity ? TAHR_TRUNCATED : TAHR_OK;
+}
+
+tahr_callbacks fake_callbacks(fake_world *world)
+{
+    tahr_callbacks c = {.struct_size = sizeof c, .user = world, .sweep = fake_sweep, .contacts = fake_contacts};
+    return c;
 }
 
 double fake_clearance(const fake_world *world, const tahr_shape *shape, v3 at)

@@ -1,33 +1,82 @@
 /* SPDX-License-Identifier: MIT
- * rig.c: a character in a fake world, an allocator that counts and fails, a log that remembers. */
-#include <math.h>
+ * rig.c: see rig.h. */
 #include <setjmp.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "rig.h"
 
-tahr_config fake_config(void)
+#include <tahr/native.h>
+
+const double rig_rates[RIG_RATES] = {10, 30, 60, 144, 1000};
+
+tahr_config rig_config(void)
 {
     tahr_config c;
     assert_int_equal(tahr_config_init(&c, sizeof c, TAHR_PRESET_PRECISE), TAHR_OK);
     return c;
 }
 
-void rig_open(rig *r, fake_world *world, const tahr_config *config, tahr_vec3 at)
+static void describe(rig *r, tahr_world_desc *desc, tahr_log *log)
 {
-    tahr_callbacks callbacks = {
-        .struct_size = sizeof callbacks, .user = world, .sweep = fake_sweep, .contacts = fake_contacts};
     memset(r, 0, sizeof *r);
-    r->config = config ? *config : fake_config();
-    assert_int_equal(tahr_world_open_callbacks(&callbacks, NULL, &r->world), TAHR_OK);
+    *log = fake_log_of(&r->log);
+    assert_int_equal(tahr_world_desc_init(desc, sizeof *desc), TAHR_OK);
+    desc->log = log;
+}
+
+static void put_mover(rig *r, const tahr_config *config, tahr_vec3 at)
+{
+    r->config = config ? *config : rig_config();
     assert_int_equal(tahr_mover_create(r->world, &r->config, &r->mover), TAHR_OK);
     assert_int_equal(tahr_state_init(&r->state, &r->config, &at), TAHR_OK);
     r->input.struct_size = sizeof r->input;
+}
+
+void rig_open_callbacks(rig *r, const tahr_callbacks *callbacks, const tahr_config *config, tahr_vec3 at)
+{
+    tahr_world_desc desc;
+    tahr_log log;
+    describe(r, &desc, &log);
+    assert_int_equal(tahr_world_open_callbacks(callbacks, &desc, &r->world), TAHR_OK);
+    put_mover(r, config, at);
+}
+
+void rig_open_bodies(rig *r, const tahr_body_desc *bodies, uint32_t count, const tahr_config *config, tahr_vec3 at)
+{
+    tahr_world_desc desc;
+    tahr_log log;
+    describe(r, &desc, &log);
+    desc.bodies = bodies;
+    desc.body_count = count;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &r->world), TAHR_OK);
+    put_mover(r, config, at);
+}
+
+void rig_open_backend(rig *r, fake_backend *backend, uint32_t capabilities)
+{
+    tahr_world_desc desc;
+    tahr_log log;
+    fake_backend_init(backend, capabilities);
+    describe(r, &desc, &log);
+    desc.options = backend;
+    assert_int_equal(tahr_world_open(&backend->table, &desc, &r->world), TAHR_OK);
+    put_mover(r, NULL, fake_vec(0, 0, 0.95));
+}
+
+void rig_open(rig *r, fake_world *world, const tahr_config *config, tahr_vec3 at)
+{
+    tahr_callbacks callbacks = fake_callbacks(world);
+    rig_open_callbacks(r, &callbacks, config, at);
+}
+
+void rig_stand(rig *r, fake_world *world, const tahr_config *config, tahr_vec3 at)
+{
+    rig_open(r, world, config, at);
+    rig_settle(r);
 }
 
 void rig_close(rig *r)
@@ -46,7 +95,7 @@ tahr_status rig_step(rig *r, double dt)
     r->report.decision_capacity = RIG_DECISIONS;
     r->status = tahr_mover_step(r->mover, &r->input, dt, &r->state, &r->report);
     if (r->status < 0) {
-        fail_msg("step failed: %s", tahr_status_name(r->status));
+        fail_msg("step at %g s failed: %s: %s", r->time, tahr_status_name(r->status), r->log.text);
     }
     r->time += dt;
     return r->status;
@@ -106,74 +155,5 @@ void rig_assert_in_order(const rig *r, double dt)
                      tahr_event_name(e->type), e->time, before, dt);
         }
         before = e->time;
-    }
-}
-
-/* In front of every block: what was asked for, and where malloc's memory begins. */
-typedef struct block {
-    void *start;
-    size_t size, alignment;
-} block;
-
-static void *memory_alloc(void *user, size_t size, size_t alignment)
-{
-    fake_memory *m = user;
-    m->requests++;
-    if (m->fail_at && m->requests >= m->fail_at) {
-        return NULL;
-    }
-    char *start = malloc(size + alignment + sizeof(block));
-    assert_non_null(start);
-    size_t at = ((size_t)(uintptr_t)start + sizeof(block) + alignment - 1) & ~(alignment - 1);
-    char *memory = start + (at - (size_t)(uintptr_t)start);
-    block b = {start, size, alignment};
-    memcpy(memory - sizeof b, &b, sizeof b);
-    memset(memory, 0xA5, size);
-    m->live_blocks++;
-    m->live_bytes += size;
-    return memory;
-}
-
-static void memory_free(void *user, void *memory, size_t size, size_t alignment)
-{
-    fake_memory *m = user;
-    block b;
-    if (!memory) {
-        m->mismatches++;
-        return;
-    }
-    memcpy(&b, (char *)memory - sizeof b, sizeof b);
-    m->mismatches += b.size != size || b.alignment != alignment;
-    m->live_blocks--;
-    m->live_bytes -= b.size;
-    free(b.start);
-}
-
-tahr_allocator fake_allocator(fake_memory *memory)
-{
-    tahr_allocator a = {memory, memory_alloc, memory_free};
-    return a;
-}
-
-static void keep_message(void *user, int32_t level, const char *message)
-{
-    fake_log *log = user;
-    (void)level;
-    log->count++;
-    snprintf(log->text, sizeof log->text, "%s", message);
-}
-
-tahr_log fake_log_of(fake_log *log)
-{
-    tahr_log l = {log, keep_message};
-    memset(log, 0, sizeof *log);
-    return l;
-}
-
-void fake_assert_near(double a, double b, double tolerance, const char *what, const char *file, int line)
-{
-    if (!(fabs(a - b) <= tolerance)) {
-        print_error("%s: %.17g and %.17g differ by %.3g, more than %.3g\n", what, a, b, a - b, tolerance);
-        _fail(file, line);
     }
 }

@@ -9,7 +9,8 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "../support/native_fixture.h"
+#include "rig.h"
 
 /* The least that a user may write: blocking, fraction, normal; or start_overlap, depth, normal. */
 static tahr_status bare_sweep(void *user, const tahr_sweep *q, tahr_hit *hit)
@@ -25,9 +26,15 @@ static tahr_status bare_sweep(void *user, const tahr_sweep *q, tahr_hit *hit)
     return TAHR_OK;
 }
 
-static tahr_world *open_bare(fake_world *w)
+static tahr_callbacks bare_callbacks(fake_world *w)
 {
     tahr_callbacks c = {.struct_size = sizeof c, .user = w, .sweep = bare_sweep};
+    return c;
+}
+
+static tahr_world *open_bare(fake_world *w)
+{
+    tahr_callbacks c = bare_callbacks(w);
     tahr_world *world = NULL;
     assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_OK);
     return world;
@@ -36,51 +43,43 @@ static tahr_world *open_bare(fake_world *w)
 static void a_bare_sweep_walks_climbs_and_jumps_like_a_full_one(void **unused)
 {
     fake_world w;
-    rig r;
+    rig full, bare;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     fake_add_box(&w, fake_vec(2, -5, -1), fake_vec(40, 5, 0.3));
-    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
-    tahr_world *world = open_bare(&w);
-    tahr_mover *mover = NULL;
-    assert_int_equal(tahr_mover_create(world, &r.config, &mover), TAHR_OK);
-    tahr_state bare = r.state;
+    tahr_callbacks callbacks = bare_callbacks(&w);
+    rig_open(&full, &w, NULL, fake_vec(0, 0, 1));
+    rig_open_callbacks(&bare, &callbacks, NULL, fake_vec(0, 0, 1));
+    int jumps = 0;
     for (int i = 0; i < 150; i++) {
-        r.input.move = fake_vec(i > 20, 0, 0);
-        r.input.jump = i == 100;
-        rig_step(&r, 1.0 / 60);
-        assert_int_equal(tahr_mover_step(mover, &r.input, 1.0 / 60, &bare, NULL), TAHR_OK);
+        full.input.move = bare.input.move = fake_vec(i > 20, 0, 0);
+        full.input.jump = bare.input.jump = i == 100;
+        rig_step(&full, 1.0 / 60);
+        assert_int_equal(rig_step(&bare, 1.0 / 60), TAHR_OK);
+        jumps += rig_event(&bare, TAHR_EVENT_JUMPED) != NULL;
         if (i < 30) { /* on the edge of the step the derived face is the contact's, and the way over it another one */
-            assert_near(bare.position.x, r.state.position.x, 1e-9);
-            assert_near(bare.position.z, r.state.position.z, 1e-9);
+            assert_near(bare.state.position.x, full.state.position.x, 1e-9);
+            assert_near(bare.state.position.z, full.state.position.z, 1e-9);
         }
-        assert_true(fake_clearance(&w, &r.config.shape, bare.position) > 0.01 - 1e-7);
+        assert_true(fake_clearance(&w, &bare.config.shape, bare.state.position) > 0.01 - 1e-7);
     }
-    assert_true(bare.position.z > 1.19);
-    tahr_mover_destroy(mover);
-    tahr_world_close(world);
-    rig_close(&r);
+    assert_true(bare.state.position.z > 1.19);
+    assert_int_equal(jumps, 1);
+    rig_close(&bare);
+    rig_close(&full);
 }
 
 static void missing_contacts_come_from_a_sweep_that_goes_nowhere(void **unused)
 {
     fake_world w;
+    rig r;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
-    tahr_world *world = open_bare(&w);
-    tahr_mover *mover = NULL;
-    tahr_config c = fake_config();
-    tahr_state s;
-    tahr_input input = {.struct_size = sizeof input};
-    tahr_vec3 at = {0, 0, 0.8};
-    assert_int_equal(tahr_mover_create(world, &c, &mover), TAHR_OK);
-    tahr_state_init(&s, &c, &at);
-    assert_int_equal(tahr_mover_step(mover, &input, 1.0 / 60, &s, NULL), TAHR_OK);
-    assert_near(fake_clearance(&w, &c.shape, s.position), 0.0125, 0.0025 + 1e-9);
-    tahr_mover_destroy(mover);
-    tahr_world_close(world);
+    fake_world_flat(&w);
+    tahr_callbacks callbacks = bare_callbacks(&w);
+    rig_open_callbacks(&r, &callbacks, NULL, fake_vec(0, 0, 0.8));
+    assert_int_equal(rig_step(&r, 1.0 / 60), TAHR_OK);
+    assert_near(fake_clearance(&w, &r.config.shape, r.state.position), 0.0125, 0.0025 + 1e-9);
+    rig_close(&r);
 }
 
 static void missing_ray_is_a_thin_sphere(void **unused)
@@ -90,8 +89,7 @@ static void missing_ray_is_a_thin_sphere(void **unused)
     tahr_hit hit;
     uint32_t count = 0;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     tahr_world *world = open_bare(&w);
     assert_int_equal(tahr_world_ray(world, &q, &hit, &count), TAHR_OK);
     assert_int_equal(count, 1);
@@ -106,14 +104,8 @@ static void missing_ray_is_a_thin_sphere(void **unused)
 static void derived_point_lies_on_the_surface(void **unused)
 {
     fake_world w;
-    tahr_sweep q = {.shape = {TAHR_SHAPE_CAPSULE, 0, 0.35, 0.9, 0, 0},
-                    .position = {1, 2, 2},
-                    .up = {0, 0, 1},
-                    .orientation = {0, 0, 0, 1},
-                    .motion = {0, 0, -4},
-                    .margin = 0.01,
-                    .mask = 0xFFFFFFFFu,
-                    .ignore_body = TAHR_NO_BODY};
+    tahr_sweep q =
+        fixture_sweep(fixture_shape(TAHR_SHAPE_CAPSULE, 0.35, 0.9), fake_vec(1, 2, 2), fake_vec(0, 0, -4), 0.01);
     tahr_hit hit;
     uint32_t count = 0;
     (void)unused;
@@ -145,11 +137,7 @@ static void a_users_contacts_are_truncated_and_get_their_surface_normal(void **u
     fake_world w;
     tahr_callbacks c = {.struct_size = sizeof c, .user = &w, .sweep = bare_sweep, .contacts = crowded_contacts};
     tahr_world *world = NULL;
-    tahr_contact_query q = {.shape = {TAHR_SHAPE_CAPSULE, 0, 0.35, 0.9, 0, 0},
-                            .up = {0, 0, 1},
-                            .orientation = {0, 0, 0, 1},
-                            .mask = 0xFFFFFFFFu,
-                            .ignore_body = TAHR_NO_BODY};
+    tahr_contact_query q = fixture_contacts(fixture_shape(TAHR_SHAPE_CAPSULE, 0.35, 0.9), fake_vec(0, 0, 0), 0);
     tahr_contact out[2];
     uint32_t count = 0;
     (void)unused;
@@ -231,21 +219,13 @@ static tahr_status refusing_sweep(void *user, const tahr_sweep *q, tahr_hit *hit
 static void a_negative_status_ends_the_step(void **unused)
 {
     tahr_callbacks c = {.struct_size = sizeof c, .sweep = refusing_sweep};
-    tahr_world *world = NULL;
-    tahr_mover *mover = NULL;
-    tahr_config config = fake_config();
-    tahr_state s, before;
-    tahr_input input = {.struct_size = sizeof input};
-    tahr_vec3 at = {0, 0, 1};
+    rig r;
     (void)unused;
-    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_OK);
-    assert_int_equal(tahr_mover_create(world, &config, &mover), TAHR_OK);
-    tahr_state_init(&s, &config, &at);
-    before = s;
-    assert_int_equal(tahr_mover_step(mover, &input, 0.1, &s, NULL), TAHR_E_BACKEND);
-    assert_memory_equal(&s, &before, sizeof s);
-    tahr_mover_destroy(mover);
-    tahr_world_close(world);
+    rig_open_callbacks(&r, &c, NULL, fake_vec(0, 0, 1));
+    tahr_state before = r.state;
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.1, &r.state, NULL), TAHR_E_BACKEND);
+    assert_memory_equal(&r.state, &before, sizeof before);
+    rig_close(&r);
 }
 
 int main(void)

@@ -23,25 +23,20 @@ int main(void)
 #else
 #include <tahr/ccd.h>
 
+#include "../support/native_fixture.h"
+#include "dice.h"
+#include "fake_host.h"
+#include "fake_world.h"
+
 enum { GRID = 8 };
 
 static double grid_vertices[(GRID + 1) * (GRID + 1) * 3];
 static uint32_t grid_indices[GRID * GRID * 6];
-static uint64_t seed;
+static oracle_random dice;
 
-static double uniform(double lo, double hi)
+static double uniform(double low, double high)
 {
-    uint64_t z = seed += 0x9E3779B97F4A7C15u; /* splitmix64 */
-
-    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ z >> 27) * 0x94D049BB133111EBu;
-    return lo + (hi - lo) * (double)((z ^ z >> 31) >> 11) * 0x1p-53;
-}
-
-static tahr_vec3 in_cube(double r)
-{
-    double x = uniform(-r, r), y = uniform(-r, r);
-    return (tahr_vec3){x, y, uniform(-r, r)};
+    return oracle_uniform(&dice, low, high);
 }
 
 static double dot(tahr_vec3 a, tahr_vec3 b)
@@ -110,14 +105,7 @@ static tahr_world *open_ccd(const tahr_body_desc *bodies, uint32_t count)
 
 static tahr_sweep capsule_sweep(tahr_vec3 at, tahr_vec3 motion)
 {
-    return (tahr_sweep){.shape = {.type = TAHR_SHAPE_CAPSULE, .radius = 0.35, .half_height = 0.9},
-                        .position = at,
-                        .up = {0, 0, 1},
-                        .orientation = {0, 0, 0, 1},
-                        .motion = motion,
-                        .margin = 0.01,
-                        .mask = 0xFFFFFFFFu,
-                        .ignore_body = TAHR_NO_BODY};
+    return fixture_sweep(fixture_shape(TAHR_SHAPE_CAPSULE, 0.35, 0.9), at, motion, 0.01);
 }
 
 static uint32_t sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hit)
@@ -136,7 +124,7 @@ static void sweep_feels_no_internal_edges_of_a_flat_floor(void **state)
     tahr_hit hit;
 
     (void)state;
-    seed = 5;
+    dice.state = 5;
     for (int i = 0; i < 2000; i++) {
         /* On the lattice, where edges and corners lie below the axis, and off it; from just inside the margin up. */
         double x = i % 2 ? uniform(-1, 1) : 0.25 * floor(uniform(-4, 4)), above = i % 3 ? 0.01 : 0.01 - 1e-6;
@@ -245,12 +233,7 @@ static void contacts_come_in_order_and_say_when_more_existed(void **state)
 {
     tahr_body_desc bodies[3] = {box_body((tahr_vec3){0, 0, -1.5}, 0.5), box_body((tahr_vec3){0.9, 0, 0}, 0.5),
                                 box_body((tahr_vec3){0, 9, 0}, 1)};
-    tahr_contact_query q = {.shape = {.type = TAHR_SHAPE_CAPSULE, .radius = 0.35, .half_height = 0.9},
-                            .up = {0, 0, 1},
-                            .orientation = {0, 0, 0, 1},
-                            .margin = 0.2,
-                            .mask = 0xFFFFFFFFu,
-                            .ignore_body = TAHR_NO_BODY};
+    tahr_contact_query q = fixture_contacts(fixture_shape(TAHR_SHAPE_CAPSULE, 0.35, 0.9), fake_vec(0, 0, 0), 0.2);
     tahr_world *world = open_ccd(bodies, 3);
     tahr_contact contacts[4];
     uint32_t count;
@@ -296,61 +279,35 @@ static void rays_meet_faces_and_never_start_inside(void **state)
 
 /* --- Directly through the table: what the core would never let through, and memory --- */
 
-typedef struct ledger {
-    int64_t bytes, calls, fail_at;
-} ledger;
-
-static void *ledger_alloc(void *user, size_t size, size_t alignment)
-{
-    ledger *l = user;
-
-    if (++l->calls == l->fail_at) return NULL;
-    l->bytes += (int64_t)size;
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-}
-
-static void ledger_free(void *user, void *memory, size_t size, size_t alignment)
-{
-    ledger *l = user;
-
-    (void)alignment;
-    if (memory) l->bytes -= (int64_t)size;
-    free(memory);
-}
-
-static void ignore_message(void *user, int32_t level, const char *text)
-{
-    (void)user, (void)level, (void)text;
-}
-
 static void opening_returns_all_memory_when_any_allocation_fails(void **state)
 {
     tahr_body_desc bodies[2] = {grid_body(0.2), box_body((tahr_vec3){0, 0, 5}, 1)};
     const tahr_backend *b = tahr_backend_v1_ccd();
     tahr_world_desc desc;
-    ledger l = {0};
-    tahr_host host = {sizeof host, TAHR_ABI, {&l, ledger_alloc, ledger_free}, {NULL, ignore_message}};
+    fake_memory memory = {.fail_once = 1};
+    fake_log log;
+    tahr_host host = {sizeof host, TAHR_ABI, fake_allocator(&memory), fake_log_of(&log)};
     void *self = NULL;
 
     (void)state;
     tahr_world_desc_init(&desc, sizeof desc);
     desc.bodies = bodies;
     desc.body_count = 2;
-    for (l.fail_at = 1; l.fail_at < 100; l.fail_at++) {
-        l.calls = 0;
+    for (memory.fail_at = 1; memory.fail_at < 100; memory.fail_at++) {
+        memory.requests = 0;
         tahr_status status = b->open(&host, &desc, &self);
         if (status == TAHR_OK) break;
         assert_int_equal(status, TAHR_E_MEMORY);
         assert_null(self);
-        assert_int_equal(l.bytes, 0);
+        assert_int_equal(memory.live_bytes, 0);
     }
-    assert_true(l.fail_at > 2 && self != NULL);
+    assert_true(memory.fail_at > 2 && self != NULL);
 
     tahr_query_context context = {0};
     tahr_sweep q = capsule_sweep((tahr_vec3){0, 0, 1.5}, (tahr_vec3){0.1, 0, -1});
     tahr_hit hit;
     uint32_t count = 7;
-    int64_t calls = l.calls;
+    uint64_t requests = memory.requests;
     assert_int_equal(b->sweep(self, &context, &q, &hit, 1, &count), TAHR_OK);
     assert_int_equal(count, 1);
     assert_true(context.narrow_tests > 0 && context.narrow_iterations > 0);
@@ -362,9 +319,10 @@ static void opening_returns_all_memory_when_any_allocation_fails(void **state)
     assert_int_equal(b->sweep(self, &context, &q, &hit, 1, &count), TAHR_E_ARGUMENT);
     q.shape.type = 77;
     assert_int_equal(b->sweep(self, &context, &q, &hit, 1, &count), TAHR_E_UNSUPPORTED);
-    assert_int_equal(l.calls, calls);
+    assert_int_equal(memory.requests, requests);
     b->close(self);
-    assert_int_equal(l.bytes, 0);
+    assert_int_equal(memory.live_bytes, 0);
+    assert_int_equal(memory.mismatches, 0);
 }
 
 /* --- Against the native backend --- */
@@ -384,7 +342,7 @@ static tahr_body_desc random_body(uint32_t type)
     body.half_extents = (tahr_vec3){uniform(0.1, 1), uniform(0.1, 1), uniform(0.1, 1)};
     body.radius = uniform(0.1, 0.6);
     body.half_height = body.radius + uniform(0, 0.8);
-    body.pose.position = in_cube(2.5);
+    body.pose.position = dice_vec(&dice, -2.5, 2.5);
     body.pose.orientation = random_turn();
     body.flags = uniform(0, 1) < 0.5 ? TAHR_BODY_TWO_SIDED : 0;
     return body;
@@ -392,7 +350,7 @@ static tahr_body_desc random_body(uint32_t type)
 
 static tahr_sweep random_sweep(int kind)
 {
-    tahr_sweep q = capsule_sweep(in_cube(3), in_cube(1.5));
+    tahr_sweep q = capsule_sweep(dice_vec(&dice, -3, 3), dice_vec(&dice, -1.5, 1.5));
     double angle = uniform(0, 3);
 
     q.shape.type = TAHR_SHAPE_SPHERE + (uint32_t)kind;
@@ -422,7 +380,7 @@ static void sweeps_agree_with_native_on_every_kind_of_body(void **state)
     int hits = 0, differ = 0;
 
     (void)state;
-    seed = 11;
+    dice.state = 11;
     for (int scene = 0; scene < 60; scene++) {
         tahr_body_desc bodies[6];
         for (uint32_t i = 0; i < 6; i++)

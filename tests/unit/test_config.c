@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "rig.h"
 
 static void init_fills_the_preset_and_reports_wrong_use(void **unused)
 {
@@ -95,7 +95,7 @@ static const place places[] = {PLACE(shape.radius, 1e-7, 0.95),
 /* A number that makes a related field's range impossible may be blamed on that one. */
 static void expect_bad(const place *p, double value, int exact_name)
 {
-    tahr_config c = fake_config();
+    tahr_config c = rig_config();
     const char *field = NULL;
     memcpy((char *)&c + p->offset, &value, sizeof value);
     if (tahr_config_check(&c, &field) != TAHR_E_ARGUMENT) {
@@ -124,7 +124,7 @@ static void every_number_out_of_range_or_not_finite_is_named(void **unused)
 
 static void integers_out_of_range_are_named(void **unused)
 {
-    tahr_config c = fake_config();
+    tahr_config c = rig_config();
     const char *field = NULL;
     (void)unused;
     c.max_slides = 0;
@@ -132,19 +132,19 @@ static void integers_out_of_range_are_named(void **unused)
     assert_string_equal(field, "max_slides");
     c.max_slides = 17;
     assert_int_equal(tahr_config_check(&c, &field), TAHR_E_ARGUMENT);
-    c = fake_config();
+    c = rig_config();
     c.cached_floor = 2;
     assert_int_equal(tahr_config_check(&c, &field), TAHR_E_ARGUMENT);
     assert_string_equal(field, "cached_floor");
-    c = fake_config();
+    c = rig_config();
     c.walk_off_ledges = 2;
     assert_int_equal(tahr_config_check(&c, &field), TAHR_E_ARGUMENT);
     assert_string_equal(field, "walk_off_ledges");
-    c = fake_config();
+    c = rig_config();
     c.preset = 9;
     assert_int_equal(tahr_config_check(&c, &field), TAHR_E_ARGUMENT);
     assert_string_equal(field, "preset");
-    c = fake_config();
+    c = rig_config();
     c.shape.reserved = 1;
     assert_int_equal(tahr_config_check(&c, &field), TAHR_E_ARGUMENT);
     assert_string_equal(field, "shape.reserved");
@@ -152,7 +152,7 @@ static void integers_out_of_range_are_named(void **unused)
 
 static void shapes_are_checked_by_kind(void **unused)
 {
-    tahr_config c = fake_config();
+    tahr_config c = rig_config();
     const char *field = NULL;
     (void)unused;
     c.shape.type = 4;
@@ -178,7 +178,7 @@ static void shapes_are_checked_by_kind(void **unused)
 
 static void scale_multiplies_lengths_and_leaves_times_and_angles(void **unused)
 {
-    tahr_config c = fake_config(), was = c;
+    tahr_config c = rig_config(), was = c;
     (void)unused;
     assert_int_equal(tahr_config_scale(&c, 4), TAHR_OK);
     assert_true(c.shape.radius == 4 * was.shape.radius && c.shape.half_height == 4 * was.shape.half_height);
@@ -202,15 +202,8 @@ static void scale_refuses_bad_factors_and_touches_nothing(void **unused)
     const double bad[] = {0, -1, NAN, INFINITY, -INFINITY, 1e9, 1e-9};
     (void)unused;
     for (int i = 0; i < 7; i++) {
-        tahr_config c = fake_config(), was = c;
-        tahr_status status = tahr_config_scale(&c, bad[i]);
-        if (status == TAHR_OK) { /* then at least what it made must be usable */
-            if (tahr_config_check(&c, NULL) != TAHR_OK) {
-                fail_msg("scaled by %g: TAHR_OK, but the result is no valid config", bad[i]);
-            }
-            continue;
-        }
-        assert_int_equal(status, TAHR_E_ARGUMENT);
+        tahr_config c = rig_config(), was = c;
+        assert_int_equal(tahr_config_scale(&c, bad[i]), TAHR_E_ARGUMENT);
         assert_memory_equal(&c, &was, sizeof c);
     }
     assert_int_equal(tahr_config_scale(NULL, 2), TAHR_E_NULL);
@@ -220,13 +213,11 @@ static void a_scaled_character_moves_alike(void **unused)
 {
     fake_world w, big_w;
     rig a, b;
-    tahr_config big = fake_config();
+    tahr_config big = rig_config();
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     fake_add_box(&w, fake_vec(2, -2, 0), fake_vec(4, 2, 0.25));
-    fake_world_init(&big_w);
-    fake_add_plane(&big_w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&big_w);
     fake_add_box(&big_w, fake_vec(8, -8, 0), fake_vec(16, 8, 1));
     tahr_config_scale(&big, 4);
     rig_open(&a, &w, NULL, fake_vec(0, 0, 1));

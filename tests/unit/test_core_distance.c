@@ -23,13 +23,16 @@ static double coordinate(oracle_random *r, int lattice, double scale)
 static void random_core(oracle_random *r, int kind, int lattice, oracle_core *core)
 {
     core->axis_count = kind == 0 ? 0 : kind == 1 ? 1 : 3;
-    for (int k = 0; k < 3; k++) core->centre[k] = coordinate(r, lattice, 2);
+    for (int k = 0; k < 3; k++)
+        core->centre[k] = coordinate(r, lattice, 2);
     for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) core->axis[i][k] = 0;
+        for (int k = 0; k < 3; k++)
+            core->axis[i][k] = 0;
         core->axis[i][kind == 1 ? 2 : i] = lattice ? 0.5 : oracle_uniform(r, 0.1, 1);
     }
     if (kind == 1 && !lattice) {
-        for (int k = 0; k < 3; k++) core->axis[0][k] = oracle_uniform(r, -1, 1);
+        for (int k = 0; k < 3; k++)
+            core->axis[0][k] = oracle_uniform(r, -1, 1);
     }
 }
 
@@ -37,7 +40,8 @@ static tahr__core to_core(const oracle_core *o)
 {
     tahr__core core;
     core.axis_count = o->axis_count;
-    for (int i = 0; i < 3; i++) core.axis[i] = to_vec(o->axis[i]);
+    for (int i = 0; i < 3; i++)
+        core.axis[i] = to_vec(o->axis[i]);
     return core;
 }
 
@@ -50,9 +54,11 @@ static void compare(int kind, int lattice, double size, int trials, double toler
         oracle_core o;
         double tri[3][3];
         random_core(&r, kind, lattice, &o);
-        for (int i = 0; i < 9; i++) tri[i / 3][i % 3] = coordinate(&r, lattice, size);
+        for (int i = 0; i < 9; i++)
+            tri[i / 3][i % 3] = coordinate(&r, lattice, size);
         if (n % 7 == 0) {
-            for (int k = 0; k < 3; k++) tri[2][k] = tri[1][k]; /* a segment */
+            for (int k = 0; k < 3; k++)
+                tri[2][k] = tri[1][k]; /* a segment */
         }
         tahr__core core = to_core(&o);
         tahr_vec3 v[3] = {to_vec(tri[0]), to_vec(tri[1]), to_vec(tri[2])};
@@ -60,7 +66,8 @@ static void compare(int kind, int lattice, double size, int trials, double toler
         tahr__core_distance(&core, to_vec(o.centre), v, &w);
         double truth = (double)oracle_distance(&o, still, 0, tri);
         if (fabs(w.distance - truth) > tolerance) {
-            fail_msg("kind %d lattice %d size %g trial %d: %.17g, truth %.17g", kind, lattice, size, n, w.distance, truth);
+            fail_msg("kind %d lattice %d size %g trial %d: %.17g, truth %.17g", kind, lattice, size, n, w.distance,
+                     truth);
         }
         if (w.distance > 1e-6) {
             assert_true(fabs(v_length(w.normal) - 1) < 1e-9);
@@ -91,7 +98,8 @@ static void distance_to_slivers_is_exact(void **state)
         double tri[3][3];
         static const double still[3] = {0, 0, 0};
         random_core(&r, n % 3, 0, &o);
-        for (int i = 0; i < 9; i++) tri[i / 3][i % 3] = coordinate(&r, 0, 2);
+        for (int i = 0; i < 9; i++)
+            tri[i / 3][i % 3] = coordinate(&r, 0, 2);
         double along = oracle_uniform(&r, 0, 1);
         for (int k = 0; k < 3; k++) {
             tri[2][k] = tri[0][k] + along * (tri[1][k] - tri[0][k]) + oracle_uniform(&r, -1e-6, 1e-6);
@@ -115,8 +123,10 @@ static void way_out_of_a_triangle_is_out_and_shortest(void **state)
         oracle_core o;
         double tri[3][3];
         random_core(&r, 1 + n % 2, 0, &o);
-        for (int k = 0; k < 3; k++) o.centre[k] *= 0.2;
-        for (int i = 0; i < 9; i++) tri[i / 3][i % 3] = coordinate(&r, 0, 2);
+        for (int k = 0; k < 3; k++)
+            o.centre[k] *= 0.2;
+        for (int i = 0; i < 9; i++)
+            tri[i / 3][i % 3] = coordinate(&r, 0, 2);
         tahr__core core = to_core(&o);
         tahr_vec3 v[3] = {to_vec(tri[0]), to_vec(tri[1]), to_vec(tri[2])}, n_out;
         tahr__witness w;
@@ -149,7 +159,8 @@ static void way_out_of_a_triangle_is_out_and_shortest(void **state)
 static void way_out_of_a_box_is_its_nearest_face(void **state)
 {
     (void)state;
-    tahr__core point = {0, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}, box = {3, {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}}, rod = {1, {{0, 0, 0.5}}};
+    tahr__core point = {0, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}}, box = {3, {{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}},
+               rod = {1, {{0, 0, 0.5}}};
     tahr_vec3 n;
     assert_true(fabs(tahr__core_leave_solid(&point, v_make(0.75, 0, 0), &box, v_make(0, 0, 0), &n) - 0.25) < 1e-15);
     assert_true(n.x == 1 && n.y == 0 && n.z == 0);

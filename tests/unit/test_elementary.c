@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "elementary.h"
-#include "fake_world.h"
+#include "near.h"
 
 /* Error in units of the last place of the true value. */
 static double ulps(double got, long double truth)

@@ -9,16 +9,7 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
-
-static const double rates[] = {10, 30, 60, 144, 1000};
-enum { RATES = 5 };
-
-static void flat(fake_world *w)
-{
-    fake_world_init(w);
-    fake_add_plane(w, fake_vec(0, 0, 1), 0);
-}
+#include "rig.h"
 
 /* Steps until an event of the type; [out] its time since the first of these steps. Fails if there is none. */
 static const tahr_event *await(rig *r, uint32_t type, double dt, double *time)
@@ -40,14 +31,14 @@ static const tahr_event *await(rig *r, uint32_t type, double dt, double *time)
 static void free_fall_lands_when_and_where_the_parabola_says(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RATES; i++) {
+    for (int i = 0; i < RIG_RATES; i++) {
         fake_world w;
         rig r;
         double t, truth = sqrt(2 * (5 - 0.91) / 9.81);
-        flat(&w);
+        fake_world_flat(&w);
         rig_open(&r, &w, NULL, fake_vec(1, 2, 5));
         r.state.velocity = fake_vec(0.5, -1, 0);
-        const tahr_event *e = await(&r, TAHR_EVENT_LANDED, 1 / rates[i], &t);
+        const tahr_event *e = await(&r, TAHR_EVENT_LANDED, 1 / rig_rates[i], &t);
         assert_near(t, truth, 1e-9 * truth);
         assert_near(e->position.z, 0.91, 1e-9);
         assert_near(e->position.x, 1 + 0.5 * truth, 1e-9);
@@ -60,13 +51,12 @@ static void free_fall_lands_when_and_where_the_parabola_says(void **unused)
 static void jump_has_its_apex_and_landing_where_the_parabola_says(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RATES; i++) {
+    for (int i = 0; i < RIG_RATES; i++) {
         fake_world w;
         rig r;
-        double t_apex, t_land, dt = 1 / rates[i], rise = 4.2 / 9.81;
-        flat(&w);
-        rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
-        rig_settle(&r);
+        double t_apex, t_land, dt = 1 / rig_rates[i], rise = 4.2 / 9.81;
+        fake_world_flat(&w);
+        rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
         double z = r.state.position.z;
         tahr_state start = r.state;
         r.input.jump = 1;
@@ -87,9 +77,8 @@ static void jump_events_come_in_order_and_once(void **unused)
     fake_world w;
     rig r;
     (void)unused;
-    flat(&w);
-    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
-    rig_settle(&r);
+    fake_world_flat(&w);
+    rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
     uint32_t seen[16] = {0};
     r.input.jump = 1; /* kept down: no second jump */
     for (int i = 0; i < 120; i++) {
@@ -113,15 +102,14 @@ static void jump_events_come_in_order_and_once(void **unused)
 static void running_jump_covers_the_closed_distance(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RATES; i++) {
+    for (int i = 0; i < RIG_RATES; i++) {
         fake_world w;
         rig r;
-        double t, dt = 1 / rates[i];
-        flat(&w);
-        rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
-        rig_settle(&r);
+        double t, dt = 1 / rig_rates[i];
+        fake_world_flat(&w);
+        rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
         r.input.move = fake_vec(1, 0, 0);
-        rig_steps(&r, (int)(2 * rates[i]), dt);
+        rig_steps(&r, (int)(2 * rig_rates[i]), dt);
         double x = r.state.position.x, z = r.state.position.z;
         r.input.jump = 1;
         const tahr_event *e = await(&r, TAHR_EVENT_LANDED, dt, &t);
@@ -131,16 +119,40 @@ static void running_jump_covers_the_closed_distance(void **unused)
     }
 }
 
+/* Walking, the speed is that along the slope; in the air its level part goes on. */
+static void jump_from_a_slope_keeps_the_level_part_of_the_speed(void **unused)
+{
+    (void)unused;
+    for (int direction = -1; direction <= 1; direction += 2) {
+        fake_world w;
+        rig r;
+        double level = 6 * cos(acos(-1.0) / 6);
+        fake_world_init(&w);
+        fake_add_slope(&w, 30);
+        rig_stand(&r, &w, NULL, fake_vec(0, 0, 1.5));
+        r.input.move = fake_vec(direction, 0, 0);
+        rig_steps(&r, 60, 1.0 / 60);
+        double x = r.state.position.x;
+        r.input.move = fake_vec(0, 0, 0);
+        r.input.jump = 1;
+        rig_steps(&r, 5, 1.0 / 60);
+        assert_int_equal(r.state.mode, TAHR_MODE_FALLING);
+        assert_near(r.state.velocity.x, direction * level, 1e-9);
+        assert_near(r.state.position.x - x, direction * level * 5 / 60, 1e-9);
+        rig_close(&r);
+    }
+}
+
 static void air_control_accelerates_by_its_share(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RATES; i++) {
+    for (int i = 0; i < RIG_RATES; i++) {
         fake_world w;
         rig r;
-        flat(&w);
+        fake_world_flat(&w);
         rig_open(&r, &w, NULL, fake_vec(0, 0, 50));
         r.input.move = fake_vec(0, 2, 0); /* shortened to 1 */
-        rig_steps(&r, (int)rates[i], 1 / rates[i]);
+        rig_steps(&r, (int)rig_rates[i], 1 / rig_rates[i]);
         assert_near(r.state.position.y, 0.5 * 5.12, 1e-9);
         assert_near(r.state.velocity.y, 5.12, 1e-9);
         assert_near(r.state.position.z, 50 - 9.81 / 2, 1e-9);
@@ -151,13 +163,13 @@ static void air_control_accelerates_by_its_share(void **unused)
 static void fall_is_never_faster_than_terminal(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RATES; i++) {
+    for (int i = 0; i < RIG_RATES; i++) {
         fake_world w;
         rig r;
         double to_terminal = 40 / 9.81;
-        flat(&w);
+        fake_world_flat(&w);
         rig_open(&r, &w, NULL, fake_vec(0, 0, 1000));
-        rig_steps(&r, (int)(6 * rates[i]), 1 / rates[i]);
+        rig_steps(&r, (int)(6 * rig_rates[i]), 1 / rig_rates[i]);
         assert_near(r.state.velocity.z, -40, 1e-12);
         assert_near(r.state.position.z, 1000 - 40 * to_terminal / 2 - 40 * (6 - to_terminal), 1e-8);
         rig_close(&r);
@@ -167,18 +179,17 @@ static void fall_is_never_faster_than_terminal(void **unused)
 static void held_jump_rises_by_the_hold(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RATES; i++) {
+    for (int i = 0; i < RIG_RATES; i++) {
         fake_world w;
         rig r;
-        tahr_config c = fake_config();
+        tahr_config c = rig_config();
         double t;
         c.jump_hold_time = 0.25;
-        flat(&w);
-        rig_open(&r, &w, &c, fake_vec(0, 0, 1));
-        rig_settle(&r);
+        fake_world_flat(&w);
+        rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
         double z = r.state.position.z;
         r.input.jump = 1;
-        const tahr_event *e = await(&r, TAHR_EVENT_APEX, 1 / rates[i], &t);
+        const tahr_event *e = await(&r, TAHR_EVENT_APEX, 1 / rig_rates[i], &t);
         assert_near(t, 0.25 + 4.2 / 9.81, 1e-9);
         assert_near(e->position.z - z, 4.2 * 0.25 + 4.2 * 4.2 / (2 * 9.81), 1e-9);
         rig_close(&r);
@@ -189,13 +200,12 @@ static void released_jump_stops_holding(void **unused)
 {
     fake_world w;
     rig r;
-    tahr_config c = fake_config();
+    tahr_config c = rig_config();
     double t;
     (void)unused;
     c.jump_hold_time = 0.25;
-    flat(&w);
-    rig_open(&r, &w, &c, fake_vec(0, 0, 1));
-    rig_settle(&r);
+    fake_world_flat(&w);
+    rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
     double z = r.state.position.z;
     r.input.jump = 1;
     rig_step(&r, 0.1);
@@ -208,17 +218,16 @@ static void released_jump_stops_holding(void **unused)
 static void ceiling_stops_the_rise_and_is_never_touched(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RATES; i++) {
+    for (int i = 0; i < RIG_RATES; i++) {
         fake_world w;
         rig r;
         int hit = 0;
-        flat(&w);
+        fake_world_flat(&w);
         fake_add_plane(&w, fake_vec(0, 0, -1), -2.2); /* 0.39 m above the head */
-        rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
-        rig_settle(&r);
+        rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
         r.input.jump = 1;
-        for (int k = 0; k < (int)rates[i] * 2; k++) {
-            rig_step(&r, 1 / rates[i]);
+        for (int k = 0; k < (int)rig_rates[i] * 2; k++) {
+            rig_step(&r, 1 / rig_rates[i]);
             hit += rig_event(&r, TAHR_EVENT_HIT) != NULL;
             assert_true(fake_clearance(&w, &r.config.shape, r.state.position) > 0.01 - 1e-8);
             assert_true(!hit || r.state.velocity.z <= 1e-9);
@@ -232,7 +241,7 @@ static void ceiling_stops_the_rise_and_is_never_touched(void **unused)
 static void sliding_down_a_steep_slope_accelerates_at_g_sine(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RATES; i++) {
+    for (int i = 0; i < RIG_RATES; i++) {
         fake_world w;
         rig r;
         double angle = acos(-1.0) / 3, T = 1;
@@ -240,7 +249,7 @@ static void sliding_down_a_steep_slope_accelerates_at_g_sine(void **unused)
         fake_add_slope(&w, 60);
         double height = (0.35 + 0.01) / cos(angle) + 0.55; /* the lower cap's centre stands r + skin off the slope */
         rig_open(&r, &w, NULL, fake_vec(0, 0, height));
-        rig_steps(&r, (int)(T * rates[i]), 1 / rates[i]);
+        rig_steps(&r, (int)(T * rig_rates[i]), 1 / rig_rates[i]);
         assert_int_equal(r.state.mode, TAHR_MODE_FALLING);
         double along = 0.5 * 9.81 * sin(angle) * T * T;
         assert_near(r.state.position.x, -along * cos(angle), 1e-6);
@@ -254,7 +263,7 @@ static void sliding_down_a_steep_slope_accelerates_at_g_sine(void **unused)
 static void steep_slope_does_not_lift_a_falling_character(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RATES; i++) {
+    for (int i = 0; i < RIG_RATES; i++) {
         fake_world w;
         rig r;
         fake_world_init(&w);
@@ -264,9 +273,10 @@ static void steep_slope_does_not_lift_a_falling_character(void **unused)
         r.state.velocity = fake_vec(8, 1, 0);
         r.input.move = fake_vec(1, 0, 0);
         double z = r.state.position.z;
-        for (int k = 0; k < (int)rates[i]; k++) {
-            rig_step(&r, 1 / rates[i]);
+        for (int k = 0; k < (int)rig_rates[i]; k++) {
+            rig_step(&r, 1 / rig_rates[i]);
             assert_true(r.state.position.z <= z + 1e-9);
+            assert_true(fake_clearance(&w, &r.config.shape, r.state.position) > 0.01 - 1e-7);
             z = r.state.position.z;
         }
         rig_close(&r);
@@ -276,15 +286,15 @@ static void steep_slope_does_not_lift_a_falling_character(void **unused)
 static void falling_along_a_wall_keeps_the_fall(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RATES; i++) {
+    for (int i = 0; i < RIG_RATES; i++) {
         fake_world w;
         rig r;
-        flat(&w);
+        fake_world_flat(&w);
         fake_add_plane(&w, fake_vec(-1, 0, 0), -1);
         rig_open(&r, &w, NULL, fake_vec(0, 0, 20));
         r.state.velocity = fake_vec(6, 0, 0);
         r.input.move = fake_vec(1, 0, 0);
-        rig_steps(&r, (int)rates[i], 1 / rates[i]);
+        rig_steps(&r, (int)rig_rates[i], 1 / rig_rates[i]);
         assert_near(r.state.position.x, 1 - 0.36, 1e-8);
         assert_near(r.state.position.z, 20 - 9.81 / 2, 1e-6);
         assert_near(r.state.velocity.z, -9.81, 1e-6);
@@ -298,7 +308,7 @@ static void remaining_time_after_landing_is_walked(void **unused)
     rig r;
     double fall = sqrt(2 * (2 - 0.91) / 9.81);
     (void)unused;
-    flat(&w);
+    fake_world_flat(&w);
     rig_open(&r, &w, NULL, fake_vec(0, 0, 2));
     r.state.velocity = fake_vec(6, 0, 0);
     r.input.move = fake_vec(1, 0, 0);
@@ -314,7 +324,7 @@ static void weightless_input_gravity_flies_straight(void **unused)
     fake_world w;
     rig r;
     (void)unused;
-    flat(&w);
+    fake_world_flat(&w);
     rig_open(&r, &w, NULL, fake_vec(0, 0, 5));
     r.state.velocity = fake_vec(1, 2, 3);
     r.input.flags = TAHR_INPUT_GRAVITY;
@@ -332,6 +342,7 @@ int main(void)
                                        cmocka_unit_test(jump_has_its_apex_and_landing_where_the_parabola_says),
                                        cmocka_unit_test(jump_events_come_in_order_and_once),
                                        cmocka_unit_test(running_jump_covers_the_closed_distance),
+                                       cmocka_unit_test(jump_from_a_slope_keeps_the_level_part_of_the_speed),
                                        cmocka_unit_test(air_control_accelerates_by_its_share),
                                        cmocka_unit_test(fall_is_never_faster_than_terminal),
                                        cmocka_unit_test(held_jump_rises_by_the_hold),

@@ -11,7 +11,6 @@
 #include <cmocka.h>
 
 #include "fake_world.h"
-
 #include "float_mode.h"
 
 static void the_test_machine_is_fit(void **unused)
@@ -26,7 +25,7 @@ static void other_rounding_modes_are_noticed(void **unused)
     (void)unused;
     for (int i = 0; i < 3; i++) {
         fake_world w;
-        tahr_callbacks c = {.struct_size = sizeof c, .user = &w, .sweep = fake_sweep};
+        tahr_callbacks c = fake_callbacks(&w);
         tahr_world *world = NULL;
         assert_int_equal(fesetround(modes[i]), 0);
         const char *problem = tahr__float_mode_problem();

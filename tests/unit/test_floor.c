@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "rig.h"
 
 static const double DEGREE = 0.017453292519943295;
 
@@ -70,8 +70,7 @@ static void walkable_floor_gets_the_hysteresis_and_loses_it_beyond(void **unused
     (void)unused;
     fake_world_init(&w);
     fake_add_slope(&w, 49.9);
-    rig_open(&r, &w, NULL, fake_vec(0, 0, 2));
-    rig_settle(&r);
+    rig_stand(&r, &w, NULL, fake_vec(0, 0, 2));
     w.count = 0;
     fake_add_slope(&w, 50.5); /* the ground tilts */
     tahr_world_touch(r.world);
@@ -85,6 +84,35 @@ static void walkable_floor_gets_the_hysteresis_and_loses_it_beyond(void **unused
     rig_close(&r);
 }
 
+/* Stands on a slope that is then another one: is that still a floor? */
+static int floor_stays(double degrees, double then, int other_body)
+{
+    fake_world w;
+    rig r;
+    fake_world_init(&w);
+    fake_add_slope(&w, degrees);
+    rig_stand(&r, &w, NULL, fake_vec(0, 0, 2));
+    w.count = 0;
+    if (other_body) {
+        fake_add_box(&w, fake_vec(90, 90, 90), fake_vec(91, 91, 91));
+    }
+    fake_add_slope(&w, then)->offset = -0.02; /* no overlap */
+    tahr_world_touch(r.world);
+    rig_steps(&r, 10, 1.0 / 60);
+    int stays = r.state.mode == TAHR_MODE_WALKING;
+    rig_close(&r);
+    return stays;
+}
+
+static void another_face_gets_no_hysteresis(void **unused)
+{
+    (void)unused;
+    assert_true(floor_stays(49.9, 50.5, 0));
+    assert_false(floor_stays(49.9, 50.5, 1));
+    assert_false(floor_stays(49, 50.5, 0)); /* the body may have many faces */
+    assert_true(floor_stays(49, 49.9, 1));
+}
+
 /* Flat ground that meets a slope at x = 0. */
 static void too_steep_slopes_are_walls_to_one_who_comes_from_flat_ground(void **unused)
 {
@@ -93,11 +121,9 @@ static void too_steep_slopes_are_walls_to_one_who_comes_from_flat_ground(void **
     for (int i = 0; i < 3; i++) {
         fake_world w;
         rig r;
-        fake_world_init(&w);
-        fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+        fake_world_flat(&w);
         fake_add_slope(&w, degrees[i]);
-        rig_open(&r, &w, NULL, fake_vec(-2, 0, 1));
-        rig_settle(&r);
+        rig_stand(&r, &w, NULL, fake_vec(-2, 0, 1));
         r.input.move = fake_vec(1, 0, 0);
         rig_steps(&r, 90, 1.0 / 60);
         assert_true(i == 0 ? r.state.position.z > 2 : r.state.position.z < 0.95);
@@ -141,8 +167,7 @@ static void rim_contacts_are_no_floor(void **unused)
     fake_world w;
     rig r;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     /* A post beside the foot whose top is met by the outermost hundredth of a millimetre of the shape plus skin. */
     fake_add_box(&w, fake_vec(0.35 + 0.01 - 1e-5, -1, 0), fake_vec(2, 1, 0.6));
     rig_open(&r, &w, NULL, fake_vec(0, 0, 2));
@@ -167,8 +192,7 @@ static void wedge_of_two_steep_faces_holds_and_lets_jump(void **unused)
     rig r;
     (void)unused;
     wedge(&w, 60);
-    rig_open(&r, &w, NULL, fake_vec(0.1, 0, 3));
-    rig_settle(&r);
+    rig_stand(&r, &w, NULL, fake_vec(0.1, 0, 3));
     assert_true(r.state.floor.flags & TAHR_FLOOR_WEDGED);
     assert_near(r.state.position.x, 0, 1e-3);
     assert_true(fake_clearance(&w, &r.config.shape, r.state.position) > 0.01 - 1e-7);
@@ -185,8 +209,7 @@ static void wedge_lets_walk_along_it(void **unused)
     rig r;
     (void)unused;
     wedge(&w, 60);
-    rig_open(&r, &w, NULL, fake_vec(0, 0, 3));
-    rig_settle(&r);
+    rig_stand(&r, &w, NULL, fake_vec(0, 0, 3));
     r.input.move = fake_vec(0, 1, 0);
     rig_steps(&r, 120, 1.0 / 60);
     assert_true(r.state.position.y > 6);
@@ -200,8 +223,7 @@ static void height_band_is_left_alone_and_corrected_outside(void **unused)
     fake_world w;
     rig r;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     for (int i = 0; i < 3; i++) {
         rig_open(&r, &w, NULL, fake_vec(0, 0, 0.9 + gaps[i]));
         r.state.mode = TAHR_MODE_WALKING;
@@ -257,6 +279,7 @@ int main(void)
                                        cmocka_unit_test(overrides_widen_narrow_or_forbid),
                                        cmocka_unit_test(override_angles_beyond_a_right_angle_are_taken_as_one),
                                        cmocka_unit_test(walkable_floor_gets_the_hysteresis_and_loses_it_beyond),
+                                       cmocka_unit_test(another_face_gets_no_hysteresis),
                                        cmocka_unit_test(too_steep_slopes_are_walls_to_one_who_comes_from_flat_ground),
                                        cmocka_unit_test(perching_ends_where_the_thinner_foot_leaves_the_edge),
                                        cmocka_unit_test(rim_contacts_are_no_floor),

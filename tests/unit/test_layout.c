@@ -40,11 +40,10 @@ static void end(size_t size)
     }
 }
 
-#define BEGIN(type)      \
-    struct align_##type \
-    {                    \
-        char first;      \
-        type second;     \
+#define BEGIN(type)       \
+    struct align_##type { \
+        char first;       \
+        type second;      \
     };
 #define FIELD(type, name, text)
 #define END(type)

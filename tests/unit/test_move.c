@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "rig.h"
 
 static void overlap_with_one_plane_is_left_by_the_shortest_way(void **unused)
 {
@@ -72,11 +72,53 @@ static void too_narrow_a_corridor_halves_the_overlap_and_says_crushed(void **unu
     rig_close(&r);
 }
 
+/* Three walls on one side outweigh the one on the other: the least-squares push would go on past the middle. */
+static void a_push_that_makes_it_worse_is_not_taken(void **unused)
+{
+    fake_world w;
+    rig r;
+    (void)unused;
+    fake_world_flat(&w);
+    fake_add_plane(&w, fake_vec(1, 0, 0), -0.3);
+    for (int i = -1; i <= 1; i++) {
+        fake_add_plane(&w, fake_vec(-cos(0.05 * i), sin(0.05 * i), 0), -0.3);
+    }
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 0.9125)); /* 0.05 m in all four */
+    rig_step(&r, 1.0 / 60);
+    assert_near(r.state.position.x, 0, 0);
+    assert_near(r.state.position.y, 0, 0);
+    assert_null(rig_event(&r, TAHR_EVENT_DEPENETRATED));
+    assert_true(r.report.flags & TAHR_REPORT_CRUSHED);
+    assert_near(r.report.residual, 0.05, 1e-12);
+    rig_close(&r);
+}
+
+static void sensors_do_not_push(void **unused)
+{
+    tahr_body_desc bodies[2];
+    rig r;
+    (void)unused;
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(tahr_body_desc_init(&bodies[i], sizeof bodies[i], TAHR_BODY_BOX), TAHR_OK);
+        bodies[i].half_extents = fake_vec(5, 5, 1);
+    }
+    bodies[0].pose.position = fake_vec(0, 0, -1);
+    bodies[1].pose.position = fake_vec(5.2, 0, 0.5); /* 0.15 m in, which is deeper than the floor */
+    bodies[1].flags = TAHR_BODY_SENSOR;
+    rig_open_bodies(&r, bodies, 2, NULL, fake_vec(0, 0, 0.85));
+    rig_step(&r, 1.0 / 60);
+    assert_near(r.state.position.x, 0, 0);
+    assert_near(r.state.position.z, 0.91, 0.006);
+    const tahr_event *e = rig_event(&r, TAHR_EVENT_DEPENETRATED);
+    assert_true(e && e->body == 0);
+    rig_close(&r);
+}
+
 static void push_is_limited_per_step_and_goes_on_in_the_next(void **unused)
 {
     fake_world w;
     rig r;
-    tahr_config c = fake_config();
+    tahr_config c = rig_config();
     (void)unused;
     c.max_depenetration = 0.1;
     fake_world_init(&w);
@@ -98,11 +140,9 @@ static void standing_character_that_something_entered_is_pushed_out(void **unuse
     fake_world w;
     rig r;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     fake_add_plane(&w, fake_vec(-1, 0, 0), -1);
-    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
-    rig_settle(&r);
+    rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
     w.solids[1].offset = -0.2; /* the wall came 0.15 m into the character */
     tahr_world_touch(r.world);
     rig_steps(&r, 3, 1.0 / 60);
@@ -115,10 +155,8 @@ static void floor_that_rose_into_the_character_lifts_it(void **unused)
     fake_world w;
     rig r;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
-    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
-    rig_settle(&r);
+    fake_world_flat(&w);
+    rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
     w.solids[0].offset = 0.1;
     tahr_world_touch(r.world);
     rig_steps(&r, 3, 1.0 / 60);
@@ -132,6 +170,8 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(overlap_with_one_plane_is_left_by_the_shortest_way),
                                        cmocka_unit_test(overlap_in_a_corner_is_left_at_once),
                                        cmocka_unit_test(too_narrow_a_corridor_halves_the_overlap_and_says_crushed),
+                                       cmocka_unit_test(a_push_that_makes_it_worse_is_not_taken),
+                                       cmocka_unit_test(sensors_do_not_push),
                                        cmocka_unit_test(push_is_limited_per_step_and_goes_on_in_the_next),
                                        cmocka_unit_test(standing_character_that_something_entered_is_pushed_out),
                                        cmocka_unit_test(floor_that_rose_into_the_character_lifts_it)};

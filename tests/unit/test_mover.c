@@ -9,47 +9,12 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
-
-typedef struct checked {
-    fake_world fake;
-    fake_log log;
-    tahr_world *world;
-    tahr_mover *mover;
-    tahr_config config;
-    tahr_state state;
-    tahr_input input;
-} checked;
-
-static void open_checked(checked *c)
-{
-    tahr_callbacks callbacks = {
-        .struct_size = sizeof callbacks, .user = &c->fake, .sweep = fake_sweep, .contacts = fake_contacts};
-    tahr_log log = fake_log_of(&c->log);
-    tahr_world_desc desc;
-    tahr_vec3 at = {0, 0, 1};
-    fake_world_init(&c->fake);
-    fake_add_plane(&c->fake, fake_vec(0, 0, 1), 0);
-    assert_int_equal(tahr_world_desc_init(&desc, sizeof desc), TAHR_OK);
-    desc.log = &log;
-    assert_int_equal(tahr_world_open_callbacks(&callbacks, &desc, &c->world), TAHR_OK);
-    c->config = fake_config();
-    assert_int_equal(tahr_mover_create(c->world, &c->config, &c->mover), TAHR_OK);
-    assert_int_equal(tahr_state_init(&c->state, &c->config, &at), TAHR_OK);
-    memset(&c->input, 0, sizeof c->input);
-    c->input.struct_size = sizeof c->input;
-}
-
-static void close_checked(checked *c)
-{
-    tahr_mover_destroy(c->mover);
-    tahr_world_close(c->world);
-}
+#include "rig.h"
 
 /* The step must fail so, name the field, and touch nothing. */
-static void expect(checked *c, double dt, tahr_status status, const char *field)
+static void expect(rig *r, double dt, tahr_status status, const char *field)
 {
-    tahr_state state = c->state;
+    tahr_state state = r->state;
     tahr_event event;
     tahr_report report, before;
     memset(&report, 0x33, sizeof report);
@@ -59,106 +24,114 @@ static void expect(checked *c, double dt, tahr_status status, const char *field)
     report.event_capacity = 1;
     report.decisions = NULL;
     before = report;
-    c->log.count = 0;
-    tahr_status got = tahr_mover_step(c->mover, &c->input, dt, &c->state, &report);
+    r->log.count = 0;
+    tahr_status got = tahr_mover_step(r->mover, &r->input, dt, &r->state, &report);
     if (got != status) {
         fail_msg("%s: %s instead of %s", field, tahr_status_name(got), tahr_status_name(status));
     }
-    assert_memory_equal(&state, &c->state, sizeof state);
+    assert_memory_equal(&state, &r->state, sizeof state);
     assert_memory_equal(&report, &before, sizeof report);
-    assert_int_equal(c->log.count, 1);
-    if (!strstr(c->log.text, field) || !strstr(c->log.text, "tahr_mover_step")) {
-        fail_msg("the message \"%s\" does not name %s", c->log.text, field);
+    assert_int_equal(r->log.count, 1);
+    if (!strstr(r->log.text, field) || !strstr(r->log.text, "tahr_mover_step")) {
+        fail_msg("the message \"%s\" does not name %s", r->log.text, field);
     }
 }
 
 static void dt_out_of_range_is_refused(void **unused)
 {
     const double bad[] = {-1e-9, -1, NAN, INFINITY, -INFINITY, 1.0000001, 1e9};
-    checked c;
+    fake_world w;
+    rig r;
     (void)unused;
-    open_checked(&c);
+    fake_world_flat(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
     for (int i = 0; i < 7; i++) {
-        expect(&c, bad[i], TAHR_E_ARGUMENT, "dt");
+        expect(&r, bad[i], TAHR_E_ARGUMENT, "dt");
     }
-    assert_int_equal(tahr_mover_step(c.mover, &c.input, 1, &c.state, NULL), TAHR_OK);
-    close_checked(&c);
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 1, &r.state, NULL), TAHR_OK);
+    rig_close(&r);
 }
 
 static void dt_zero_changes_nothing_and_zeroes_the_report(void **unused)
 {
-    checked c;
+    fake_world w;
+    rig r;
     tahr_report report;
     tahr_event events[4];
     (void)unused;
-    open_checked(&c);
-    tahr_state before = c.state;
+    fake_world_flat(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
+    tahr_state before = r.state;
     memset(&report, 0x77, sizeof report);
     report.struct_size = sizeof report;
     report.events = events;
     report.event_capacity = 4;
     report.decisions = NULL;
-    c.input.jump = 1;
-    c.input.move.x = 1;
-    assert_int_equal(tahr_mover_step(c.mover, &c.input, 0, &c.state, &report), TAHR_OK);
-    assert_memory_equal(&before, &c.state, sizeof before);
+    r.input.jump = 1;
+    r.input.move.x = 1;
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 0, &r.state, &report), TAHR_OK);
+    assert_memory_equal(&before, &r.state, sizeof before);
     assert_int_equal(report.flags, 0);
     assert_int_equal(report.event_count + report.events_lost + report.sweeps + report.slices + report.decision_count, 0);
     assert_true(report.events == events && report.event_capacity == 4 && report.struct_size == sizeof report);
     assert_true(report.step_offset == 0 && report.residual == 0 && report.time_lost == 0 && report.triangle_tests == 0);
-    assert_int_equal(tahr_mover_step(c.mover, &c.input, -0.0, &c.state, NULL), TAHR_OK);
-    close_checked(&c);
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, -0.0, &r.state, NULL), TAHR_OK);
+    rig_close(&r);
 }
 
 static void null_arguments_are_refused(void **unused)
 {
-    checked c;
+    fake_world w;
+    rig r;
     (void)unused;
-    open_checked(&c);
-    assert_int_equal(tahr_mover_step(NULL, &c.input, 0.1, &c.state, NULL), TAHR_E_NULL);
-    assert_int_equal(tahr_mover_step(c.mover, NULL, 0.1, &c.state, NULL), TAHR_E_NULL);
-    assert_int_equal(tahr_mover_step(c.mover, &c.input, 0.1, NULL, NULL), TAHR_E_NULL);
-    tahr_mover *mover = (tahr_mover *)&c;
-    assert_int_equal(tahr_mover_create(NULL, &c.config, &mover), TAHR_E_NULL);
-    assert_int_equal(tahr_mover_create(c.world, NULL, &mover), TAHR_E_NULL);
-    assert_int_equal(tahr_mover_create(c.world, &c.config, NULL), TAHR_E_NULL);
-    assert_true(mover == (tahr_mover *)&c);
+    fake_world_flat(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
+    assert_int_equal(tahr_mover_step(NULL, &r.input, 0.1, &r.state, NULL), TAHR_E_NULL);
+    assert_int_equal(tahr_mover_step(r.mover, NULL, 0.1, &r.state, NULL), TAHR_E_NULL);
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.1, NULL, NULL), TAHR_E_NULL);
+    tahr_mover *mover = (tahr_mover *)&r;
+    assert_int_equal(tahr_mover_create(NULL, &r.config, &mover), TAHR_E_NULL);
+    assert_int_equal(tahr_mover_create(r.world, NULL, &mover), TAHR_E_NULL);
+    assert_int_equal(tahr_mover_create(r.world, &r.config, NULL), TAHR_E_NULL);
+    assert_true(mover == (tahr_mover *)&r);
     tahr_mover_destroy(NULL);
-    close_checked(&c);
+    rig_close(&r);
 }
 
 static void every_input_field_is_checked(void **unused)
 {
     const double bad[] = {NAN, INFINITY, -INFINITY, 1e300};
-    checked c;
+    fake_world w;
+    rig r;
     (void)unused;
-    open_checked(&c);
+    fake_world_flat(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
     for (int i = 0; i < 4; i++) {
         for (int axis = 0; axis < 3; axis++) {
-            memset(&c.input.move, 0, 3 * sizeof c.input.move);
-            (&c.input.move.x)[axis] = bad[i];
-            expect(&c, 0.1, TAHR_E_ARGUMENT, "input.move");
-            c.input.move = fake_vec(0, 0, 0);
-            c.input.flags = TAHR_INPUT_FACING;
-            (&c.input.facing.x)[axis] = bad[i];
-            expect(&c, 0.1, TAHR_E_ARGUMENT, "input.facing");
-            c.input.facing = fake_vec(0, 0, 0);
-            c.input.flags = TAHR_INPUT_GRAVITY;
-            (&c.input.gravity.x)[axis] = bad[i];
-            expect(&c, 0.1, TAHR_E_ARGUMENT, "input.gravity");
-            c.input.flags = 0;
+            memset(&r.input.move, 0, 3 * sizeof r.input.move);
+            (&r.input.move.x)[axis] = bad[i];
+            expect(&r, 0.1, TAHR_E_ARGUMENT, "input.move");
+            r.input.move = fake_vec(0, 0, 0);
+            r.input.flags = TAHR_INPUT_FACING;
+            (&r.input.facing.x)[axis] = bad[i];
+            expect(&r, 0.1, TAHR_E_ARGUMENT, "input.facing");
+            r.input.facing = fake_vec(0, 0, 0);
+            r.input.flags = TAHR_INPUT_GRAVITY;
+            (&r.input.gravity.x)[axis] = bad[i];
+            expect(&r, 0.1, TAHR_E_ARGUMENT, "input.gravity");
+            r.input.flags = 0;
         }
     }
-    memset(&c.input.move, 0, 3 * sizeof c.input.move);
-    c.input.facing.x = NAN; /* without its flag it is not read */
-    c.input.gravity.y = NAN;
-    assert_int_equal(tahr_mover_step(c.mover, &c.input, 0.01, &c.state, NULL), TAHR_OK);
-    c.input.flags = 1u << 9;
-    expect(&c, 0.1, TAHR_E_ARGUMENT, "input.flags");
-    c.input.flags = 0;
-    c.input.reserved = 7;
-    expect(&c, 0.1, TAHR_E_ARGUMENT, "input.reserved");
-    close_checked(&c);
+    memset(&r.input.move, 0, 3 * sizeof r.input.move);
+    r.input.facing.x = NAN; /* without its flag it is not read */
+    r.input.gravity.y = NAN;
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.01, &r.state, NULL), TAHR_OK);
+    r.input.flags = 1u << 9;
+    expect(&r, 0.1, TAHR_E_ARGUMENT, "input.flags");
+    r.input.flags = 0;
+    r.input.reserved = 7;
+    expect(&r, 0.1, TAHR_E_ARGUMENT, "input.reserved");
+    rig_close(&r);
 }
 
 typedef struct field {
@@ -194,41 +167,45 @@ static void every_number_of_the_state_is_checked(void **unused)
                                    {"state", offsetof(tahr_state, floor_position.z)},
                                    {"state", offsetof(tahr_state, jump_hold)}};
     const double bad[] = {NAN, INFINITY, -INFINITY};
-    checked c;
+    fake_world w;
+    rig r;
     (void)unused;
-    open_checked(&c);
-    tahr_state good = c.state;
+    fake_world_flat(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
+    tahr_state good = r.state;
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
         for (int k = 0; k < 3; k++) {
-            c.state = good;
-            memcpy((char *)&c.state + fields[i].offset, &bad[k], sizeof bad[k]);
-            expect(&c, 0.1, TAHR_E_ARGUMENT, fields[i].name);
+            r.state = good;
+            memcpy((char *)&r.state + fields[i].offset, &bad[k], sizeof bad[k]);
+            expect(&r, 0.1, TAHR_E_ARGUMENT, fields[i].name);
         }
     }
-    close_checked(&c);
+    rig_close(&r);
 }
 
 static void state_out_of_range_is_refused(void **unused)
 {
-    checked c;
+    fake_world w;
+    rig r;
     (void)unused;
-    open_checked(&c);
-    tahr_state good = c.state;
-    c.state.position.x = 3e7;
-    expect(&c, 0.1, TAHR_E_ARGUMENT, "state.position");
-    c.state = good, c.state.velocity.y = 1e9;
-    expect(&c, 0.1, TAHR_E_ARGUMENT, "state.velocity");
-    c.state = good, c.state.orientation.w = 0;
-    expect(&c, 0.1, TAHR_E_ARGUMENT, "state.orientation");
-    c.state = good, c.state.up.z = 2;
-    expect(&c, 0.1, TAHR_E_ARGUMENT, "state.up");
-    c.state = good, c.state.mode = 77;
-    expect(&c, 0.1, TAHR_E_ARGUMENT, "state.mode");
-    c.state = good, c.state.flags = 1u << 20;
-    expect(&c, 0.1, TAHR_E_ARGUMENT, "state.flags");
-    c.state = good, c.state.reserved[255] = 1;
-    expect(&c, 0.1, TAHR_E_ARGUMENT, "state.reserved");
-    close_checked(&c);
+    fake_world_flat(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
+    tahr_state good = r.state;
+    r.state.position.x = 3e7;
+    expect(&r, 0.1, TAHR_E_ARGUMENT, "state.position");
+    r.state = good, r.state.velocity.y = 1e9;
+    expect(&r, 0.1, TAHR_E_ARGUMENT, "state.velocity");
+    r.state = good, r.state.orientation.w = 0;
+    expect(&r, 0.1, TAHR_E_ARGUMENT, "state.orientation");
+    r.state = good, r.state.up.z = 2;
+    expect(&r, 0.1, TAHR_E_ARGUMENT, "state.up");
+    r.state = good, r.state.mode = 77;
+    expect(&r, 0.1, TAHR_E_ARGUMENT, "state.mode");
+    r.state = good, r.state.flags = 1u << 20;
+    expect(&r, 0.1, TAHR_E_ARGUMENT, "state.flags");
+    r.state = good, r.state.reserved[255] = 1;
+    expect(&r, 0.1, TAHR_E_ARGUMENT, "state.reserved");
+    rig_close(&r);
 }
 
 static void struct_sizes_are_checked(void **unused)
@@ -237,24 +214,26 @@ static void struct_sizes_are_checked(void **unused)
         tahr_input input;
         unsigned char tail[8];
     } longer;
-    checked c;
+    fake_world w;
+    rig r;
     tahr_report report;
     (void)unused;
-    open_checked(&c);
-    c.input.struct_size = sizeof c.input - 1;
-    expect(&c, 0.1, TAHR_E_STRUCT_SIZE, "input");
-    c.input.struct_size = sizeof c.input;
+    fake_world_flat(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
+    r.input.struct_size = sizeof r.input - 1;
+    expect(&r, 0.1, TAHR_E_STRUCT_SIZE, "input");
+    r.input.struct_size = sizeof r.input;
     memset(&longer, 0, sizeof longer);
     longer.input.struct_size = sizeof longer;
-    assert_int_equal(tahr_mover_step(c.mover, &longer.input, 0.01, &c.state, NULL), TAHR_OK);
+    assert_int_equal(tahr_mover_step(r.mover, &longer.input, 0.01, &r.state, NULL), TAHR_OK);
     longer.tail[7] = 1;
-    tahr_state before = c.state;
-    assert_int_equal(tahr_mover_step(c.mover, &longer.input, 0.01, &c.state, NULL), TAHR_E_UNSUPPORTED);
+    tahr_state before = r.state;
+    assert_int_equal(tahr_mover_step(r.mover, &longer.input, 0.01, &r.state, NULL), TAHR_E_UNSUPPORTED);
     memset(&report, 0, sizeof report);
     report.struct_size = sizeof report - 4;
-    assert_int_equal(tahr_mover_step(c.mover, &c.input, 0.01, &c.state, &report), TAHR_E_STRUCT_SIZE);
-    assert_memory_equal(&before, &c.state, sizeof before);
-    close_checked(&c);
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.01, &r.state, &report), TAHR_E_STRUCT_SIZE);
+    assert_memory_equal(&before, &r.state, sizeof before);
+    rig_close(&r);
 }
 
 static void create_names_the_bad_field_and_leaves_the_output(void **unused)
@@ -263,24 +242,26 @@ static void create_names_the_bad_field_and_leaves_the_output(void **unused)
         tahr_config c;
         unsigned char tail[8];
     } longer;
-    checked c;
-    tahr_mover *mover = (tahr_mover *)&c;
+    fake_world w;
+    rig r;
+    tahr_mover *mover = (tahr_mover *)&r;
     (void)unused;
-    open_checked(&c);
-    c.config.skin = NAN;
-    assert_int_equal(tahr_mover_create(c.world, &c.config, &mover), TAHR_E_ARGUMENT);
-    assert_non_null(strstr(c.log.text, "skin"));
-    c.config.struct_size = 8;
-    assert_int_equal(tahr_mover_create(c.world, &c.config, &mover), TAHR_E_STRUCT_SIZE);
+    fake_world_flat(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
+    r.config.skin = NAN;
+    assert_int_equal(tahr_mover_create(r.world, &r.config, &mover), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(r.log.text, "skin"));
+    r.config.struct_size = 8;
+    assert_int_equal(tahr_mover_create(r.world, &r.config, &mover), TAHR_E_STRUCT_SIZE);
     memset(&longer, 0, sizeof longer);
     tahr_config_init(&longer.c, sizeof longer, TAHR_PRESET_PRECISE);
     longer.tail[0] = 9;
-    assert_int_equal(tahr_mover_create(c.world, &longer.c, &mover), TAHR_E_UNSUPPORTED);
-    assert_true(mover == (tahr_mover *)&c);
+    assert_int_equal(tahr_mover_create(r.world, &longer.c, &mover), TAHR_E_UNSUPPORTED);
+    assert_true(mover == (tahr_mover *)&r);
     longer.tail[0] = 0;
-    assert_int_equal(tahr_mover_create(c.world, &longer.c, &mover), TAHR_OK);
+    assert_int_equal(tahr_mover_create(r.world, &longer.c, &mover), TAHR_OK);
     tahr_mover_destroy(mover);
-    close_checked(&c);
+    rig_close(&r);
 }
 
 static tahr_mover *inner_mover;
@@ -295,30 +276,34 @@ static void step_again(fake_world *w)
 
 static void stepping_inside_a_callback_is_refused_and_harmless(void **unused)
 {
-    checked c;
+    fake_world w;
+    rig r;
     (void)unused;
-    open_checked(&c);
-    tahr_state other = c.state, before = c.state;
-    c.fake.user = &other;
-    c.fake.on_sweep = step_again;
-    inner_mover = c.mover;
-    assert_int_equal(tahr_mover_step(c.mover, &c.input, 0.1, &c.state, NULL), TAHR_OK);
+    fake_world_flat(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
+    tahr_state other = r.state, before = r.state;
+    w.user = &other;
+    w.on_sweep = step_again;
+    inner_mover = r.mover;
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.1, &r.state, NULL), TAHR_OK);
     assert_int_equal(inner_status, TAHR_E_REENTRANT);
     assert_memory_equal(&other, &before, sizeof other);
-    assert_non_null(strstr(c.log.text, "mover"));
-    c.fake.on_sweep = NULL;
-    assert_int_equal(tahr_mover_step(c.mover, &c.input, 0.1, &c.state, NULL), TAHR_OK); /* free again */
-    close_checked(&c);
+    assert_non_null(strstr(r.log.text, "mover"));
+    w.on_sweep = NULL;
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.1, &r.state, NULL), TAHR_OK); /* free again */
+    rig_close(&r);
 }
 
 static void a_failed_step_leaves_the_mover_usable(void **unused)
 {
-    checked c;
+    fake_world w;
+    rig r;
     (void)unused;
-    open_checked(&c);
-    expect(&c, NAN, TAHR_E_ARGUMENT, "dt");
-    assert_int_equal(tahr_mover_step(c.mover, &c.input, 0.1, &c.state, NULL), TAHR_OK);
-    close_checked(&c);
+    fake_world_flat(&w);
+    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
+    expect(&r, NAN, TAHR_E_ARGUMENT, "dt");
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.1, &r.state, NULL), TAHR_OK);
+    rig_close(&r);
 }
 
 static void jump_starts_only_when_the_button_goes_down_on_ground(void **unused)
@@ -327,8 +312,7 @@ static void jump_starts_only_when_the_button_goes_down_on_ground(void **unused)
     rig r;
     int jumps = 0;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     rig_open(&r, &w, NULL, fake_vec(0, 0, 1.2));
     r.input.jump = 1; /* pressed in the air, held on landing */
     for (int i = 0; i < 60; i++) {

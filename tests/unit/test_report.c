@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "rig.h"
 
 /* One jump from start to landing in one step: six events or more. */
 static tahr_status jump(uint32_t events, uint32_t decisions, tahr_report *report, tahr_state *end, tahr_event *storage)
@@ -17,10 +17,8 @@ static tahr_status jump(uint32_t events, uint32_t decisions, tahr_report *report
     fake_world w;
     rig r;
     static tahr_decision kept[64];
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
-    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
-    rig_settle(&r);
+    fake_world_flat(&w);
+    rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
     r.input.jump = 1;
     memset(report, 0, sizeof *report);
     report->struct_size = sizeof *report;
@@ -86,8 +84,7 @@ static void unused_report_words_are_written_not_added_to(void **unused)
     fake_world w;
     rig r;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     rig_open(&r, &w, NULL, fake_vec(0, 0, 50));
     memset(&report, 0x7F, sizeof report);
     report.struct_size = sizeof report;
@@ -112,6 +109,7 @@ static void mode_none_rests_and_takes_its_time(void **unused)
     rig_step(&r, 0.5);
     assert_true(r.state.position.z == 5 && r.state.position.x == 0 && r.state.mode == TAHR_MODE_NONE);
     assert_int_equal(w.sweeps + w.contact_queries, 0);
+    assert_true(r.report.slices == 1 && r.report.event_count == 0 && r.report.time_lost == 0);
     rig_close(&r);
 }
 

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "rig.h"
 #include "slide.h"
 
 static void slide_leaves_every_plane_and_never_lengthens(void **unused)
@@ -38,7 +38,7 @@ static void no_plane_keeps_the_motion_and_a_dead_end_stops_it(void **unused)
 
 static void planes_are_forgotten_beyond_a_skin(void **unused)
 {
-    tahr_config c = fake_config();
+    tahr_config c = rig_config();
     tahr__step step;
     tahr__plane planes[2] = {{.normal = {1, 0, 0}, .anchor = {0, 0, 0}},
                              {.normal = {0, 1, 0}, .anchor = {0, 0, 0}, .feature = 1}};

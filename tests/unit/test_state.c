@@ -9,11 +9,11 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "rig.h"
 
 static void init_makes_a_standing_character_and_refuses_bad_places(void **unused)
 {
-    tahr_config c = fake_config();
+    tahr_config c = rig_config();
     tahr_state s, before;
     tahr_vec3 at = {1, -2, 3};
     const double bad[] = {NAN, INFINITY, -INFINITY, 1.1e7};
@@ -33,7 +33,7 @@ static void init_makes_a_standing_character_and_refuses_bad_places(void **unused
     c.struct_size = 4;
     assert_int_equal(tahr_state_init(&s, &c, &at), TAHR_E_STRUCT_SIZE);
     assert_memory_equal(&s, &before, sizeof s);
-    c = fake_config();
+    c = rig_config();
     assert_int_equal(tahr_state_init(&s, &c, &at), TAHR_OK);
     assert_true(s.position.x == 1 && s.mode == TAHR_MODE_FALLING && s.up.z == 1 && s.orientation.w == 1 &&
                 s.floor_revision == 0);
@@ -44,7 +44,7 @@ static void init_makes_a_standing_character_and_refuses_bad_places(void **unused
 
 static void up_is_opposite_to_any_gravity(void **unused)
 {
-    tahr_config c = fake_config();
+    tahr_config c = rig_config();
     tahr_state s;
     tahr_vec3 at = {0, 0, 0};
     (void)unused;
@@ -70,7 +70,7 @@ static uint64_t textbook(const void *memory, size_t size)
 
 static void hash_is_fnv1a_with_one_zero(void **unused)
 {
-    tahr_config c = fake_config();
+    tahr_config c = rig_config();
     tahr_state s, t;
     tahr_vec3 at = {1, -2, 3};
     (void)unused;
@@ -92,8 +92,7 @@ static void steps_leave_no_minus_zero(void **unused)
     fake_world w;
     rig r;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
     r.state.velocity = fake_vec(-0.0, -0.0, -0.0);
     for (int i = 0; i < 60; i++) {

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include <tahr/tahr.h>
 
 static void every_status_has_a_name_and_a_message(void **unused)
 {
@@ -33,6 +33,11 @@ static void modes_events_and_rules_have_names(void **unused)
     assert_string_equal(tahr_event_name(TAHR_EVENT_LANDED), "landed");
     assert_string_equal(tahr_event_name(TAHR_EVENT_STEPPED_DOWN), "stepped_down");
     assert_string_equal(tahr_event_name(TAHR_EVENT_MODE), "mode");
+    for (uint32_t type = TAHR_EVENT_LANDED; type <= TAHR_EVENT_MODE; type++) {
+        for (uint32_t other = 0; other < type; other++) {
+            assert_string_not_equal(tahr_event_name(type), tahr_event_name(other));
+        }
+    }
     assert_string_equal(tahr_event_name(0), "?");
     assert_string_equal(tahr_event_name(13), "?");
     assert_string_equal(tahr_event_name(0xFFFFFFFFu), "?");

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "rig.h"
 
 static double yaw(const tahr_state *s)
 {
@@ -19,10 +19,8 @@ static double yaw(const tahr_state *s)
 
 static void open_flat(rig *r, fake_world *w)
 {
-    fake_world_init(w);
-    fake_add_plane(w, fake_vec(0, 0, 1), 0);
-    rig_open(r, w, NULL, fake_vec(0, 0, 1));
-    rig_settle(r);
+    fake_world_flat(w);
+    rig_stand(r, w, NULL, fake_vec(0, 0, 1));
 }
 
 static void facing_turns_at_the_turn_rate_and_stops_at_the_goal(void **unused)
@@ -124,12 +122,10 @@ static void up_is_refused_where_the_turned_shape_would_overlap(void **unused)
     fake_world w;
     rig r;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     fake_add_plane(&w, fake_vec(-1, 0, 0), -0.5);
     fake_add_plane(&w, fake_vec(1, 0, 0), -0.5); /* a shaft, too narrow to lie in */
-    rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
-    rig_settle(&r);
+    rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
     r.input.flags = TAHR_INPUT_GRAVITY;
     r.input.gravity = fake_vec(9.81, 0, 0);
     rig_step(&r, 1.0 / 60);
@@ -144,8 +140,7 @@ static void turning_gravity_upside_down_walks_on_the_ceiling(void **unused)
     fake_world w;
     rig r;
     (void)unused;
-    fake_world_init(&w);
-    fake_add_plane(&w, fake_vec(0, 0, 1), 0);
+    fake_world_flat(&w);
     fake_add_plane(&w, fake_vec(0, 0, -1), -6);
     rig_open(&r, &w, NULL, fake_vec(0, 0, 3));
     r.input.flags = TAHR_INPUT_GRAVITY;

@@ -9,7 +9,8 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "dice.h"
+#include "near.h"
 #include "velocity.h"
 
 typedef struct oracle {
@@ -125,30 +126,19 @@ static void over_speed_brakes_to_the_asked_speed_and_keeps_it(void **unused)
     assert_true(m.stop_time < 0);
 }
 
-static uint64_t next_random(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return *state >> 33;
-}
-
-static double real(uint64_t *state, double low, double high)
-{
-    return low + (high - low) * (double)next_random(state) / 2147483648.0;
-}
-
 static void halves_compose_to_the_whole(void **unused)
 {
-    uint64_t seed = 7;
+    oracle_random seed = {7};
     (void)unused;
     for (int i = 0; i < 20000; i++) {
-        tahr__law law = {.wish = unit(vec(real(&seed, -1, 1), real(&seed, -1, 1), 0)),
-                         .speed = real(&seed, 0, 8),
-                         .acceleration = i % 5 ? real(&seed, 0, 40) : 0,
-                         .turn_friction = i % 7 ? real(&seed, 0, 20) : 0,
-                         .braking = i % 3 ? real(&seed, 0, 30) : 0,
-                         .drag = i % 4 ? real(&seed, 0, 20) : 0};
-        vec3 v = vec(real(&seed, -10, 10), real(&seed, -10, 10), 0);
-        double t = real(&seed, 0, 0.6), split = t * real(&seed, 0, 1);
+        tahr__law law = {.wish = unit(vec(oracle_uniform(&seed, -1, 1), oracle_uniform(&seed, -1, 1), 0)),
+                         .speed = oracle_uniform(&seed, 0, 8),
+                         .acceleration = i % 5 ? oracle_uniform(&seed, 0, 40) : 0,
+                         .turn_friction = i % 7 ? oracle_uniform(&seed, 0, 20) : 0,
+                         .braking = i % 3 ? oracle_uniform(&seed, 0, 30) : 0,
+                         .drag = i % 4 ? oracle_uniform(&seed, 0, 20) : 0};
+        vec3 v = vec(oracle_uniform(&seed, -10, 10), oracle_uniform(&seed, -10, 10), 0);
+        double t = oracle_uniform(&seed, 0, 0.6), split = t * oracle_uniform(&seed, 0, 1);
         tahr__motion whole = tahr__law_advance(&law, v, t);
         tahr__motion a = tahr__law_advance(&law, v, split);
         tahr__motion b = tahr__law_advance(&law, a.velocity, t - split);
@@ -166,12 +156,12 @@ static void halves_compose_to_the_whole(void **unused)
 
 static void speed_never_exceeds_the_larger_of_start_and_wish(void **unused)
 {
-    uint64_t seed = 11;
+    oracle_random seed = {11};
     (void)unused;
     for (int i = 0; i < 20000; i++) {
-        tahr__law law = preset_law(real(&seed, 0, 8));
-        vec3 v = vec(real(&seed, -10, 10), real(&seed, -10, 10), 0);
-        double t = real(&seed, 0, 1), most = max_of(length(v), law.speed);
+        tahr__law law = preset_law(oracle_uniform(&seed, 0, 8));
+        vec3 v = vec(oracle_uniform(&seed, -10, 10), oracle_uniform(&seed, -10, 10), 0);
+        double t = oracle_uniform(&seed, 0, 1), most = max_of(length(v), law.speed);
         tahr__motion m = tahr__law_advance(&law, v, t);
         assert_true(length(m.velocity) <= most * (1 + 1e-12));
         assert_true(length(m.displacement) <= most * t * (1 + 1e-9) + 1e-15);

@@ -9,79 +9,10 @@
 
 #include <cmocka.h>
 
-#include "fake_world.h"
+#include "fake_backend.h"
+#include "fake_host.h"
 
 #include <tahr/native.h>
-
-static int opened, closed, placed;
-static tahr_status open_answer;
-
-static tahr_status stub_open(const tahr_host *host, const tahr_world_desc *desc, void **self)
-{
-    (void)desc;
-    assert_true(host->struct_size >= sizeof *host && host->abi == TAHR_ABI && host->allocator.alloc &&
-                host->allocator.free && host->log.write);
-    opened++;
-    if (open_answer == TAHR_OK) {
-        *self = &opened;
-    }
-    return open_answer;
-}
-
-static void stub_close(void *self)
-{
-    assert_true(self == &opened);
-    closed++;
-}
-
-static tahr_status stub_sweep(void *self, tahr_query_context *c, const tahr_sweep *q, tahr_hit *h, uint32_t n,
-                              uint32_t *count)
-{
-    (void)self, (void)c, (void)q, (void)h, (void)n;
-    *count = 0;
-    return TAHR_OK;
-}
-
-static tahr_status stub_contacts(void *self, tahr_query_context *c, const tahr_contact_query *q, tahr_contact *h,
-                                 uint32_t n, uint32_t *count)
-{
-    (void)self, (void)c, (void)q, (void)h, (void)n;
-    *count = 0;
-    return TAHR_OK;
-}
-
-static tahr_status stub_ray(void *self, tahr_query_context *c, const tahr_ray *q, tahr_hit *h, uint32_t *count)
-{
-    (void)self, (void)c, (void)q, (void)h;
-    *count = 0;
-    return TAHR_OK;
-}
-
-static tahr_status stub_place(void *self, const tahr_body_pose *poses, uint32_t count)
-{
-    (void)self, (void)poses;
-    placed += (int)count;
-    return TAHR_OK;
-}
-
-static tahr_backend stub(void)
-{
-    tahr_backend b = {.struct_size = sizeof b,
-                      .abi_major = TAHR_ABI_MAJOR,
-                      .abi_minor = TAHR_ABI_MINOR,
-                      .capabilities = TAHR_CAP_CAPSULE,
-                      .name = "stub",
-                      .version = "0",
-                      .open = stub_open,
-                      .close = stub_close,
-                      .sweep = stub_sweep,
-                      .contacts = stub_contacts,
-                      .ray = stub_ray,
-                      .place = stub_place};
-    opened = closed = placed = 0;
-    open_answer = TAHR_OK;
-    return b;
-}
 
 static const double vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 static const uint32_t indices[] = {0, 1, 2};
@@ -95,6 +26,16 @@ static tahr_body_desc mesh(void)
     b.vertex_count = 3;
     b.triangle_count = 1;
     return b;
+}
+
+/* A backend that holds no shapes but capsules, and a world of these bodies on it. */
+static void describe(tahr_world_desc *desc, fake_backend *backend, const tahr_body_desc *bodies, uint32_t count)
+{
+    fake_backend_init(backend, TAHR_CAP_CAPSULE);
+    assert_int_equal(tahr_world_desc_init(desc, sizeof *desc), TAHR_OK);
+    desc->options = backend;
+    desc->bodies = bodies;
+    desc->body_count = count;
 }
 
 static void descriptions_start_zero_and_check_their_size(void **unused)
@@ -115,21 +56,19 @@ static void descriptions_start_zero_and_check_their_size(void **unused)
 /* Opens a world of one body: the status, and the body and field in the message. */
 static void expect_body(tahr_body_desc body, tahr_status status, const char *field)
 {
-    tahr_backend backend = stub();
+    fake_backend backend;
     fake_log log;
     tahr_log l = fake_log_of(&log);
     tahr_world_desc desc;
     tahr_world *world = (tahr_world *)&log;
-    tahr_world_desc_init(&desc, sizeof desc);
+    describe(&desc, &backend, &body, 1);
     desc.log = &l;
-    desc.bodies = &body;
-    desc.body_count = 1;
-    tahr_status got = tahr_world_open(&backend, &desc, &world);
+    tahr_status got = tahr_world_open(&backend.table, &desc, &world);
     if (got != status) {
         fail_msg("%s: %s instead of %s", field, tahr_status_name(got), tahr_status_name(status));
     }
     assert_true(world == (tahr_world *)&log);
-    assert_int_equal(opened, 0);
+    assert_int_equal(backend.opened, 0);
     assert_non_null(strstr(log.text, "bodies[0]"));
     assert_non_null(strstr(log.text, field));
 }
@@ -179,63 +118,62 @@ static void bad_bodies_are_named(void **unused)
 
 static void open_checks_backend_and_description(void **unused)
 {
-    tahr_backend b = stub();
+    fake_backend b;
     tahr_world_desc desc;
     tahr_world *world = NULL;
     fake_log log;
     tahr_log l = fake_log_of(&log);
     (void)unused;
-    tahr_world_desc_init(&desc, sizeof desc);
+    describe(&desc, &b, NULL, 0);
     desc.log = &l;
+    const tahr_backend table = b.table;
     assert_int_equal(tahr_world_open(NULL, &desc, &world), TAHR_E_NULL);
-    assert_int_equal(tahr_world_open(&b, NULL, &world), TAHR_E_NULL);
-    assert_int_equal(tahr_world_open(&b, &desc, NULL), TAHR_E_NULL);
+    assert_int_equal(tahr_world_open(&b.table, NULL, &world), TAHR_E_NULL);
+    assert_int_equal(tahr_world_open(&b.table, &desc, NULL), TAHR_E_NULL);
     desc.struct_size = 8;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_STRUCT_SIZE);
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_STRUCT_SIZE);
     desc.struct_size = sizeof desc;
     desc.body_count = 3;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_NULL);
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);
     desc.body_count = 0;
-    b.struct_size = 8;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_STRUCT_SIZE);
-    b = stub(), b.abi_minor = 99;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_ABI);
-    b = stub(), b.abi_major = 3;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_ABI);
-    b = stub(), b.sweep = NULL;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_NULL);
-    b = stub(), b.name = NULL;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_NULL);
+    b.table.struct_size = 8;
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_STRUCT_SIZE);
+    b.table = table, b.table.abi_minor = 99;
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_ABI);
+    b.table = table, b.table.abi_major = 3;
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_ABI);
+    b.table = table, b.table.sweep = NULL;
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);
+    b.table = table, b.table.name = NULL;
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);
     tahr_allocator broken = {NULL, NULL, NULL};
-    b = stub(), desc.allocator = &broken;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_NULL);
+    b.table = table, desc.allocator = &broken;
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);
     desc.allocator = NULL;
-    open_answer = TAHR_E_GEOMETRY;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_E_GEOMETRY);
+    b.open_answer = TAHR_E_GEOMETRY;
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_GEOMETRY);
     assert_null(world);
-    assert_int_equal(closed, 0);
-    b = stub();
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_OK);
-    assert_string_equal(tahr_world_backend_name(world), "stub");
+    assert_int_equal(b.closed, 0);
+    b.open_answer = TAHR_OK;
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_OK);
+    assert_string_equal(tahr_world_backend_name(world), "fake");
     tahr_world_close(world);
-    assert_int_equal(closed, 1);
+    assert_int_equal(b.closed, 1);
     tahr_world_close(NULL);
 }
 
 static void set_checks_every_pose_before_it_moves_one(void **unused)
 {
-    tahr_backend b = stub();
+    fake_backend b;
     tahr_body_desc bodies[2];
     tahr_world_desc desc;
     tahr_world *world = NULL;
     tahr_body_pose poses[2];
     (void)unused;
-    tahr_world_desc_init(&desc, sizeof desc);
     bodies[0] = bodies[1] = mesh();
     bodies[0].flags = bodies[1].flags = TAHR_BODY_MOVABLE;
-    desc.bodies = bodies;
-    desc.body_count = 2;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_OK);
+    describe(&desc, &b, bodies, 2);
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_OK);
     memset(poses, 0, sizeof poses);
     poses[0].pose.orientation.w = poses[1].pose.orientation.w = 1;
     poses[1].body = 1;
@@ -250,12 +188,12 @@ static void set_checks_every_pose_before_it_moves_one(void **unused)
     assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_ARGUMENT);
     poses[1].pose.position.x = 0, poses[1].pose.orientation.w = 0;
     assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_ARGUMENT);
-    assert_int_equal(placed, 0);
+    assert_int_equal(b.placed, 0);
     assert_int_equal(tahr_world_revision(world), revision);
     poses[1].pose.orientation.w = 1;
     poses[1].pose.position.x = 3;
     assert_int_equal(tahr_world_set(world, poses, 2), TAHR_OK);
-    assert_int_equal(placed, 2);
+    assert_int_equal(b.placed, 2);
     assert_int_not_equal(tahr_world_revision(world), revision);
     poses[1].pose.position.x = 0; /* a rollback puts bodies back, and with them the revision */
     assert_int_equal(tahr_world_set(world, poses, 2), TAHR_OK);
@@ -265,17 +203,15 @@ static void set_checks_every_pose_before_it_moves_one(void **unused)
 
 static void fixed_bodies_cannot_be_placed(void **unused)
 {
-    tahr_backend b = stub();
+    fake_backend b;
     tahr_body_desc body = mesh();
     tahr_world_desc desc;
     tahr_world *world = NULL;
     tahr_body_pose pose;
     (void)unused;
-    tahr_world_desc_init(&desc, sizeof desc);
-    desc.bodies = &body;
-    desc.body_count = 1;
-    b.place = NULL;
-    assert_int_equal(tahr_world_open(&b, &desc, &world), TAHR_OK);
+    describe(&desc, &b, &body, 1);
+    b.table.place = NULL;
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_OK);
     memset(&pose, 0, sizeof pose);
     pose.pose.orientation.w = 1;
     assert_int_equal(tahr_world_set(world, &pose, 1), TAHR_E_UNSUPPORTED);
@@ -285,7 +221,7 @@ static void fixed_bodies_cannot_be_placed(void **unused)
 static void callbacks_are_checked(void **unused)
 {
     fake_world fake;
-    tahr_callbacks c = {.struct_size = sizeof c, .user = &fake, .sweep = fake_sweep};
+    tahr_callbacks c = fake_callbacks(&fake);
     tahr_world *world = NULL;
     (void)unused;
     fake_world_init(&fake);
@@ -395,14 +331,14 @@ static void an_array_of_longer_bodies_is_unsupported_when_something_new_is_asked
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(descriptions_start_zero_and_check_their_size),
-                                       cmocka_unit_test(bad_bodies_are_named),
-                                       cmocka_unit_test(open_checks_backend_and_description),
-                                       cmocka_unit_test(set_checks_every_pose_before_it_moves_one),
-                                       cmocka_unit_test(fixed_bodies_cannot_be_placed),
-                                       cmocka_unit_test(an_array_of_longer_bodies_opens_when_what_is_new_is_zero),
-                                       cmocka_unit_test(
-                                           an_array_of_longer_bodies_is_unsupported_when_something_new_is_asked_for),
-                                       cmocka_unit_test(callbacks_are_checked)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(descriptions_start_zero_and_check_their_size),
+        cmocka_unit_test(bad_bodies_are_named),
+        cmocka_unit_test(open_checks_backend_and_description),
+        cmocka_unit_test(set_checks_every_pose_before_it_moves_one),
+        cmocka_unit_test(fixed_bodies_cannot_be_placed),
+        cmocka_unit_test(an_array_of_longer_bodies_opens_when_what_is_new_is_zero),
+        cmocka_unit_test(an_array_of_longer_bodies_is_unsupported_when_something_new_is_asked_for),
+        cmocka_unit_test(callbacks_are_checked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
