@@ -102,7 +102,14 @@ static double clearance(const tahr__step *step, const tahr_hit *hit, double rang
     return skin - (skin - max_of(hit->distance, 0)) / rate;
 }
 
-/* The same face as a moment ago keeps the benefit of the hysteresis. */
+/* The same face as a moment ago. */
+static uint32_t still_slope(const tahr__step *step, const tahr_hit *hit)
+{
+    const tahr_floor *old = &step->state.floor;
+    return old->body == hit->body && old->feature == hit->feature ? old->flags & TAHR_FLOOR_SLOPE : 0;
+}
+
+/* Nearly the same face as a moment ago keeps the benefit of the hysteresis. */
 static int was_walkable(const tahr__step *step, const tahr_hit *hit)
 {
     const tahr_floor *old = &step->state.floor;
@@ -176,7 +183,7 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
         tahr__decide(step, TAHR_RULE_FLOOR, 0, NULL, floor->distance, range, "nothing below");
         return;
     }
-    fill(floor, &hit, hit.start_overlap ? -hit.depth : clearance(step, &hit, range), flags);
+    fill(floor, &hit, hit.start_overlap ? -hit.depth : clearance(step, &hit, range), flags | still_slope(step, &hit));
     int surface = tahr__is_walkable(step, &hit, was_walkable(step, &hit));
     /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
     int on_face = dot(hit.normal, hit.surface_normal) > 1 - 1e-6;

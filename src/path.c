@@ -107,14 +107,15 @@ void tahr__path_bend(tahr__step *step, tahr__path *w)
 
 /* The bevelled edge of a step is no slope to slow down on. On a slope the contact lies up to 0.25 m off the axis: if the
  * ground half-way between them is not in the plane of the contact, the face is smaller than that. Below 15 degrees a bevel
- * costs 3 % of its own width and is not looked at. One ray. */
+ * costs 3 % of its own width and is not looked at. One ray, until the face has been found to be a slope: as long as it
+ * holds the character it stays one. */
 void tahr__path_find_slope(tahr__path *w, tahr__step *step)
 {
     const double steep = 0.966;
-    const tahr_floor *floor = &step->state.floor;
+    tahr_floor *floor = &step->state.floor;
     vec3 up = step->state.up;
     tahr_hit hit;
-    if (dot(w->slope, up) > steep) {
+    if (dot(w->slope, up) > steep || (floor->flags & TAHR_FLOOR_SLOPE)) {
         return;
     }
     vec3 half_way = add_scaled(step->state.position, step_level(step, sub(floor->point, step->state.position)), 0.5);
@@ -122,7 +123,9 @@ void tahr__path_find_slope(tahr__path *w, tahr__step *step)
     double off = dot(w->slope, sub(hit.point, floor->point));
     int same = hit.blocking && dot(w->slope, hit.surface_normal) > 0.99 && off < step->config->skin &&
                off > -step->config->skin;
-    if (!same) {
+    if (same) {
+        floor->flags |= TAHR_FLOOR_SLOPE;
+    } else {
         w->slope = up;
     }
 }

@@ -69,15 +69,12 @@ static void store_planes(float *to, const tahr__prim *prim)
     to[2 * TAHR__LANES] = (float)normal.z;
     to[3 * TAHR__LANES] = (float)v_dot(normal, v[0]);
     to += (TAHR__LANE_EDGE - TAHR__LANE_NORMAL) * TAHR__LANES;
-    double turn = normal.z < 0 ? -1 : 1;
-    for (int i = 0; i < 3; i++, to += 3 * TAHR__LANES) {
-        tahr_vec3 e = v_sub(v[i < 2 ? i + 1 : 0], v[i]);
-        double wide = sqrt(e.x * e.x + e.y * e.y);
-        /* A metre up that is less than 1e-3 across has no side that float could tell. */
-        double scale = wide > 1e-3 * (1 + fabs(e.z)) ? turn / wide : 0, x = e.y * scale, y = -e.x * scale;
-        to[0] = (float)x;
-        to[TAHR__LANES] = (float)y;
-        to[2 * TAHR__LANES] = (float)(x * v[i].x + y * v[i].y);
+    for (int i = 0; i < 3; i++, to += 4 * TAHR__LANES) {
+        tahr_vec3 e = v_sub(v[i < 2 ? i + 1 : 0], v[i]), out = v_scale(v_cross(e, normal), 1 / v_length(e));
+        to[0] = (float)out.x;
+        to[TAHR__LANES] = (float)out.y;
+        to[2 * TAHR__LANES] = (float)out.z;
+        to[3 * TAHR__LANES] = (float)v_dot(out, v[i]);
     }
 }
 
@@ -204,6 +201,8 @@ static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
     q->motion[1] = (float)query->motion.y;
     q->motion[2] = (float)query->motion.z;
     q->half = (float)query->half;
+    /* Less twice what rounding may have moved a corner by. */
+    q->lowest = d_down(s->box.min.z - 2 * TAHR__SLACK);
     /* Boxes are not upright segments: their planes are looked at in double. */
     q->reach = query->core.axis_count < 2 ? (float)(s->reach + PLANE_SLACK + 1e-6 * query->motion_length) : 1e30f;
 }
@@ -214,18 +213,18 @@ static int concerns(const tahr__query *query, const tahr__prim *prim)
     return query->sensors || !(prim->kind & TAHR__SENSOR);
 }
 
-uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, uint16_t *index)
+uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr__lanes_found *found)
 {
     const tahr__query *query = s->query;
     tahr__lanes lanes = {blocks_of(query->cache), query->cache->count};
     const tahr__prim *all = *prims = prims_of(query->world, query->cache);
     tahr__lanes_query q;
     lanes_query(s, &q);
-    uint32_t count = query->world->cull(&lanes, &q, index), kept = 0;
+    uint32_t count = query->world->cull(&lanes, &q, found), kept = 0;
     if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY) return count;
     for (uint32_t i = 0; i < count; i++) {
-        index[kept] = index[i];
-        kept += (uint32_t)concerns(query, &all[index[i]]);
+        found[kept] = found[i];
+        kept += (uint32_t)concerns(query, &all[found[i].index]);
     }
     return kept;
 }
@@ -248,10 +247,10 @@ void tahr__search_run(tahr__search *s)
     const tahr__native *world = s->query->world;
     if (tahr__cache_holds(s)) {
         const tahr__prim *prims;
-        uint16_t index[TAHR__CACHE_MOST];
-        uint32_t count = tahr__cache_cull(s, &prims, index);
+        tahr__lanes_found found[TAHR__CACHE_MOST];
+        uint32_t count = tahr__cache_cull(s, &prims, found);
         for (uint32_t i = 0; i < count; i++)
-            s->visit(s, &prims[index[i]]);
+            s->visit(s, &prims[found[i].index]);
     } else {
         tahr__tree_search(s, &world->fixed);
     }

@@ -3,9 +3,19 @@
  * same order, so they keep the same primitives. */
 #include "lanes.h"
 
+#include <math.h>
+
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #endif
+
+/* A fraction that no motion has. */
+#define NEVER 2.0f
+
+static float larger_1(float a, float b)
+{
+    return a > b ? a : b;
+}
 
 static float box_distance(const tahr__lanes *lanes, uint32_t i, const float lo[3], const float hi[3])
 {
@@ -13,45 +23,46 @@ static float box_distance(const tahr__lanes *lanes, uint32_t i, const float lo[3
     for (uint32_t a = 0; a < 3; a++) {
         float under = lanes->blocks[tahr__lane(i, TAHR__LANE_LOW + a)] - hi[a];
         float over = lo[a] - lanes->blocks[tahr__lane(i, TAHR__LANE_HIGH + a)];
-        float gap = under > over ? under : over;
-        gap = gap > 0 ? gap : 0;
+        float gap = larger_1(larger_1(under, over), 0);
         square[a] = gap * gap;
     }
     return (square[0] + square[1]) + square[2];
 }
 
-/* Does the plane stay out of reach, on one side all the way? */
-static int beyond_plane(const tahr__lanes *lanes, uint32_t i, const tahr__lanes_query *q)
+/* By the plane and the farthest edge: seen along that edge the triangle is a ray, and the nearest point of the segment lies
+ * h above its line and o beyond its end. The plane through that end across the way to the point separates them, and the
+ * distance to it changes evenly. Returns the time before which it is out of reach; NEVER. */
+static float time_within(const tahr__lanes *lanes, uint32_t i, const tahr__lanes_query *q)
 {
-    const float *at = lanes->blocks + tahr__lane(i, TAHR__LANE_NORMAL);
-    float x = at[0], y = at[TAHR__LANES], z = at[2 * TAHR__LANES], offset = at[3 * TAHR__LANES];
-    float first = ((x * q->start[0] + y * q->start[1]) + z * q->start[2]) - offset;
-    float last = first + ((x * q->motion[0] + y * q->motion[1]) + z * q->motion[2]);
-    float extent = (z < 0 ? -z : z) * q->half + q->reach;
-    return (first > extent && last > extent) || (first < -extent && last < -extent);
-}
-
-/* Does an edge keep it out of reach all the way? */
-static int beside_edge(const tahr__lanes *lanes, uint32_t i, const tahr__lanes_query *q)
-{
-    const float *at = lanes->blocks + tahr__lane(i, TAHR__LANE_EDGE);
-    int beside = 0;
-    for (int k = 0; k < 3; k++, at += 3 * TAHR__LANES) {
-        float x = at[0], y = at[TAHR__LANES];
-        float first = (x * q->start[0] + y * q->start[1]) - at[2 * TAHR__LANES];
-        float last = first + (x * q->motion[0] + y * q->motion[1]);
-        beside |= first > q->reach && last > q->reach;
+    const float *s = q->start, *m = q->motion, *at = lanes->blocks + tahr__lane(i, TAHR__LANE_NORMAL);
+    float x = at[0], y = at[TAHR__LANES], z = at[2 * TAHR__LANES];
+    float height = ((x * s[0] + y * s[1]) + z * s[2]) - at[3 * TAHR__LANES];
+    float h = larger_1(larger_1(-height, height) - larger_1(-z, z) * q->half, 0);
+    float h_rate = (x * m[0] + y * m[1]) + z * m[2], o = 0, o_rate = 0;
+    int below = lanes->blocks[tahr__lane(i, TAHR__LANE_HIGH + 2)] <= q->lowest;
+    h_rate = height < 0 ? -h_rate : h_rate;
+    for (int k = 0; k < 3; k++) {
+        at = lanes->blocks + tahr__lane(i, TAHR__LANE_EDGE + 4 * (uint32_t)k);
+        x = at[0], y = at[TAHR__LANES], z = at[2 * TAHR__LANES];
+        float out = ((x * s[0] + y * s[1]) + z * s[2]) - at[3 * TAHR__LANES];
+        out = out - (below ? z : larger_1(-z, z)) * q->half;
+        float rate = (x * m[0] + y * m[1]) + z * m[2];
+        o_rate = out > o ? rate : o_rate;
+        o = larger_1(out, o);
     }
-    return beside;
+    float away2 = h * h + o * o, gap = away2 - q->reach * sqrtf(away2), closing = -(h * h_rate + o * o_rate);
+    if (!(gap > 0)) return 0;
+    return gap <= closing ? gap / closing : NEVER;
 }
 
-uint32_t tahr__lanes_cull_1(const tahr__lanes *lanes, const tahr__lanes_query *query, uint16_t *index)
+uint32_t tahr__lanes_cull_1(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < lanes->count; i++) {
         float d = box_distance(lanes, i, query->lo, query->hi);
-        if (!(d <= query->limit) || beyond_plane(lanes, i, query) || beside_edge(lanes, i, query)) continue;
-        index[kept++] = (uint16_t)i;
+        if (!(d <= query->limit)) continue;
+        float time = time_within(lanes, i, query);
+        if (time <= 1) found[kept++] = (tahr__lanes_found){time, i};
     }
     return kept;
 }
@@ -93,18 +104,27 @@ static inline lane larger(lane a, lane b)
 #endif
 }
 
+static inline lane root(lane a)
+{
+#if defined(__SSE2__)
+    return (lane)_mm_sqrt_ps((__m128)a);
+#else
+    return (lane){sqrtf(a[0]), sqrtf(a[1]), sqrtf(a[2]), sqrtf(a[3])};
+#endif
+}
+
 #include "lanes_kernel.h"
 
-uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *query, uint16_t *index)
+uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
-    return lanes_cull(lanes, query, index);
+    return lanes_cull(lanes, query, found);
 }
 
 #else
 
-uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *query, uint16_t *index)
+uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
-    return tahr__lanes_cull_1(lanes, query, index);
+    return tahr__lanes_cull_1(lanes, query, found);
 }
 
 #endif

@@ -5,9 +5,9 @@
 
 #include <stdint.h>
 
-/* Blocks of eight primitives, each 19 rows of eight floats: low corner, high corner, plane normal . x = offset, and the
- * upright planes through the three edges, x, y, offset each, outward and unit (all zero: none). The lanes of the last
- * block that are not in use lie at 1e30. */
+/* Blocks of eight primitives, each 22 rows of eight floats: low corner, high corner, plane normal . x = offset, and the
+ * planes through the three edges across it, x, y, z, offset each, outward and unit (all zero: none). The lanes of the
+ * last block that are not in use lie at 1e30. */
 enum {
     TAHR__LANES = 8,
     TAHR__LANE_LOW = 0,
@@ -15,7 +15,7 @@ enum {
     TAHR__LANE_NORMAL = 6,
     TAHR__LANE_OFFSET = 9,
     TAHR__LANE_EDGE = 10,
-    TAHR__LANE_ROWS = 19
+    TAHR__LANE_ROWS = 22
 };
 
 typedef struct tahr__lanes {
@@ -29,15 +29,22 @@ static inline uint32_t tahr__lane(uint32_t i, uint32_t row)
     return (i / TAHR__LANES * TAHR__LANE_ROWS + row) * TAHR__LANES + i % TAHR__LANES;
 }
 
-/* What is looked for: boxes whose squared distance to [lo, hi] is at most limit, and whose planes come within reach of
- * an upright segment of half length half that moves from start by motion. */
+/* What is looked for: boxes whose squared distance to [lo, hi] is at most limit, and whose plane and farthest edge do not
+ * keep them out of reach of an upright segment of half length half that moves from start by motion. */
 typedef struct tahr__lanes_query {
     float lo[3], hi[3], limit;
     float start[3], motion[3], half, reach;
+    float lowest; /* that the segment comes */
 } tahr__lanes_query;
 
-/* Writes their indices, in order, and returns how many. */
-typedef uint32_t tahr__lanes_fn(const tahr__lanes *lanes, const tahr__lanes_query *query, uint16_t *index);
+/* One of them, and the fraction of the motion before which it is out of reach. */
+typedef struct tahr__lanes_found {
+    float time;
+    uint32_t index;
+} tahr__lanes_found;
+
+/* Writes all of them, in order, and returns how many. */
+typedef uint32_t tahr__lanes_fn(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found);
 
 /* The scalar twin; four lanes, which every machine has by its compiler's vectors; eight, where the processor has AVX2. */
 tahr__lanes_fn tahr__lanes_cull_1, tahr__lanes_cull_4, tahr__lanes_cull_8;

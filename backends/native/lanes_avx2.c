@@ -34,11 +34,16 @@ static inline lane larger(lane a, lane b)
     return (lane)_mm256_max_ps((__m256)a, (__m256)b);
 }
 
+static inline lane root(lane a)
+{
+    return (lane)_mm256_sqrt_ps((__m256)a);
+}
+
 #include "lanes_kernel.h"
 
-uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *query, uint16_t *index)
+uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
-    return lanes_cull(lanes, query, index);
+    return lanes_cull(lanes, query, found);
 }
 
 #if defined(__clang__)
@@ -47,9 +52,9 @@ uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *q
 
 #else
 
-uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *query, uint16_t *index)
+uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
-    return tahr__lanes_cull_4(lanes, query, index);
+    return tahr__lanes_cull_4(lanes, query, found);
 }
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * lanes_kernel.h: the cull in GCC vector types, for a file that has said how wide they are: WIDTH, lane, mask, splat,
- * bits, larger. */
+ * bits, larger, root. */
 #include <string.h>
 
 static inline lane at(const float *p)
@@ -17,33 +17,41 @@ static inline lane square_gap(const float *block, int axis, lane box_lo, lane bo
     return gap * gap;
 }
 
-static inline mask beyond_planes(const float *block, const tahr__lanes_query *q)
+/* m ? a : b */
+static inline lane choose(mask m, lane a, lane b)
 {
-    const float *n = block + TAHR__LANE_NORMAL * TAHR__LANES;
-    lane x = at(n), y = at(n + TAHR__LANES), z = at(n + 2 * TAHR__LANES), offset = at(n + 3 * TAHR__LANES);
-    lane first = ((x * splat(q->start[0]) + y * splat(q->start[1])) + z * splat(q->start[2])) - offset;
-    lane last = first + ((x * splat(q->motion[0]) + y * splat(q->motion[1])) + z * splat(q->motion[2]));
-    lane extent = larger(-z, z) * splat(q->half) + splat(q->reach);
-    /* On one side of the plane both ends have the same sign, and the smaller distance is what counts. */
-    lane low = -larger(-first, -last), high = larger(first, last);
-    return (low > extent) | (high < -extent);
+    return (lane)(((mask)a & m) | ((mask)b & ~m));
 }
 
-static inline mask beside_edges(const float *block, const tahr__lanes_query *q)
+static inline lane along(const float *row, const float v[3])
 {
-    const float *e = block + TAHR__LANE_EDGE * TAHR__LANES;
-    lane start_x = splat(q->start[0]), start_y = splat(q->start[1]), x_rate = splat(q->motion[0]),
-         y_rate = splat(q->motion[1]), most = splat(0);
-    for (int k = 0; k < 3; k++, e += 3 * TAHR__LANES) {
-        lane x = at(e), y = at(e + TAHR__LANES);
-        lane first = (x * start_x + y * start_y) - at(e + 2 * TAHR__LANES);
-        lane last = first + (x * x_rate + y * y_rate);
-        most = larger(most, -larger(-first, -last));
+    return (at(row) * splat(v[0]) + at(row + TAHR__LANES) * splat(v[1])) + at(row + 2 * TAHR__LANES) * splat(v[2]);
+}
+
+/* As time_within of the scalar twin; near loses what stays out of reach. */
+static inline lane times_within(const float *block, const tahr__lanes_query *q, mask *near)
+{
+    const float *n = block + TAHR__LANE_NORMAL * TAHR__LANES, *e = block + TAHR__LANE_EDGE * TAHR__LANES;
+    lane zero = splat(0), half = splat(q->half), z = at(n + 2 * TAHR__LANES);
+    lane height = along(n, q->start) - at(n + 3 * TAHR__LANES);
+    lane h = larger(larger(-height, height) - larger(-z, z) * half, zero);
+    lane h_rate = along(n, q->motion), o = zero, o_rate = zero;
+    mask below = at(block + (TAHR__LANE_HIGH + 2) * TAHR__LANES) <= splat(q->lowest);
+    h_rate = choose(height < zero, -h_rate, h_rate);
+    for (int k = 0; k < 3; k++, e += 4 * TAHR__LANES) {
+        z = at(e + 2 * TAHR__LANES);
+        lane out = along(e, q->start) - at(e + 3 * TAHR__LANES);
+        out = out - choose(below, z, larger(-z, z)) * half;
+        o_rate = choose(out > o, along(e, q->motion), o_rate);
+        o = larger(out, o);
     }
-    return most > splat(q->reach);
+    lane away2 = h * h + o * o, gap = away2 - splat(q->reach) * root(away2), closing = -(h * h_rate + o * o_rate);
+    mask later = gap > zero;
+    *near &= ~later | (gap <= closing);
+    return (lane)((mask)(gap / closing) & later);
 }
 
-static inline uint32_t lanes_cull(const tahr__lanes *lanes, const tahr__lanes_query *query, uint16_t *index)
+static inline uint32_t lanes_cull(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
     lane lo0 = splat(query->lo[0]), lo1 = splat(query->lo[1]), lo2 = splat(query->lo[2]);
     lane hi0 = splat(query->hi[0]), hi1 = splat(query->hi[1]), hi2 = splat(query->hi[2]), most = splat(query->limit);
@@ -53,16 +61,12 @@ static inline uint32_t lanes_cull(const tahr__lanes *lanes, const tahr__lanes_qu
         lane x = square_gap(block, 0, lo0, hi0);
         lane y = square_gap(block, 1, lo1, hi1);
         lane z = square_gap(block, 2, lo2, hi2);
-        lane d = (x + y) + z;
-        unsigned near = bits(d <= most);
-        if (!near) continue;
-        near &= ~bits(beyond_planes(block, query));
-        if (!near) continue;
-        near &= ~bits(beside_edges(block, query));
-        /* Unused lanes are far from everything. */
-        while (near) {
-            index[kept++] = (uint16_t)(i + (unsigned)__builtin_ctz(near));
-            near &= near - 1;
+        mask near = (x + y) + z <= most; /* unused lanes are far from everything */
+        if (!bits(near)) continue;
+        lane time = times_within(block, query, &near);
+        for (unsigned left = bits(near); left; left &= left - 1) {
+            unsigned k = (unsigned)__builtin_ctz(left);
+            found[kept++] = (tahr__lanes_found){time[k], i + k};
         }
     }
     return kept;

@@ -8,7 +8,7 @@ enum { CAPACITY_DEFAULT = 128, CAPACITY_MAX = TAHR__CACHE_MOST };
 /* A newer version may add this many bytes to the options; beyond is a size that was never set, and reading it a crash. */
 #define MOST_UNKNOWN 4096u
 /* Grown by half a metre a gather lasts 6 steps of a runner, at 6 times the area (robustness notes, measured). */
-#define MARGIN_DEFAULT 0.75
+#define MARGIN_DEFAULT 1.0
 
 static void complain(const tahr_host *host, const char *text)
 {
@@ -42,7 +42,8 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
         return TAHR_E_ARGUMENT;
     }
     world->round = d.precision == TAHR_NATIVE_FLOAT;
-    world->capacity = ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
+    world->capacity =
+        ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
     world->no_cache = d.no_cache;
     world->cull = d.no_simd ? tahr__lanes_cull_1 : tahr__lanes_best();
     world->cache_margin = d.cache_margin > 0 ? d.cache_margin : MARGIN_DEFAULT;

@@ -17,7 +17,7 @@ static inline double upright_extent(const tahr__query *query, tahr_vec3 n)
 
 static inline double extent_along(const tahr__query *query, tahr_vec3 n)
 {
-    return query->core.axis_count < 2 ? upright_extent(query, n) : tahr__core_extent(&query->core, n);
+    return query->core.axis_count < 2 ? upright_extent(query, n) : tahr__box_extent(query, n);
 }
 
 /* Core and triangle are `gap` (> 0) apart along an axis (less the target; times its length) and come nearer by `rate` over

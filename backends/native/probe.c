@@ -31,6 +31,11 @@ tahr_bounds tahr__query_box(const tahr__query *query, double t)
     return box;
 }
 
+double tahr__box_extent(const tahr__query *query, tahr_vec3 n)
+{
+    return tahr__core_extent(&query->core, n);
+}
+
 /* The way out of a box that the core has entered, along one of its faces or across a pair of edges. */
 static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__probe *out)
 {

@@ -95,7 +95,7 @@ typedef struct tahr__cache {
     tahr_bounds bounds; /* world: what was announced, grown by the margin */
     tahr_bounds local;  /* everything static in it has been gathered */
     uint32_t announced, gathered, overflow, mask, count;
-    uint32_t plain;  /* no sensors: what has been gathered concerns every query of the same mask */
+    uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
 } tahr__cache;
 
@@ -153,8 +153,9 @@ tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses,
 enum { TAHR__CACHE_MOST = 4096 };
 /* Does the cache hold everything static within reach of the search? */
 int tahr__cache_holds(const tahr__search *search);
-/* Which cached primitives (prims[index[i]]) may be within reach. Returns how many, at most TAHR__CACHE_MOST. */
-uint32_t tahr__cache_cull(const tahr__search *search, const tahr__prim **prims, uint16_t *index);
+/* Which cached primitives (prims[found[i].index]) may be within reach, and when. Returns how many, at most
+ * TAHR__CACHE_MOST. */
+uint32_t tahr__cache_cull(const tahr__search *search, const tahr__prim **prims, tahr__lanes_found *found);
 size_t tahr__cache_bytes(const tahr__native *world);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
 
@@ -204,6 +205,8 @@ int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double m
 /* Is a before b? Overlaps first, the deepest of them; then (fraction, body, feature). */
 int tahr__found_before(const tahr__found *a, const tahr__found *b);
 tahr_bounds tahr__query_box(const tahr__query *query, double t);
+/* Half the extent of a box core along n: apart, so that the code of round shapes stays small. */
+double tahr__box_extent(const tahr__query *query, tahr_vec3 n);
 
 /* sweep.c, contacts.c, ray.c: the slots. */
 void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query_context *context, tahr_vec3 position,

@@ -161,11 +161,12 @@ static void line_up(sweep_state *s, const tahr__prim *prim)
 
 /* What stopped the last such motion goes first: what it leaves of this one is most often so little that the others are
  * soon too late. Taken out of the list. */
-static uint32_t ask_recent(sweep_state *s, const tahr__prim *prims, uint16_t *index, uint32_t count, uint32_t recent)
+static uint32_t ask_recent(sweep_state *s, const tahr__prim *prims, tahr__lanes_found *found, uint32_t count,
+                           uint32_t recent)
 {
     for (uint32_t i = 0; i < count; i++) {
-        if (index[i] != recent) continue;
-        index[i] = index[--count];
+        if (found[i].index != recent) continue;
+        found[i] = found[--count];
         double t = plane_earliest(s->search.query, &prims[recent], s->limit);
         if (t <= s->limit) probe(s, &prims[recent], t);
         break;
@@ -178,12 +179,13 @@ static void search(sweep_state *s)
     const tahr__query *query = s->search.query;
     if (tahr__cache_holds(&s->search)) {
         const tahr__prim *prims;
-        uint16_t index[TAHR__CACHE_MOST];
+        tahr__lanes_found found[TAHR__CACHE_MOST];
         uint32_t *recent = &query->cache->recent[query->core.axis_count != 1];
-        uint32_t count = tahr__cache_cull(&s->search, &prims, index);
-        count = ask_recent(s, prims, index, count, *recent);
-        for (uint32_t i = 0; i < count; i++)
-            line_up(s, &prims[index[i]]);
+        uint32_t count = tahr__cache_cull(&s->search, &prims, found);
+        count = ask_recent(s, prims, found, count, *recent);
+        for (uint32_t i = 0; i < count; i++) {
+            if (found[i].time <= s->limit) line_up(s, &prims[found[i].index]);
+        }
         settle(s);
         if (s->stopper) *recent = (uint32_t)(s->stopper - prims);
     } else {

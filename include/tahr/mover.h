@@ -20,7 +20,8 @@ enum {
     TAHR_FLOOR_PERCHING = 1 << 2, /* held up at the rim of the shape; a floor further in allows it */
     TAHR_FLOOR_WEDGED = 1 << 3,   /* held by several faces, each too steep to stand on */
     TAHR_FLOOR_RIM = 1 << 4,      /* something touches the rim of the shape; the floor was found by a thinner one */
-    TAHR_FLOOR_FACE = 1 << 5      /* the face that holds is walkable by itself, without a perch */
+    TAHR_FLOOR_FACE = 1 << 5,     /* the face that holds is walkable by itself, without a perch */
+    TAHR_FLOOR_SLOPE = 1 << 6     /* and large enough for its slope to set the speed; found out once for each face */
 };
 
 /* What is below the shape. distance is the way down until the shape would be skin above it, plus skin. */

@@ -16,11 +16,11 @@ enum { TAHR_NATIVE_FLOAT = 0, TAHR_NATIVE_DOUBLE = 1 };
 typedef struct tahr_native_desc {
     uint32_t struct_size;
     uint32_t precision;       /* TAHR_NATIVE_FLOAT or _DOUBLE */
-    uint32_t cache_triangles; /* per character, 236 bytes each, default 128, at most 4096; more than fit are looked up each time */
+    uint32_t cache_triangles; /* per character, 248 bytes each, default 128, at most 4096; more than fit are looked up each time */
     uint32_t no_cache;        /* 1: every query walks the tree; same bits */
     uint32_t no_simd;         /* 1: the scalar twin; same bits */
     uint32_t reserved;
-    double cache_margin; /* m around the announced box, default 0.75; 0..1000 */
+    double cache_margin; /* m around the announced box, default 1; 0..1000 */
 } tahr_native_desc;
 
 /* The native backend: plain C, triangle meshes, boxes, spheres, capsules; for tahr_world_open, whose desc.options is a

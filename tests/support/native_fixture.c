@@ -43,7 +43,8 @@ void fixture_init(fixture *f)
     f->host.log.write = capture;
 }
 
-tahr_status fixture_open(fixture *f, const tahr_body_desc *bodies, uint32_t count, const tahr_native_desc *options, int with_cache)
+tahr_status fixture_open(fixture *f, const tahr_body_desc *bodies, uint32_t count, const tahr_native_desc *options,
+                         int with_cache)
 {
     tahr_world_desc desc;
     memset(&desc, 0, sizeof desc);
@@ -78,7 +79,8 @@ tahr_body_desc fixture_body(uint32_t type)
     return d;
 }
 
-tahr_body_desc fixture_mesh(const double *vertices, uint32_t vertex_count, const uint32_t *indices, uint32_t triangle_count)
+tahr_body_desc fixture_mesh(const double *vertices, uint32_t vertex_count, const uint32_t *indices,
+                            uint32_t triangle_count)
 {
     tahr_body_desc d = fixture_body(TAHR_BODY_MESH);
     d.vertices = vertices;
@@ -103,8 +105,10 @@ tahr_shape fixture_shape(uint32_t type, double radius, double half_height)
     memset(&s, 0, sizeof s);
     s.type = type;
     s.half_height = half_height;
-    if (type == TAHR_SHAPE_BOX) s.half_x = s.half_y = radius;
-    else s.radius = radius;
+    if (type == TAHR_SHAPE_BOX)
+        s.half_x = s.half_y = radius;
+    else
+        s.radius = radius;
     return s;
 }
 

@@ -23,7 +23,8 @@ static int solve(const problem *p, real x[5])
     real m[5][6];
     int n = p->count;
     for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) m[i][j] = dot(p->column[i], p->column[j]);
+        for (int j = 0; j < n; j++)
+            m[i][j] = dot(p->column[i], p->column[j]);
         m[i][n] = -dot(p->column[i], p->offset);
     }
     for (int c = 0; c < n; c++) {
@@ -40,10 +41,12 @@ static int solve(const problem *p, real x[5])
         for (int r = 0; r < n; r++) {
             if (r == c) continue;
             real f = m[r][c] / m[c][c];
-            for (int k = c; k <= n; k++) m[r][k] -= f * m[c][k];
+            for (int k = c; k <= n; k++)
+                m[r][k] -= f * m[c][k];
         }
     }
-    for (int i = 0; i < n; i++) x[i] = m[i][n] / m[i][i];
+    for (int i = 0; i < n; i++)
+        x[i] = m[i][n] / m[i][i];
     return 1;
 }
 
@@ -52,18 +55,21 @@ static real try_faces(const problem *p, int barycentric_from)
 {
     real x[5], d[3], sum = 0;
     if (p->count > 0 && !solve(p, x)) return 1e30L;
-    for (int k = 0; k < 3; k++) d[k] = p->offset[k];
+    for (int k = 0; k < 3; k++)
+        d[k] = p->offset[k];
     for (int i = 0; i < p->count; i++) {
         if (x[i] < p->lower[i] || x[i] > 1) return 1e30L;
         if (i >= barycentric_from) sum += x[i];
-        for (int k = 0; k < 3; k++) d[k] += x[i] * p->column[i][k];
+        for (int k = 0; k < 3; k++)
+            d[k] += x[i] * p->column[i][k];
     }
     return sum > 1 ? 1e30L : sqrtl(dot(d, d));
 }
 
 real oracle_distance(const oracle_core *core, const double motion[3], real t, double tri[3][3])
 {
-    static const int faces[7][3] = {{0, 1, 2}, {0, 1, -1}, {1, 2, -1}, {2, 0, -1}, {0, -1, -1}, {1, -1, -1}, {2, -1, -1}};
+    static const int faces[7][3] = {{0, 1, 2},   {0, 1, -1},  {1, 2, -1}, {2, 0, -1},
+                                    {0, -1, -1}, {1, -1, -1}, {2, -1, -1}};
     int combinations = core->axis_count == 0 ? 1 : core->axis_count == 1 ? 3 : 27;
     real best = 1e30L;
     for (int c = 0; c < combinations; c++) {
@@ -71,17 +77,21 @@ real oracle_distance(const oracle_core *core, const double motion[3], real t, do
             problem p;
             p.count = 0;
             int code = c;
-            for (int k = 0; k < 3; k++) p.offset[k] = (real)core->centre[k] + t * motion[k] - tri[faces[f][0]][k];
+            for (int k = 0; k < 3; k++)
+                p.offset[k] = (real)core->centre[k] + t * motion[k] - tri[faces[f][0]][k];
             for (int i = 0; i < core->axis_count; i++, code /= 3) {
                 for (int k = 0; k < 3; k++) {
-                    if (code % 3 == 2) p.column[p.count][k] = core->axis[i][k];
-                    else p.offset[k] += (code % 3 ? 1 : -1) * (real)core->axis[i][k];
+                    if (code % 3 == 2)
+                        p.column[p.count][k] = core->axis[i][k];
+                    else
+                        p.offset[k] += (code % 3 ? 1 : -1) * (real)core->axis[i][k];
                 }
                 if (code % 3 == 2) p.lower[p.count++] = -1;
             }
             int from = p.count;
             for (int i = 1; i < 3 && faces[f][i] >= 0; i++) {
-                for (int k = 0; k < 3; k++) p.column[p.count][k] = (real)tri[faces[f][0]][k] - tri[faces[f][i]][k];
+                for (int k = 0; k < 3; k++)
+                    p.column[p.count][k] = (real)tri[faces[f][0]][k] - tri[faces[f][i]][k];
                 p.lower[p.count++] = 0;
             }
             real d = try_faces(&p, from);
@@ -96,8 +106,10 @@ real oracle_smallest(const oracle_core *core, const double motion[3], double tri
     real low = 0, high = 1;
     for (int i = 0; i < 90; i++) {
         real a = low + (high - low) / 3, b = high - (high - low) / 3;
-        if (oracle_distance(core, motion, a, tri) < oracle_distance(core, motion, b, tri)) high = b;
-        else low = a;
+        if (oracle_distance(core, motion, a, tri) < oracle_distance(core, motion, b, tri))
+            high = b;
+        else
+            low = a;
     }
     real best = oracle_distance(core, motion, (low + high) / 2, tri);
     for (int i = 0; i < 2; i++) {
