@@ -43,6 +43,7 @@ static void precise(tahr_config *c)
     c->arc_tolerance = 0.001;
     c->max_dt = 1;
     c->turn_rate = 12.5;
+    c->sleep = 1;
 }
 
 tahr_status tahr_config_init(tahr_config *config, size_t size, int32_t preset)
@@ -171,7 +172,9 @@ static const char *bad_field(const tahr_config *c)
                             {"air_turn_friction", c->air_turn_friction, 0, 1e4},
                             {"arc_tolerance", c->arc_tolerance, 1e-6 * size, size},
                             {"max_dt", c->max_dt, 1e-6, 10},
-                            {"turn_rate", c->turn_rate, 0, 1e4}};
+                            {"turn_rate", c->turn_rate, 0, 1e4},
+                            {"sleep", c->sleep, 0, 1},
+                            {"reserved", c->reserved, 0, 0}};
     const char *bad = tahr__shape_check(&c->shape);
     return bad ? bad : bad_range(ranges, sizeof ranges / sizeof ranges[0]);
 }

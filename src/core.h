@@ -50,6 +50,20 @@ typedef struct tahr__limits {
     tahr__foot foot;            /* of the whole shape */
 } tahr__limits;
 
+/* Events of a step that can be repeated; a step with more is computed again. */
+enum { TAHR__SLEEP_EVENTS = 8 };
+
+/* The last step, if it left the state as it was (sleep.c). */
+typedef struct tahr__sleep {
+    uint64_t revision;
+    double dt;
+    uint32_t noted;
+    tahr_input input;
+    tahr_state state;
+    tahr_report report;
+    tahr_event events[TAHR__SLEEP_EVENTS];
+} tahr__sleep;
+
 struct tahr_mover {
     tahr_world *world;
     tahr_config config;
@@ -57,6 +71,7 @@ struct tahr_mover {
     void *cache;
     size_t cache_size;
     uint32_t busy;
+    tahr__sleep sleep;
 };
 
 /* One step in progress: working copies of what it writes, so that an error leaves the caller's untouched. */

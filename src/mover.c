@@ -11,6 +11,7 @@
 #include "report.h"
 #include "shape.h"
 #include "sized.h"
+#include "sleep.h"
 #include "turning.h"
 #include "walking.h"
 
@@ -357,6 +358,12 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     if (status < 0) {
         return status;
     }
+    if (mover->sleep.noted && tahr__sleeps_on(mover, input, dt, state, report)) {
+        if (report) {
+            tahr__sleep_report(mover, report);
+        }
+        return worst(mover->sleep.report.flags);
+    }
     tahr__step step;
     tahr__pull pull;
     step.config = &mover->config;
@@ -384,7 +391,14 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
             return step.error;
         }
         detect_stuck(&step, state);
-        hand_over(&step.state, state);
+        if (vec_equal(step.state.position, state->position)) {
+            const tahr_state before = *state;
+            hand_over(&step.state, state);
+            tahr__sleep_note(mover, &step, dt, state, memcmp(&before, state, sizeof before) != 0);
+        } else {
+            hand_over(&step.state, state);
+            mover->sleep.noted = 0;
+        }
     }
     finish_report(&step);
     if (report) {

@@ -71,13 +71,13 @@ typedef struct tahr_backend {
     /* The sensors met before the first blocking hit, then that hit, ordered by (fraction, body, feature); capacity 1
      * means "the blocking one only". *count = 0: free. More than capacity: sensors are dropped last first, the blocking
      * hit never, and TAHR_TRUNCATED is returned. */
-    tahr_status (*sweep)(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
-                         uint32_t *count);
+    tahr_status (*sweep)(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
+                         uint32_t capacity, uint32_t *count);
 
     /* One record per feature within margin, ordered by (distance, body, feature). An edge or vertex shared by several
      * triangles is felt once, and not at all where a neighbour is closer. More than capacity: TAHR_TRUNCATED. */
-    tahr_status (*contacts)(void *self, tahr_query_context *context, const tahr_contact_query *query, tahr_contact *contacts,
-                            uint32_t capacity, uint32_t *count);
+    tahr_status (*contacts)(void *self, tahr_query_context *context, const tahr_contact_query *query,
+                            tahr_contact *contacts, uint32_t capacity, uint32_t *count);
 
     /* The first blocking hit of a segment; *count is 0 or 1. */
     tahr_status (*ray)(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count);

@@ -23,23 +23,23 @@ typedef struct tahr_config {
     tahr_shape shape; /* [capsule, radius 0.35, half height 0.9] */
 
     /* Collision */
-    uint32_t mask;      /* [all bits] bodies this character meets; 0: none */
+    uint32_t mask;       /* [all bits] bodies this character meets; 0: none */
     uint32_t max_slides; /* [8] sweeps of one slice of walking or falling before the rest of the motion is dropped; 1..16 */
-    double skin;        /* m [0.01] distance kept from everything that blocks */
+    double skin;         /* m [0.01] distance kept from everything that blocks */
     double max_depenetration; /* m [1.0] longest push out of an overlap per step */
 
     /* Floor */
     double walkable_angle;      /* rad [50 degrees] steepest floor that can be stood on */
     double walkable_hysteresis; /* rad [1 degree] a floor that was walkable stays so this much longer */
-    double floor_target; /* of skin [1.25] clearance that a correction aims at */
-    double floor_max;    /* of skin [1.5] clearance up to which nothing is corrected; the band starts at skin */
-    double step_height;  /* m [0.4] highest step, floor to landing face */
-    double snap_distance; /* m [0.4] how far down the floor is followed while walking */
-    double perch_threshold; /* m [0.15] a contact in the outermost ring of this width needs a floor further in */
-    double perch_extra;     /* m [0.4] how much deeper than snap_distance that floor may lie */
-    double edge_tolerance;  /* m [1e-4] impacts this close to the rim of the shape are no floor */
-    uint32_t cached_floor;  /* [1] 0: look for the floor even when nothing changed */
-    uint32_t walk_off_ledges; /* [1] 0: stop at ledges instead of falling */
+    double floor_target;        /* of skin [1.25] clearance that a correction aims at */
+    double floor_max;           /* of skin [1.5] clearance up to which nothing is corrected; the band starts at skin */
+    double step_height;         /* m [0.4] highest step, floor to landing face */
+    double snap_distance;       /* m [0.4] how far down the floor is followed while walking */
+    double perch_threshold;     /* m [0.15] a contact in the outermost ring of this width needs a floor further in */
+    double perch_extra;         /* m [0.4] how much deeper than snap_distance that floor may lie */
+    double edge_tolerance;      /* m [1e-4] impacts this close to the rim of the shape are no floor */
+    uint32_t cached_floor;      /* [1] 0: look for the floor even when nothing changed */
+    uint32_t walk_off_ledges;   /* [1] 0: stop at ledges instead of falling */
 
     /* Walking */
     double max_speed;            /* m/s [6] */
@@ -58,8 +58,10 @@ typedef struct tahr_config {
     double arc_tolerance;     /* m [0.001] how far the swept chords may lie off the arc of a fall */
 
     /* Time and turning */
-    double max_dt;    /* s [1] longest step accepted */
-    double turn_rate; /* rad/s [12.5] of the orientation toward input.facing */
+    double max_dt;     /* s [1] longest step accepted */
+    double turn_rate;  /* rad/s [12.5] of the orientation toward input.facing */
+    uint32_t sleep;    /* [1] 0: compute also a step whose like has just changed nothing */
+    uint32_t reserved; /* 0 */
 } tahr_config;
 
 /* Fills a config with a preset and sets its struct_size. [out] config of size bytes (sizeof(tahr_config)). Untouched on

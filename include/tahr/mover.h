@@ -38,17 +38,17 @@ typedef struct tahr_floor {
 } tahr_floor;
 
 enum {
-    TAHR_STATE_JUMP_HELD = 1 << 0,   /* the jump button was down in the last step */
-    TAHR_STATE_JUMPING = 1 << 1,     /* rising by a jump */
-    TAHR_STATE_FLOOR_MOVED = 1 << 2  /* the height was corrected after floor was looked for */
+    TAHR_STATE_JUMP_HELD = 1 << 0,  /* the jump button was down in the last step */
+    TAHR_STATE_JUMPING = 1 << 1,    /* rising by a jump */
+    TAHR_STATE_FLOOR_MOVED = 1 << 2 /* the height was corrected after floor was looked for */
 };
 
 /* Everything that decides a character's future. Frozen, 512 bytes, no pointers: copy it to remember, compare it with
  * memcmp to check a rollback, hash it to detect a desync. The reserved tail is zero. You may write position, velocity,
  * orientation and mode between steps; the floor is looked for again wherever position is not floor_position. */
 typedef struct tahr_state {
-    tahr_vec3 position; /* m, world, centre of the shape */
-    tahr_vec3 velocity; /* m/s, world */
+    tahr_vec3 position;    /* m, world, centre of the shape */
+    tahr_vec3 velocity;    /* m/s, world */
     tahr_quat orientation; /* its z axis is up (keep it so when you write it); yaw follows input.facing */
     tahr_vec3 up;
     uint32_t mode;  /* TAHR_MODE_* */
@@ -65,8 +65,8 @@ enum { TAHR_INPUT_GRAVITY = 1 << 0, TAHR_INPUT_FACING = 1 << 1 };
 /* What the player or an AI wants during one step. */
 typedef struct tahr_input {
     uint32_t struct_size;
-    uint32_t flags;    /* TAHR_INPUT_*: which of the optional fields below count */
-    uint32_t jump;     /* 1 while the button is held; a jump starts when it goes down */
+    uint32_t flags; /* TAHR_INPUT_*: which of the optional fields below count */
+    uint32_t jump;  /* 1 while the button is held; a jump starts when it goes down */
     uint32_t reserved;
     tahr_vec3 move;    /* world; length 0..1 of max_speed, longer is shortened to 1; the part along up is ignored */
     tahr_vec3 facing;  /* with FACING: turn toward this direction */
@@ -74,7 +74,7 @@ typedef struct tahr_input {
 } tahr_input;
 
 enum {
-    TAHR_EVENT_LANDED = 1,       /* value: speed into the floor, m/s */
+    TAHR_EVENT_LANDED = 1, /* value: speed into the floor, m/s */
     TAHR_EVENT_LEFT_GROUND = 2,
     TAHR_EVENT_JUMPED = 3,
     TAHR_EVENT_APEX = 4,
@@ -85,7 +85,7 @@ enum {
     TAHR_EVENT_DEPENETRATED = 9, /* value: length of the push, m */
     TAHR_EVENT_CRUSHED = 10,     /* value: depth that is left, m */
     TAHR_EVENT_STUCK = 11,
-    TAHR_EVENT_MODE = 12         /* value: the new mode */
+    TAHR_EVENT_MODE = 12 /* value: the new mode */
 };
 
 /* Something that happened inside a step. time counts from the start of the step, in order. Frozen. */
@@ -94,29 +94,29 @@ typedef struct tahr_event {
     uint32_t body; /* or TAHR_NO_BODY */
     uint32_t feature;
     uint32_t surface;
-    double time;   /* s */
-    double value;  /* see the type */
+    double time;        /* s */
+    double value;       /* see the type */
     tahr_vec3 position; /* of the character */
     tahr_vec3 normal;   /* contact normal, or zero */
 } tahr_event;
 
 /* The rules whose decisions can be traced: X(constant, value, name). */
-#define TAHR_RULE_TABLE(X)                              \
-    X(TAHR_RULE_WALKABLE, 1, "walkable")                \
-    X(TAHR_RULE_EDGE_TOLERANCE, 2, "edge_tolerance")    \
-    X(TAHR_RULE_PERCH, 3, "perch")                      \
-    X(TAHR_RULE_FLOOR, 4, "floor")                      \
-    X(TAHR_RULE_CACHED_FLOOR, 5, "cached_floor")        \
-    X(TAHR_RULE_FLOOR_HEIGHT, 6, "floor_height")        \
-    X(TAHR_RULE_RAMP, 7, "ramp")                        \
-    X(TAHR_RULE_SLIDE, 8, "slide")                      \
-    X(TAHR_RULE_STEP_UP, 9, "step_up")                  \
-    X(TAHR_RULE_STEP_DOWN, 10, "step_down")             \
-    X(TAHR_RULE_LANDING, 11, "landing")                 \
-    X(TAHR_RULE_WEDGE, 12, "wedge")                     \
-    X(TAHR_RULE_LEDGE, 13, "ledge")                     \
-    X(TAHR_RULE_DEPENETRATION, 14, "depenetration")     \
-    X(TAHR_RULE_JUMP, 15, "jump")                       \
+#define TAHR_RULE_TABLE(X)                           \
+    X(TAHR_RULE_WALKABLE, 1, "walkable")             \
+    X(TAHR_RULE_EDGE_TOLERANCE, 2, "edge_tolerance") \
+    X(TAHR_RULE_PERCH, 3, "perch")                   \
+    X(TAHR_RULE_FLOOR, 4, "floor")                   \
+    X(TAHR_RULE_CACHED_FLOOR, 5, "cached_floor")     \
+    X(TAHR_RULE_FLOOR_HEIGHT, 6, "floor_height")     \
+    X(TAHR_RULE_RAMP, 7, "ramp")                     \
+    X(TAHR_RULE_SLIDE, 8, "slide")                   \
+    X(TAHR_RULE_STEP_UP, 9, "step_up")               \
+    X(TAHR_RULE_STEP_DOWN, 10, "step_down")          \
+    X(TAHR_RULE_LANDING, 11, "landing")              \
+    X(TAHR_RULE_WEDGE, 12, "wedge")                  \
+    X(TAHR_RULE_LEDGE, 13, "ledge")                  \
+    X(TAHR_RULE_DEPENETRATION, 14, "depenetration")  \
+    X(TAHR_RULE_JUMP, 15, "jump")                    \
     X(TAHR_RULE_SWEEP, 16, "sweep")
 
 enum {
@@ -141,13 +141,14 @@ typedef struct tahr_decision {
 
 /* Facts about a step that are no errors; the step's status is the worst of them. */
 enum {
-    TAHR_REPORT_UNKNOWN = 1 << 0,   /* a query could not be decided */
+    TAHR_REPORT_UNKNOWN = 1 << 0, /* a query could not be decided */
     TAHR_REPORT_STUCK = 1 << 1,
     TAHR_REPORT_CRUSHED = 1 << 2,
     TAHR_REPORT_QUERY_CAP = 1 << 3,
-    TAHR_REPORT_TRUNCATED = 1 << 4, /* events or decisions were lost: see the counts */
+    TAHR_REPORT_TRUNCATED = 1 << 4,  /* events or decisions were lost: see the counts */
     TAHR_REPORT_UP_REFUSED = 1 << 5, /* the new up direction would have overlapped something; the old one stays */
-    TAHR_REPORT_CACHED_FLOOR = 1 << 6
+    TAHR_REPORT_CACHED_FLOOR = 1 << 6,
+    TAHR_REPORT_ASLEEP = 1 << 7 /* a step like the last one, which changed nothing: not computed, no queries counted */
 };
 
 /* The most queries one step may ask, whatever the world answers; then it stops where it is and says so. */
@@ -164,16 +165,16 @@ typedef struct tahr_report {
     uint32_t sweeps;
     uint32_t contact_queries;
     uint32_t rays;
-    uint32_t slides;    /* times a motion was bent */
-    uint32_t slices;    /* pieces of time */
+    uint32_t slides; /* times a motion was bent */
+    uint32_t slices; /* pieces of time */
     uint32_t reserved;
-    uint64_t triangle_tests;   /* shape against feature, in the narrow phase */
+    uint64_t triangle_tests; /* shape against feature, in the narrow phase */
     uint64_t narrow_iterations;
     uint64_t gathers;
     uint64_t escapes;
-    double step_offset;   /* m along up: sudden rise or drop by steps and snaps, for smoothing what is shown */
-    double residual;      /* m, deepest overlap that is left */
-    double time_lost;     /* s, not simulated because a cap was reached */
+    double step_offset; /* m along up: sudden rise or drop by steps and snaps, for smoothing what is shown */
+    double residual;    /* m, deepest overlap that is left */
+    double time_lost;   /* s, not simulated because a cap was reached */
 } tahr_report;
 
 /* A character at rest at a place, in free air or on the ground: mode FALLING until a step finds the floor; up opposite
@@ -208,8 +209,9 @@ TAHR_API void tahr_mover_destroy(tahr_mover *mover);
  * state not finite or out of range; the log names the field), TAHR_E_BACKEND, TAHR_E_REENTRANT.
  * Allocates nothing. Pure: the result depends on world, config, input, dt and state only. Different movers may step on
  * different threads at once. Queries: at most TAHR_MAX_QUERIES_PER_STEP; on flat ground 2 sweeps moving, 1 standing, 0
- * standing on a cached floor. Since 0.1. */
-TAHR_API tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
+ * standing on a cached floor or asleep. Since 0.1. */
+TAHR_API tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                                     tahr_report *report);
 
 /* "walking", "landed", "step_up"; "?" for a number that is none. Static memory. Since 0.1. */
 TAHR_API const char *tahr_mode_name(uint32_t mode);

@@ -96,14 +96,14 @@ typedef struct tahr_hit {
     uint32_t unknown;       /* 1: the backend gave up; free up to fraction, nothing known beyond */
     uint32_t sensor;        /* 1: reported, does not block */
     double fraction;        /* 0..1 of the motion */
-    double distance;        /* m, signed distance at that place: the margin for an ordinary hit, less if it was closer already */
-    double depth;           /* m, > 0 only with start_overlap */
-    tahr_vec3 normal;         /* contact normal, unit, from the surface to the shape */
+    double distance; /* m, signed distance at that place: the margin for an ordinary hit, less if it was closer already */
+    double depth;    /* m, > 0 only with start_overlap */
+    tahr_vec3 normal; /* contact normal, unit, from the surface to the shape */
     tahr_vec3 surface_normal; /* unit normal of the face that was hit; on an edge or vertex, of its face that opposes the motion most */
-    tahr_vec3 point;          /* on the surface */
-    double walkable_angle;    /* rad, with INCREASE and DECREASE */
-    uint32_t walkable_rule;   /* TAHR_WALKABLE_* */
-    uint32_t surface;         /* the user's id of the surface */
+    tahr_vec3 point;        /* on the surface */
+    double walkable_angle;  /* rad, with INCREASE and DECREASE */
+    uint32_t walkable_rule; /* TAHR_WALKABLE_* */
+    uint32_t surface;       /* the user's id of the surface */
     uint32_t body;
     uint32_t feature; /* triangle of a mesh, face of a box, 0 of round bodies */
 } tahr_hit;

@@ -67,8 +67,8 @@ typedef tahr_status (*tahr_sweep_fn)(void *user, const tahr_sweep *query, tahr_h
 /* [in] query, [out] contacts (capacity of them, zeroed before the call) and *count (0 before the call, at most
  * capacity): one per surface within query->margin, ordered by (distance, body, feature), with distance, normal,
  * surface_normal and point. Nothing is derived. Statuses and threads as for tahr_sweep_fn. */
-typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,
-                                        uint32_t *count);
+typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *query, tahr_contact *contacts,
+                                        uint32_t capacity, uint32_t *count);
 /* [in] query, [out] hit (zeroed before the call): fill in blocking, fraction, normal and point of the first blocking
  * hit; only surface_normal is derived. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_ray_fn)(void *user, const tahr_ray *query, tahr_hit *hit);
@@ -102,7 +102,8 @@ TAHR_API tahr_status tahr_world_open(const struct tahr_backend *backend, const t
 /* Opens a world whose geometry is behind the caller's functions. desc may be NULL; of it only allocator and log are
  * used. [out] world, untouched on failure. Returns TAHR_OK, TAHR_E_NULL (sweep missing), TAHR_E_STRUCT_SIZE,
  * TAHR_E_UNSUPPORTED (flags or an unknown tail not zero), TAHR_E_FLOAT_MODE, TAHR_E_MEMORY. Allocates. Since 0.1. */
-TAHR_API tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tahr_world_desc *desc, tahr_world **world);
+TAHR_API tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tahr_world_desc *desc,
+                                               tahr_world **world);
 
 /* Closes a world; its movers must be destroyed before. NULL is allowed. Since 0.1. */
 TAHR_API void tahr_world_close(tahr_world *world);
@@ -133,9 +134,10 @@ TAHR_API uint64_t tahr_world_memory(const tahr_world *world);
  * TAHR_E_NULL, TAHR_E_ARGUMENT (query not finite or out of range, bad shape, up, orientation or flags, a sweep with
  * capacity 0), TAHR_E_UNSUPPORTED (shape), TAHR_E_BACKEND (invalid answer). At most 64 answers per call. Allocate
  * nothing; may run on several threads. Since 0.1. */
-TAHR_API tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity, uint32_t *count);
-TAHR_API tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts, uint32_t capacity,
-                                         uint32_t *count);
+TAHR_API tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
+                                      uint32_t *count);
+TAHR_API tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts,
+                                         uint32_t capacity, uint32_t *count);
 TAHR_API tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, tahr_hit *hit, uint32_t *count);
 
 #ifdef __cplusplus

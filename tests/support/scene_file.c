@@ -47,6 +47,7 @@ static const struct {
     FIELD(REAL, arc_tolerance),
     FIELD(REAL, max_dt),
     FIELD(REAL, turn_rate),
+    FIELD(WORD, sleep),
     {"radius", offsetof(tahr_config, shape) + offsetof(tahr_shape, radius), REAL},
     {"half_height", offsetof(tahr_config, shape) + offsetof(tahr_shape, half_height), REAL},
     {"half_x", offsetof(tahr_config, shape) + offsetof(tahr_shape, half_x), REAL},

@@ -358,7 +358,7 @@ static void a_movers_cache_costs_what_the_header_says(void **unused)
         print_message("precision %u: a mover of %u triangles has %llu bytes, %.1f for each more\n", precision, held[0],
                       (unsigned long long)bytes[0], each);
         assert_near(each, said[precision], 0);
-        assert_true((double)bytes[0] < said[precision] * held[0] + 2048); /* and little else */
+        assert_true((double)bytes[0] < said[precision] * held[0] + 4096); /* config, the last step, the header */
     }
 }
 

@@ -97,7 +97,7 @@ static void flat_ground_costs_two_sweeps_walking_one_standing_none_cached(void *
         assert_int_equal(w.contact_queries, 0);
     }
     rig_close(&r);
-    c.cached_floor = 0;
+    c.cached_floor = c.sleep = 0;
     rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
     for (int i = 0; i < 30; i++) {
         rig_step(&r, 1.0 / 60);
@@ -131,6 +131,7 @@ static void idle_character_does_not_move_by_one_bit(void **unused)
             rig r;
             tahr_config c = rig_config();
             c.cached_floor = (uint32_t)cached;
+            c.sleep = 0; /* computed each time */
             fake_world_init(&w);
             fake_add_slope(&w, degrees);
             rig_stand(&r, &w, &c, fake_vec(0, 0, 1.5));
