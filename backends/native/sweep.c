@@ -200,7 +200,7 @@ static void search(sweep_state *s)
 static void run(sweep_state *s)
 {
     search(s);
-    if (s->later > s->limit) return;
+    if (s->later >= s->limit) return;
     s->again = 1;
     search(s);
 }
