@@ -149,24 +149,6 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     context->gathers++;
 }
 
-/* Brings what the sweeps of this step will read nearer, while the step is still busy with other things: in a crowd it has
- * left the nearest memory since the last step. */
-static void fetch(const tahr__native *world, tahr__cache *cache)
-{
-#if defined(__GNUC__)
-    const unsigned char *lanes = (const unsigned char *)blocks_of(cache);
-    size_t bytes = (cache->count + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES * TAHR__LANE_ROWS * sizeof(float);
-    for (size_t at = 0; at < bytes; at += 64)
-        __builtin_prefetch(lanes + at);
-    const unsigned char *prim = (const unsigned char *)(prims_of(world, cache) + cache->recent[0] % world->capacity);
-    for (size_t at = 0; at < sizeof(tahr__prim); at += 64)
-        __builtin_prefetch(prim + at);
-#else
-    (void)world;
-    (void)cache;
-#endif
-}
-
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
 {
     tahr__cache *cache = context ? context->cache : NULL;
@@ -175,10 +157,7 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     if (!keep) cache->frame = tahr__frame_make(world, p->position, p->up);
     cache->announced = 1;
     if (world->no_cache) return TAHR_OK;
-    if (keep && cache->gathered && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds)) {
-        fetch(world, cache);
-        return TAHR_OK;
-    }
+    if (keep && cache->gathered && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds)) return TAHR_OK;
     gather_now(world, context, p);
     return TAHR_OK;
 }

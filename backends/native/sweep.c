@@ -114,15 +114,22 @@ static void probe(sweep_state *s, const tahr__prim *prim, double earliest)
     s->stopper = prim;
     s->limit = f.t;
     s->found = 1;
-    s->search.box = tahr__query_box(query, f.t);
+}
+
+/* Nothing that lies beyond the limit is searched for any more. */
+static void narrow(sweep_state *s)
+{
+    s->search.box = tahr__query_box(s->search.query, s->limit);
     s->search.narrowed = 1;
 }
 
 static void visit(tahr__search *search, const tahr__prim *prim)
 {
     sweep_state *s = (sweep_state *)search;
-    double t = plane_earliest(search->query, prim, s->limit);
-    if (t <= s->limit && edges_earliest(search->query, prim, s->limit, t) <= s->limit) probe(s, prim, t);
+    double before = s->limit, t = plane_earliest(search->query, prim, before);
+    if (t > before || edges_earliest(search->query, prim, before, t) > before) return;
+    probe(s, prim, t);
+    if (s->limit < before) narrow(s);
 }
 
 /* Those that may block earliest go first: most often the first one does, and the others are too late. */
@@ -192,7 +199,9 @@ static void search(sweep_state *s)
         tahr__tree_search(&s->search, &query->world->fixed);
     }
     s->stopper = NULL;
-    if (query->world->movable.count) tahr__tree_search(&s->search, &query->world->movable);
+    if (query->world->movable.count == 0) return;
+    narrow(s);
+    tahr__tree_search(&s->search, &query->world->movable);
 }
 
 /* Nearly always once. A second time, with all that is beside the start known, if a contact that seemed to belong to a
