@@ -4,14 +4,6 @@
 
 #include <string.h>
 
-/* A box that is far from everything, for unused lanes. */
-#define NOWHERE 1e30f
-
-/* Lanes keep a plane whose distance is within this of the reach (m): single precision over the 32 m in which triangles
- * have a plane at all is off by 1e-5 m. */
-#define PLANE_SLACK 4e-5
-#define PLANE_RANGE 32.0
-
 static size_t whole_lines(size_t bytes)
 {
     return (bytes + 63) / 64 * 64;
@@ -46,38 +38,6 @@ typedef struct gather {
     tahr__cache *cache;
 } gather;
 
-static int in_range(tahr_vec3 v)
-{
-    return fabs(v.x) <= PLANE_RANGE && fabs(v.y) <= PLANE_RANGE && fabs(v.z) <= PLANE_RANGE;
-}
-
-/* Its planes for the lanes, if it is a triangle near enough for single precision to tell. */
-static void store_planes(float *to, const tahr__prim *prim)
-{
-    const tahr__facet *f = &prim->facet;
-    const tahr_vec3 *v = f->v;
-    /* 1e-6 m2: of less area the direction may be rounding. */
-    if ((prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) || !(f->length > 1e-6) || !in_range(v[0]) ||
-        !in_range(v[1]) || !in_range(v[2])) {
-        for (int i = 0; i < TAHR__LANE_ROWS - TAHR__LANE_NORMAL; i++)
-            to[i * TAHR__LANES] = 0;
-        return;
-    }
-    tahr_vec3 normal = v_scale(f->cross, 1 / f->length);
-    to[0] = (float)normal.x;
-    to[TAHR__LANES] = (float)normal.y;
-    to[2 * TAHR__LANES] = (float)normal.z;
-    to[3 * TAHR__LANES] = (float)v_dot(normal, v[0]);
-    to += (TAHR__LANE_EDGE - TAHR__LANE_NORMAL) * TAHR__LANES;
-    for (int i = 0; i < 3; i++, to += 4 * TAHR__LANES) {
-        tahr_vec3 e = v_sub(v[i < 2 ? i + 1 : 0], v[i]), out = v_scale(v_cross(e, normal), 1 / v_length(e));
-        to[0] = (float)out.x;
-        to[TAHR__LANES] = (float)out.y;
-        to[2 * TAHR__LANES] = (float)out.z;
-        to[3 * TAHR__LANES] = (float)v_dot(out, v[i]);
-    }
-}
-
 static void store(tahr__search *search, const tahr__prim *prim)
 {
     gather *g = (gather *)search;
@@ -90,15 +50,8 @@ static void store(tahr__search *search, const tahr__prim *prim)
         search->narrowed = 1;
         return;
     }
-    tahr_bounds b = tahr__prim_bounds(search->query, prim);
-    float *low = g->blocks + tahr__lane(n, TAHR__LANE_LOW), *high = g->blocks + tahr__lane(n, TAHR__LANE_HIGH);
-    low[0] = d_down(b.min.x);
-    low[TAHR__LANES] = d_down(b.min.y);
-    low[2 * TAHR__LANES] = d_down(b.min.z);
-    high[0] = d_up(b.max.x);
-    high[TAHR__LANES] = d_up(b.max.y);
-    high[2 * TAHR__LANES] = d_up(b.max.z);
-    store_planes(g->blocks + tahr__lane(n, TAHR__LANE_NORMAL), prim);
+    const tahr_bounds box = tahr__prim_bounds(search->query, prim);
+    tahr__lanes_put(g->blocks, n, &box, prim->kind & TAHR__PLANELESS ? NULL : &prim->facet);
     g->prims[n] = *prim;
     g->cache->plain &= !(prim->kind & TAHR__SENSOR);
     g->cache->count = n + 1;
@@ -141,11 +94,7 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     g.prims = prims_of(world, cache);
     g.cache = cache;
     tahr__tree_search(&g.search, &world->fixed);
-    for (uint32_t n = cache->count; n % TAHR__LANES != 0; n++) {
-        for (uint32_t row = 0; row < TAHR__LANE_ROWS; row++) {
-            g.blocks[tahr__lane(n, row)] = row < TAHR__LANE_NORMAL ? NOWHERE : 0;
-        }
-    }
+    tahr__lanes_end(g.blocks, cache->count);
     context->gathers++;
 }
 
@@ -183,7 +132,7 @@ static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
     /* Less twice what rounding may have moved a corner by. */
     q->lowest = d_down(s->box.min.z - 2 * TAHR__SLACK);
     /* Boxes are not upright segments: their planes are looked at in double. */
-    q->reach = query->core.axis_count < 2 ? (float)(s->reach + PLANE_SLACK + 1e-6 * query->motion_length) : 1e30f;
+    q->reach = query->core.axis_count < 2 ? (float)(s->reach + TAHR__LANE_SLACK + 1e-6 * query->motion_length) : 1e30f;
 }
 
 static int concerns(const tahr__query *query, const tahr__prim *prim)

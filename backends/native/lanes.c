@@ -1,16 +1,64 @@
 /* SPDX-License-Identifier: MIT
- * lanes.c: the cull four lanes at a time and its scalar twin, and which to take. All do the same IEEE operations in the
- * same order, so they keep the same primitives. */
+ * lanes.c: filling the lanes, the cull four at a time and its scalar twin, and which to take. All do the same IEEE
+ * operations in the same order, so they keep the same primitives. */
 #include "lanes.h"
-
-#include <math.h>
 
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #endif
 
+/* A box that is far from everything, for unused lanes. */
+#define NOWHERE 1e30f
+/* Coordinates (m) up to which planes are right within TAHR__LANE_SLACK. */
+#define RANGE 32.0
 /* A fraction that no motion has. */
 #define NEVER 2.0f
+
+/* Down one lane. */
+static void put_vec(float *to, tahr_vec3 v)
+{
+    to[0] = (float)v.x;
+    to[TAHR__LANES] = (float)v.y;
+    to[2 * TAHR__LANES] = (float)v.z;
+}
+
+static int in_range(tahr_vec3 v)
+{
+    return fabs(v.x) <= RANGE && fabs(v.y) <= RANGE && fabs(v.z) <= RANGE;
+}
+
+static void put_planes(float *to, const tahr__facet *f)
+{
+    const tahr_vec3 *v = f->v, normal = v_scale(f->cross, 1 / f->length);
+    put_vec(to, normal);
+    to[(TAHR__LANE_OFFSET - TAHR__LANE_NORMAL) * TAHR__LANES] = (float)v_dot(normal, v[0]);
+    to += (TAHR__LANE_EDGE - TAHR__LANE_NORMAL) * TAHR__LANES;
+    for (int i = 0; i < 3; i++, to += 4 * TAHR__LANES) {
+        tahr_vec3 e = v_sub(v[i < 2 ? i + 1 : 0], v[i]), out = v_scale(v_cross(e, normal), 1 / v_length(e));
+        put_vec(to, out);
+        to[3 * TAHR__LANES] = (float)v_dot(out, v[i]);
+    }
+}
+
+void tahr__lanes_put(float *blocks, uint32_t i, const tahr_bounds *box, const tahr__facet *facet)
+{
+    put_vec(blocks + tahr__lane(i, TAHR__LANE_LOW), v_make(d_down(box->min.x), d_down(box->min.y), d_down(box->min.z)));
+    put_vec(blocks + tahr__lane(i, TAHR__LANE_HIGH), v_make(d_up(box->max.x), d_up(box->max.y), d_up(box->max.z)));
+    /* 1e-6 m2: of less area the direction may be rounding. */
+    if (facet && facet->length > 1e-6 && in_range(facet->v[0]) && in_range(facet->v[1]) && in_range(facet->v[2])) {
+        put_planes(blocks + tahr__lane(i, TAHR__LANE_NORMAL), facet);
+        return;
+    }
+    for (uint32_t row = TAHR__LANE_NORMAL; row < TAHR__LANE_ROWS; row++)
+        blocks[tahr__lane(i, row)] = 0;
+}
+
+void tahr__lanes_end(float *blocks, uint32_t count)
+{
+    const tahr_vec3 far = {NOWHERE, NOWHERE, NOWHERE};
+    for (; count % TAHR__LANES != 0; count++)
+        tahr__lanes_put(blocks, count, &(tahr_bounds){far, far}, NULL);
+}
 
 static float larger_1(float a, float b)
 {

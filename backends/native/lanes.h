@@ -3,7 +3,11 @@
 #ifndef TAHR_NATIVE_LANES_H
 #define TAHR_NATIVE_LANES_H
 
-#include <stdint.h>
+#include "../common/core.h"
+
+/* What single precision may be off by over the 32 m in which triangles have planes, four times (m): a query adds it to its
+ * reach. */
+#define TAHR__LANE_SLACK 4e-5
 
 /* Blocks of eight primitives, each 22 rows of eight floats: low corner, high corner, plane normal . x = offset, and the
  * planes through the three edges across it, x, y, z, offset each, outward and unit (all zero: none). The lanes of the
@@ -28,6 +32,11 @@ static inline uint32_t tahr__lane(uint32_t i, uint32_t row)
 {
     return (i / TAHR__LANES * TAHR__LANE_ROWS + row) * TAHR__LANES + i % TAHR__LANES;
 }
+
+/* Writes primitive i: its box and the planes of its triangle. facet NULL: it has none that could be trusted. */
+void tahr__lanes_put(float *blocks, uint32_t i, const tahr_bounds *box, const tahr__facet *facet);
+/* Fills the rest of the last block. */
+void tahr__lanes_end(float *blocks, uint32_t count);
 
 /* What is looked for: boxes whose squared distance to [lo, hi] is at most limit, and whose plane and farthest edge do not
  * keep them out of reach of an upright segment of half length half that moves from start by motion. */
