@@ -36,6 +36,16 @@ double tahr__box_extent(const tahr__query *query, tahr_vec3 n)
     return tahr__core_extent(&query->core, n);
 }
 
+/* Does a face of the box keep the core out? Most often one does, and then its edges need not be asked. */
+static int outside_a_face(const tahr__core *core, const tahr__core *solid, tahr_vec3 off)
+{
+    for (int i = 0; i < solid->axis_count; i++) {
+        tahr_vec3 n = solid->axis[i];
+        if (fabs(v_dot(n, off)) > v_dot(n, n) + tahr__core_extent(core, n)) return 1;
+    }
+    return 0;
+}
+
 /* The way out of a box that the core has entered, along one of its faces or across a pair of edges. */
 static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__probe *out)
 {
@@ -49,6 +59,7 @@ static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__p
     solid.axis[2] = v_make(0, 0, body->half_extents.z);
     for (int i = 0; i < 3 && map.turned; i++)
         solid.axis[i] = m_apply(&map.turn, solid.axis[i]);
+    if (outside_a_face(&query->core, &solid, v_sub(centre, map.offset))) return 0;
     double depth = tahr__core_leave_solid(&query->core, centre, &solid, map.offset, &out->witness.normal);
     if (depth <= 0) return 0;
     tahr_vec3 n = out->witness.normal;
