@@ -57,10 +57,11 @@ static void store(tahr__search *search, const tahr__prim *prim)
     g->cache->count = n + 1;
 }
 
+/* Without branches: which side is out is different every time. */
 static int inside(const tahr_bounds *a, const tahr_bounds *b)
 {
-    return a->min.x >= b->min.x && a->min.y >= b->min.y && a->min.z >= b->min.z && a->max.x <= b->max.x &&
-           a->max.y <= b->max.y && a->max.z <= b->max.z;
+    int low = (a->min.x >= b->min.x) & (a->min.y >= b->min.y) & (a->min.z >= b->min.z);
+    return low & (a->max.x <= b->max.x) & (a->max.y <= b->max.y) & (a->max.z <= b->max.z);
 }
 
 static void gather_now(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
