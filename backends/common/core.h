@@ -25,11 +25,11 @@ typedef struct tahr__witness {
     uint32_t reserved;
 } tahr__witness;
 
-/* A triangle with what every measurement of it needs. */
+/* A triangle with what every measurement of it needs; what its plane needs comes first, in one line of memory. */
 typedef struct tahr__facet {
-    tahr_vec3 v[3];
     tahr_vec3 cross; /* (v[1] - v[0]) x (v[2] - v[0]) */
     double length;   /* of cross: twice the area */
+    tahr_vec3 v[3];
 } tahr__facet;
 
 static inline void tahr__facet_finish(tahr__facet *f)

@@ -240,7 +240,7 @@ void tahr__facet_distance(const tahr__core *core, tahr_vec3 centre, const tahr__
 
 void tahr__core_distance(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 v[3], tahr__witness *out)
 {
-    tahr__facet f = {{v[0], v[1], v[2]}, {0, 0, 0}, 0};
+    tahr__facet f = {.v = {v[0], v[1], v[2]}};
     tahr__facet_finish(&f);
     tahr__facet_distance(core, centre, &f, out);
 }

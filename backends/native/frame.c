@@ -108,7 +108,7 @@ void tahr__prim_begin(const tahr__body *body, uint32_t id, tahr__prim *prim)
                  (body->flags & TAHR_BODY_SENSOR ? TAHR__SENSOR : 0u) |
                  (body->type == TAHR_BODY_BOX ? TAHR__OF_BOX : 0u);
     prim->mask = body->mask;
-    prim->reserved = 0;
+    memset(prim->reserved, 0, sizeof prim->reserved);
 }
 
 void tahr__prim_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr__prim *prim)

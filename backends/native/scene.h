@@ -77,16 +77,15 @@ enum {
     TAHR__OF_BOX = 8
 };
 
-/* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. */
+/* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. Three lines of memory:
+ * what its plane needs, what its edges and the distance to it need, what a contact needs. */
 typedef struct tahr__prim {
-    /* What the planes need. */
+    uint32_t item, kind;
     tahr__facet facet; /* local; a segment for round bodies, a point for solids */
     double radius;
-    uint32_t item, kind;
     uint32_t body, mask; /* mask: of the body */
-    /* What a contact needs. */
-    tahr_vec3 face; /* triangles: the unit normal from exact corners, local */
-    uint32_t feature, reserved;
+    tahr_vec3 face;      /* triangles: the unit normal from exact corners, local */
+    uint32_t feature, reserved[9];
 } tahr__prim;
 
 /* One character's memory: a header and, behind it, the lanes and the primitives (gather.c). */

@@ -23,7 +23,7 @@ enum { MAX_FINDINGS = 20 };
 struct result {
     uint64_t steps; /* of all characters */
     struct times times;
-    double clock_cost; /* ns */
+    double clock_cost; /* ns, taken off every step's time */
     uint64_t sweeps, contact_queries, rays, triangle_tests, gathers, escapes;
     uint32_t most_queries; /* in one step */
     uint64_t grounded;     /* steps that ended walking */

@@ -64,7 +64,8 @@ void summary_words(const struct options *o, const struct level *level, const str
            level->body_count, level->triangle_count, level->bounds.max.x - level->bounds.min.x,
            level->bounds.max.y - level->bounds.min.y, level->bounds.max.z - level->bounds.min.z,
            (double)r->world_bytes / 1e6, r->open_seconds);
-    printf("  time       %" PRIu64 " steps, %.3g us median, %.3g us p99, %.3g us worst (the clock itself %.0f ns)\n",
+    printf("  time       %" PRIu64
+           " steps, %.3g us median, %.3g us p99, %.3g us worst (net of the clock's own %.0f ns)\n",
            r->steps, times_quantile(&r->times, 0.5) / 1e3, times_quantile(&r->times, 0.99) / 1e3,
            (double)r->times.greatest / 1e3, r->clock_cost);
     printf("  queries    %.2f sweeps, %.2f contact queries, %.1f triangle tests per step; at most %u queries in one\n",
