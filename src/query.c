@@ -30,6 +30,14 @@ static int is_unit(vec3 n)
     return l > (1 - UNIT_TOLERANCE) * (1 - UNIT_TOLERANCE) && l < (1 + UNIT_TOLERANCE) * (1 + UNIT_TOLERANCE);
 }
 
+static const char *bad_rule(uint32_t rule, double angle)
+{
+    if (rule > TAHR_WALKABLE_NEVER) {
+        return "walkable_rule";
+    }
+    return is_finite(angle) ? NULL : "walkable_angle";
+}
+
 static const char *bad_hit(const tahr_hit *h)
 {
     if (!(h->fraction >= 0 && h->fraction <= 1)) {
@@ -38,11 +46,11 @@ static const char *bad_hit(const tahr_hit *h)
     if (!h->blocking && !h->sensor && !h->start_overlap) {
         return NULL;
     }
-    if (!is_finite(h->distance)) {
-        return "distance";
-    }
     if (h->start_overlap && !(h->depth >= 0 && is_finite(h->depth))) {
         return "depth";
+    }
+    if (!is_finite(h->distance)) {
+        return "distance";
     }
     if (h->unknown) {
         return NULL;
@@ -56,7 +64,7 @@ static const char *bad_hit(const tahr_hit *h)
     if (!vec_is_finite(h->point)) {
         return "point";
     }
-    return h->walkable_rule > TAHR_WALKABLE_NEVER || !is_finite(h->walkable_angle) ? "walkable_rule" : NULL;
+    return bad_rule(h->walkable_rule, h->walkable_angle);
 }
 
 static const char *bad_contact(const tahr_contact *c)
@@ -73,7 +81,7 @@ static const char *bad_contact(const tahr_contact *c)
     if (!vec_is_finite(c->point)) {
         return "point";
     }
-    return c->walkable_rule > TAHR_WALKABLE_NEVER || !is_finite(c->walkable_angle) ? "walkable_rule" : NULL;
+    return bad_rule(c->walkable_rule, c->walkable_angle);
 }
 
 /* Unit to double precision: such a normal keeps its bits. */
@@ -241,6 +249,23 @@ static inline tahr_status checked_sweep(const tahr_world *world, tahr_query_cont
                     : margin_sweep(world, context, query, hits, capacity, count);
 }
 
+/* Treats what is not known as a wall in the way; of an undecided answer nothing but the fraction need make sense. */
+static void make_wall(tahr_hit *hit, vec3 from, vec3 motion)
+{
+    if (!is_unit(hit->normal) || !is_unit(hit->surface_normal)) {
+        hit->normal = hit->surface_normal = unit(scale(motion, -1));
+    }
+    if (!vec_is_finite(hit->point)) {
+        hit->point = add_scaled(from, motion, hit->fraction);
+    }
+    hit->distance = is_finite(hit->distance) ? hit->distance : 0;
+    hit->depth = is_finite(hit->depth) && hit->depth >= 0 ? hit->depth : 0;
+    if (bad_rule(hit->walkable_rule, hit->walkable_angle)) {
+        hit->walkable_rule = TAHR_WALKABLE_NEVER;
+        hit->walkable_angle = 0;
+    }
+}
+
 void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
                  tahr_hit *hit)
 {
@@ -272,12 +297,7 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
     hit->blocking = 1;
     if (hit->unknown) {
         step->report.flags |= TAHR_REPORT_UNKNOWN;
-        if (!is_unit(hit->normal) || !is_unit(hit->surface_normal)) { /* treat what is not known as a wall in the way */
-            hit->normal = hit->surface_normal = unit(scale(motion, -1));
-        }
-        if (!vec_is_finite(hit->point)) {
-            hit->point = add_scaled(from, motion, hit->fraction);
-        }
+        make_wall(hit, from, motion);
     }
 }
 

@@ -27,9 +27,9 @@ void tahr__sleep_report(const tahr_mover *mover, tahr_report *report)
     tahr_report r = s->report;
     r.struct_size = report->struct_size;
     r.events = report->events;
-    r.event_capacity = report->event_capacity;
-    r.decision_capacity = report->decision_capacity;
-    memcpy(r.events, s->events, r.event_count * sizeof s->events[0]);
+    if (r.event_count > 0) {
+        memcpy(r.events, s->events, r.event_count * sizeof s->events[0]);
+    }
     *report = r;
 }
 

@@ -138,10 +138,26 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
 typedef struct start {
     vec3 position, velocity;
     uint32_t flags;
-    uint32_t event_count;
+    uint32_t event_count, events_lost, slides, truncated;
     double step_offset;
     tahr_floor floor;
 } start;
+
+static start begin_here(const tahr__step *step)
+{
+    const tahr_state *s = &step->state;
+    const tahr_report *r = &step->report;
+    start begin = {.position = s->position,
+                   .velocity = s->velocity,
+                   .flags = s->flags,
+                   .event_count = r->event_count,
+                   .events_lost = r->events_lost,
+                   .slides = r->slides,
+                   .truncated = r->flags & TAHR_REPORT_TRUNCATED,
+                   .step_offset = r->step_offset,
+                   .floor = s->floor};
+    return begin;
+}
 
 static void go_back(tahr__step *step, const start *begin)
 {
@@ -150,6 +166,11 @@ static void go_back(tahr__step *step, const start *begin)
     tahr__keep_floor(step, &begin->floor);
     step->state.flags = begin->flags;
     step->report.event_count = begin->event_count;
+    step->report.events_lost = begin->events_lost;
+    step->report.slides = begin->slides;
+    if (step->report.decisions_lost == 0) {
+        step->report.flags &= ~(uint32_t)TAHR_REPORT_TRUNCATED | begin->truncated;
+    }
     step->report.step_offset = begin->step_offset;
     step->ahead = 0;
 }
@@ -169,8 +190,7 @@ tahr__next tahr__walk(tahr__step *step, double time)
         return fall;
     }
     double part = 1;
-    start begin = {step->state.position,     step->state.velocity,     step->state.flags,
-                   step->report.event_count, step->report.step_offset, step->state.floor};
+    const start begin = begin_here(step);
     int answer = WALK_AGAIN;
     for (uint32_t careful = 0; answer == WALK_AGAIN; careful = 1) {
         tahr__path_begin(step, &w, time);
