@@ -250,7 +250,7 @@ static inline tahr_status checked_sweep(const tahr_world *world, tahr_query_cont
 }
 
 /* Treats what is not known as a wall in the way; of an undecided answer nothing but the fraction need make sense. */
-static void make_wall(tahr_hit *hit, vec3 from, vec3 motion)
+static void make_wall(tahr_hit *hit, vec3 from, vec3 motion, double margin)
 {
     if (!is_unit(hit->normal) || !is_unit(hit->surface_normal)) {
         hit->normal = hit->surface_normal = unit(scale(motion, -1));
@@ -258,7 +258,7 @@ static void make_wall(tahr_hit *hit, vec3 from, vec3 motion)
     if (!vec_is_finite(hit->point)) {
         hit->point = add_scaled(from, motion, hit->fraction);
     }
-    hit->distance = is_finite(hit->distance) ? hit->distance : 0;
+    hit->distance = is_finite(hit->distance) ? hit->distance : margin; /* so far it was free */
     hit->depth = is_finite(hit->depth) && hit->depth >= 0 ? hit->depth : 0;
     if (bad_rule(hit->walkable_rule, hit->walkable_angle)) {
         hit->walkable_rule = TAHR_WALKABLE_NEVER;
@@ -297,7 +297,7 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
     hit->blocking = 1;
     if (hit->unknown) {
         step->report.flags |= TAHR_REPORT_UNKNOWN;
-        make_wall(hit, from, motion);
+        make_wall(hit, from, motion, margin);
     }
 }
 

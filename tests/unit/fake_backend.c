@@ -12,7 +12,7 @@
 
 const char *const lie_fields[LIES] = {"",         "normal",   "normal",   "normal",        "surface_normal",
                                       "fraction", "fraction", "fraction", "count",         "status",
-                                      "distance", "depth",    "point",    "walkable_rule", "walkable_rule"};
+                                      "distance", "depth",    "point",    "walkable_rule", "walkable_angle"};
 
 const char *const contact_lie_fields[CONTACT_LIES] = {"",       "normal",         "distance", "count",
                                                       "status", "surface_normal", "point",    "walkable_rule"};
