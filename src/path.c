@@ -123,7 +123,7 @@ void tahr__path_find_slope(tahr__path *w, tahr__step *step)
     double off = dot(w->slope, sub(hit.point, floor->point));
     int same = hit.blocking && dot(w->slope, hit.surface_normal) > 0.99 && off < step->config->skin &&
                off > -step->config->skin;
-    if (same) {
+    if (tahr__decide(step, TAHR_RULE_SLOPE, same, &hit, off, step->config->skin, "ground half-way to the contact")) {
         floor->flags |= TAHR_FLOOR_SLOPE;
     } else {
         w->slope = up;

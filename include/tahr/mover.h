@@ -117,7 +117,8 @@ typedef struct tahr_event {
     X(TAHR_RULE_LEDGE, 13, "ledge")                  \
     X(TAHR_RULE_DEPENETRATION, 14, "depenetration")  \
     X(TAHR_RULE_JUMP, 15, "jump")                    \
-    X(TAHR_RULE_SWEEP, 16, "sweep")
+    X(TAHR_RULE_SWEEP, 16, "sweep")                  \
+    X(TAHR_RULE_SLOPE, 17, "slope")
 
 enum {
 #define TAHR_RULE_ENUM(constant, value, name) constant = (value),
