@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elementary.h"
+#include "lip.h"
 #include "move.h"
 #include "query.h"
 #include "report.h"
@@ -109,11 +110,12 @@ static uint32_t still_slope(const tahr__step *step, const tahr_hit *hit)
     return old->body == hit->body && old->feature == hit->feature ? old->flags & TAHR_FLOOR_SLOPE : 0;
 }
 
-/* Nearly the same face as a moment ago keeps the benefit of the hysteresis. */
+/* Nearly the same face as a moment ago, if it was walkable by itself, keeps the benefit of the hysteresis. */
 static int was_walkable(const tahr__step *step, const tahr_hit *hit)
 {
     const tahr_floor *old = &step->state.floor;
-    return step->state.mode == TAHR_MODE_WALKING && floor_is_walkable(old) && old->body == hit->body &&
+    return step->state.mode == TAHR_MODE_WALKING && floor_is_walkable(old) && (old->flags & TAHR_FLOOR_FACE) &&
+           old->body == hit->body &&
            dot(old->surface_normal, hit->surface_normal) > 0.9999; /* within 0.8 degrees, less than the hysteresis */
 }
 
@@ -130,11 +132,19 @@ static void fill(tahr_floor *floor, const tahr_hit *hit, double distance, uint32
     floor->surface = hit->surface;
 }
 
+/* The front of a step holds who walks, between the floor before it and the one behind it; who falls slides off it. */
+static int holds_on_lip(tahr__step *step, const tahr_hit *hit)
+{
+    int lip = step->state.mode == TAHR_MODE_WALKING && tahr__is_lip(step, hit);
+    return tahr__decide(step, TAHR_RULE_PERCH, lip, hit, dot(hit->surface_normal, step->state.up), 0, "front of a step");
+}
+
 /* A contact at the rim, or on a face too steep, holds the character only if there is a floor for a thinner foot. Under a
  * face that is itself no floor it may lie no deeper than a step: that is a bevelled step, not a rock to lean on. */
-static int perches(tahr__step *step, double reach, int surface_walkable, tahr_floor *floor)
+static int perches(tahr__step *step, double reach, const tahr_hit *outer, tahr_floor *floor)
 {
     tahr__foot inner = thinner(step, step->config->perch_threshold);
+    int surface_walkable = (floor->flags & TAHR_FLOOR_FACE) != 0;
     double deepest = surface_walkable ? reach + step->config->perch_extra : step->config->step_height;
     double range = deepest + step->config->skin;
     tahr_hit hit;
@@ -145,7 +155,8 @@ static int perches(tahr__step *step, double reach, int surface_walkable, tahr_fl
         floor->flags |= TAHR_FLOOR_PERCHING;
         floor->perch_distance = distance;
     }
-    return tahr__decide(step, TAHR_RULE_PERCH, ok, &hit, distance, deepest, "floor for the inner foot");
+    tahr__decide(step, TAHR_RULE_PERCH, ok, &hit, distance, deepest, "floor for the inner foot");
+    return ok || holds_on_lip(step, surface_walkable ? &hit : outer);
 }
 
 static int wedge(tahr__step *step, tahr_floor *floor)
@@ -185,17 +196,21 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
     }
     fill(floor, &hit, hit.start_overlap ? -hit.depth : clearance(step, &hit, range), flags | still_slope(step, &hit));
     int surface = tahr__is_walkable(step, &hit, was_walkable(step, &hit));
+    floor->flags |= surface ? TAHR_FLOOR_FACE : 0u;
     /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
     int on_face = dot(hit.normal, hit.surface_normal) > 1 - 1e-6;
     int rim = inside < c->perch_threshold + c->skin;
     int ok = surface && (on_face || !rim);
     if (!ok && rim && !hit.start_overlap) {
-        ok = perches(step, reach, surface, floor);
+        ok = perches(step, reach, &hit, floor);
+    }
+    if (!ok && !surface && !rim) {
+        ok = holds_on_lip(step, &hit);
     }
     if (!ok && !surface) {
         ok = wedge(step, floor);
     }
-    floor->flags |= (ok ? TAHR_FLOOR_WALKABLE : 0u) | (surface ? TAHR_FLOOR_FACE : 0u);
+    floor->flags |= ok ? TAHR_FLOOR_WALKABLE : 0u;
     tahr__decide(step, TAHR_RULE_FLOOR, ok, &hit, floor->distance, range, "floor distance");
 }
 
@@ -203,6 +218,7 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
 static void shift_floor(tahr__step *step, double height)
 {
     step->state.floor.distance += height;
+    step->state.floor.perch_distance += step->state.floor.flags & TAHR_FLOOR_PERCHING ? height : 0;
     step->state.floor_position = step->state.position;
     step->state.flags |= TAHR_STATE_FLOOR_MOVED;
 }

@@ -15,8 +15,8 @@ double tahr__walkable_limit(const tahr__step *step, const tahr_hit *hit, int was
  * sweep that ended here may be supplied instead of the first sweep. 1 sweep; at most TAHR__FLOOR_QUERIES. */
 void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor);
 
-/* 1 sweep, 1 retry with a thinner shape, 1 perch sweep, 1 contact query for a wedge. */
-enum { TAHR__FLOOR_QUERIES = 4 };
+/* 1 sweep, 1 retry with a thinner shape, 1 perch sweep, 4 rays for the front of a step, 1 contact query for a wedge. */
+enum { TAHR__FLOOR_QUERIES = 8 };
 
 /* Makes `floor` the state's floor as found at this position. */
 static inline void tahr__keep_floor(tahr__step *step, const tahr_floor *floor)

@@ -7,31 +7,28 @@
 #include "step_up.h"
 
 #include "floor.h"
+#include "lip.h"
 #include "query.h"
 #include "report.h"
 
 /* Less progress than this part of the radius at step height is a wall, not a step. */
 static const double PROGRESS = 1e-4;
 
+/* m, of a height that is compared with the step height. */
+static const double ROUNDING = 1e-6;
+
 typedef struct attempt {
     vec3 up;
     double lift;    /* m, raised by */
     double covered; /* part of the motion */
     vec3 position;  /* landed at */
-    double rise;    /* m, landing face above the floor */
+    double rise;    /* m, landing above what held the foot */
     tahr_hit landing;
 } attempt;
 
 static int refuse(tahr__step *step, const tahr_hit *hit, double value, double limit, const char *reason)
 {
     return tahr__decide(step, TAHR_RULE_STEP_UP, 0, hit, value, limit, reason);
-}
-
-/* Height of the floor that the step is measured from. */
-static double floor_height(const tahr__step *step)
-{
-    const tahr_floor *floor = &step->state.floor;
-    return dot(floor->point, step->state.up);
 }
 
 /* Sweeps forward from the raised place. Returns the part of the motion that is free there. */
@@ -65,36 +62,44 @@ static int forward(tahr__step *step, vec3 motion, attempt *a)
     return 1;
 }
 
-/* A bevelled or rounded lip shows a steep face first: look for the tread behind it. */
-static int tread_behind(tahr__step *step, vec3 motion, const tahr_hit *landing, double base)
+/* Height of the floor that a step to the height `to` is measured from. Who leans on a face too steep to stand on stands on
+ * the floor before it, and no step is higher for how far the foot has come up there. On the front of a step the foot is
+ * on that step already, as it is on a sharp edge; asked only where it makes a difference. */
+static double floor_height(tahr__step *step, double to)
 {
-    const tahr_config *c = step->config;
-    double top = base + c->step_height;
-    double at = dot(landing->point, step->state.up);
-    vec3 over = add_scaled(landing->point, unit(motion), c->perch_threshold);
-    vec3 origin = add_scaled(over, step->state.up, top + c->skin - at);
-    tahr_hit hit;
-    tahr__ray(step, origin, scale(step->state.up, -(c->step_height + c->skin)), &hit);
-    /* Below the landing it is not the tread: the ray began inside the obstacle. */
-    int above = hit.blocking && dot(hit.point, step->state.up) >= at - c->skin;
-    return above && tahr__is_walkable(step, &hit, 0);
+    const tahr_floor *floor = &step->state.floor;
+    double at = dot(floor->point, step->state.up);
+    if ((floor->flags & TAHR_FLOOR_FACE) || !(floor->flags & TAHR_FLOOR_PERCHING)) {
+        return at;
+    }
+    double foot = dot(step->state.floor_position, step->state.up) - step->config->shape.half_height;
+    double before = foot - floor->perch_distance;
+    tahr_hit face = {.blocking = 1, .surface_normal = floor->surface_normal, .point = floor->point};
+    return to - before > step->config->step_height + ROUNDING && tahr__is_lip(step, &face) ? at : before;
 }
 
-static int land(tahr__step *step, vec3 motion, attempt *a)
+/* Does a face too steep to stand on lead to a tread? */
+static int leads_up(tahr__step *step, const tahr_hit *hit, double base)
+{
+    int on_lip = !(step->state.floor.flags & (TAHR_FLOOR_FACE | TAHR_FLOOR_PERCHING));
+    return on_lip ? tahr__is_lip(step, hit) : tahr__tread_behind(step, hit, base);
+}
+
+static int land(tahr__step *step, attempt *a)
 {
     const tahr_config *c = step->config;
-    double base = floor_height(step);
     double range = a->lift + c->snap_distance;
     tahr_hit *hit = &a->landing;
     tahr__sweep(step, &c->shape, a->position, scale(a->up, -range), c->skin, 0, hit);
     if (!hit->blocking || hit->start_overlap) {
         return refuse(step, hit, range, 0, "nothing to land on");
     }
-    a->rise = dot(hit->point, a->up) - base;
-    if (a->rise > c->step_height + 1e-6) {
-        return refuse(step, hit, a->rise, c->step_height, "higher than a step");
+    double top = dot(hit->point, a->up), base = floor_height(step, top);
+    a->rise = top - dot(step->state.floor.point, a->up);
+    if (top - base > c->step_height + ROUNDING) {
+        return refuse(step, hit, top - base, c->step_height, "higher than a step");
     }
-    if (!tahr__is_walkable(step, hit, 0) && !tread_behind(step, motion, hit, base)) {
+    if (!tahr__is_walkable(step, hit, 0) && !leads_up(step, hit, base)) {
         return refuse(step, hit, dot(hit->surface_normal, a->up), step->limits->walkable, "landing face too steep");
     }
     a->position = add_scaled(a->position, a->up, -range * hit->fraction);
@@ -111,7 +116,7 @@ double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
         dot(obstacle->normal, a.up) < -0.1) { /* struck by the upper half: a ceiling or an overhang */
         return 0;
     }
-    if (!forward(step, motion, &a) || !land(step, motion, &a)) {
+    if (!forward(step, motion, &a) || !land(step, &a)) {
         return 0;
     }
     step->state.position = a.position;
