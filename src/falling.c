@@ -112,8 +112,10 @@ static double meet_on_arc(tahr__step *step, const arc *a, vec3 chord, double dur
 static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
 {
     double up = dot(hit->normal, step->state.up);
-    double speed = dot(step->state.velocity, hit->normal);
-    if (up < 1e-3 || speed > 0 || step->error < 0) { /* 1e-3: a wall */
+    vec3 v = step->state.velocity;
+    /* A slide along the face leaves a speed of rounding against it, of either sign. */
+    int leaves = dot(v, hit->normal) > 1e-9 * length(v);
+    if (up < 1e-3 || leaves || step->error < 0) { /* 1e-3: a wall */
         return tahr__decide(step, TAHR_RULE_LANDING, 0, hit, up, 1e-3, "not met from above");
     }
     tahr__find_floor(step, step->config->snap_distance, hit, floor);

@@ -8,6 +8,11 @@
 /* Sensor bodies remembered in one sweep; each reports its first contact. */
 enum { SENSORS = 32 };
 
+/* Surfaces met at the same time, and the way (m) that counts as the same: ten times what rounding does to positions 1e6 m
+ * out, and no more than what the double narrow phase promises. */
+enum { TIES = 8 };
+#define HAIR 1e-9
+
 /* Cached primitives that wait for their turn, the earliest first; one more is probed at once. */
 enum { WAITING = 32 };
 
@@ -21,10 +26,12 @@ typedef struct waiter {
 
 typedef struct sweep_state {
     tahr__search search;
-    tahr__found best;
-    const tahr__prim *stopper; /* whose contact it is */
-    double limit;              /* best.t, or 1 */
-    uint32_t found, sensor_count, lost, waiting;
+    tahr__found ties[TIES];    /* what blocks first, and what blocks at the same time but for rounding */
+    const tahr__prim *stopper; /* whose contact is one of them */
+    double first;              /* the earliest time of the ties */
+    double hair;               /* what counts as the same time */
+    double limit;              /* first and a hair, or 1 */
+    uint32_t tied, sensor_count, lost, waiting;
     uint32_t again; /* this is the second time */
     double beside;  /* the smallest gap of what is within the margin at the start and does not block */
     double later;   /* the earliest time at which something undecided may block; > 1: nothing */
@@ -95,6 +102,50 @@ static void note_sensor(sweep_state *s, const tahr__found *f)
     s->lost = 1;
 }
 
+/* By the surface alone. */
+static int named_before(const tahr__found *a, const tahr__found *b)
+{
+    if (a->body != b->body) return a->body < b->body;
+    return a->feature != b->feature ? a->feature < b->feature : a->item < b->item;
+}
+
+/* The deepest overlap only: a sum of depths decides nothing. */
+static int overlap_first(sweep_state *s, const tahr__found *f)
+{
+    if (s->tied && s->ties[0].overlap && !tahr__found_before(f, &s->ties[0])) return 0;
+    s->ties[0] = *f;
+    s->tied = 1;
+    s->first = s->limit = 0;
+    return 1;
+}
+
+/* Keeps all that blocks within a hair of the first. Which of two surfaces that a walker touches at once is met first is
+ * rounding, and whole paths would hang on it: of those the one with the lowest name is reported, at the first one's time.
+ * Beyond TIES the highest names are dropped. Returns whether it is one of them. */
+static int tie(sweep_state *s, const tahr__found *f)
+{
+    if (f->overlap) return overlap_first(s, f);
+    if (f->t > s->limit || (s->tied && s->ties[0].overlap)) return 0;
+    uint32_t kept = 0, last = 0;
+    s->first = s->tied ? d_min(s->first, f->t) : f->t;
+    s->limit = d_min(s->first + s->hair, 1);
+    for (uint32_t i = 0; i < s->tied; i++) {
+        if (s->ties[i].t > s->limit) continue;
+        s->ties[kept] = s->ties[i];
+        if (named_before(&s->ties[last], &s->ties[kept])) last = kept;
+        kept++;
+    }
+    s->tied = kept;
+    if (kept < TIES) {
+        s->ties[s->tied++] = *f;
+    } else if (named_before(f, &s->ties[last])) {
+        s->ties[last] = *f;
+    } else {
+        return 0;
+    }
+    return 1;
+}
+
 static void probe(sweep_state *s, const tahr__prim *prim, double earliest)
 {
     const tahr__query *query = s->search.query;
@@ -109,11 +160,7 @@ static void probe(sweep_state *s, const tahr__prim *prim, double earliest)
         note_sensor(s, &f);
         return;
     }
-    if (s->found && !tahr__found_before(&f, &s->best)) return;
-    s->best = f;
-    s->stopper = prim;
-    s->limit = f.t;
-    s->found = 1;
+    if (tie(s, &f)) s->stopper = prim;
 }
 
 /* Nothing that lies beyond the limit is searched for any more. */
@@ -235,12 +282,21 @@ void tahr__fill_hit(const tahr__query *query, const tahr__found *f, tahr_hit *hi
     hit->feature = f->feature;
 }
 
+static const tahr__found *first_of(sweep_state *s)
+{
+    tahr__found *first = &s->ties[0];
+    for (uint32_t i = 1; i < s->tied; i++)
+        first = named_before(&s->ties[i], first) ? &s->ties[i] : first;
+    first->t = s->first;
+    return first;
+}
+
 /* Sensors that begin no later than the blocking hit, in order, then that hit. */
 static tahr_status report(sweep_state *s, tahr_hit *hits, uint32_t capacity, uint32_t *count)
 {
-    uint32_t n = 0, room = s->found && capacity > 0 ? capacity - 1 : capacity, kept = 0;
+    uint32_t n = 0, room = s->tied && capacity > 0 ? capacity - 1 : capacity, kept = 0;
     for (uint32_t i = 0; i < s->sensor_count; i++) {
-        if (s->found && s->sensors[i].t > s->best.t) continue;
+        if (s->tied && s->sensors[i].t > s->first) continue;
         tahr__found f = s->sensors[i];
         uint32_t k = kept++;
         for (; k > 0 && tahr__found_before(&f, &s->sensors[k - 1]); k--)
@@ -250,7 +306,7 @@ static tahr_status report(sweep_state *s, tahr_hit *hits, uint32_t capacity, uin
     for (; n < kept && n < room; n++)
         tahr__fill_hit(s->search.query, &s->sensors[n], &hits[n]);
     int truncated = n < kept || s->lost;
-    if (s->found && capacity > 0) tahr__fill_hit(s->search.query, &s->best, &hits[n++]);
+    if (s->tied && capacity > 0) tahr__fill_hit(s->search.query, first_of(s), &hits[n++]);
     *count = n;
     return truncated ? TAHR_TRUNCATED : TAHR_OK;
 }
@@ -276,7 +332,8 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     s.search.visit = visit;
     s.limit = 1;
     s.stopper = NULL;
-    s.found = s.sensor_count = s.lost = s.again = s.waiting = 0;
+    s.hair = query.motion_length > 0 ? HAIR / query.motion_length : 0;
+    s.tied = s.sensor_count = s.lost = s.again = s.waiting = 0;
     s.beside = query.margin;
     s.later = 2;
     run(&s);
