@@ -184,6 +184,32 @@ static void start_follows_the_contract(void **state)
 }
 
 /* The same box three times, the first of them movable: which one is found first must not matter. */
+/* Into a corner of two walls: which one is met first by less than a hair changes nothing but the fraction's last bits. */
+static void a_hair_does_not_decide_which_surface_is_met(void **state)
+{
+    (void)state;
+    for (int cached = 0; cached < 2; cached++) {
+        fixture f;
+        tahr_body_desc bodies[2] = {native_box(v_make(3, 0, 0), v_make(1, 5, 5)),
+                                    native_box(v_make(0, 3, 0), v_make(5, 1, 5))};
+        native_open(&f, bodies, 2, TAHR_NATIVE_DOUBLE, cached);
+        for (int k = -6; k <= 6; k++) {
+            double off = k * 1e-10; /* nearer to the second wall, if positive */
+            tahr_sweep q = fixture_sweep(native_shape(0), v_make(0, off, 0), v_make(3, 3, 0), 0.01);
+            if (cached) fixture_announce(&f, q.position, 5);
+            tahr_hit h = fixture_hit(&f, &q);
+            double x = (2 - q.shape.radius - q.margin) / 3, y = x - off / 3;
+            assert_true(h.blocking && h.body == 0 && h.normal.x == -1);
+            assert_true(fabs(h.fraction - d_min(x, y)) < 1e-10);
+        }
+        /* Beyond a hair the one that is met first is reported. */
+        tahr_sweep q = fixture_sweep(native_shape(0), v_make(0, 1e-7, 0), v_make(3, 3, 0), 0.01);
+        if (cached) fixture_announce(&f, q.position, 5);
+        assert_int_equal(fixture_hit(&f, &q).body, 1);
+        native_close(&f);
+    }
+}
+
 static void ties_go_to_the_lowest_body(void **state)
 {
     (void)state;
@@ -254,11 +280,9 @@ static void sensors_come_before_the_blocking_hit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sweeps_are_exact_in_double),
-        cmocka_unit_test(sweeps_are_within_two_micrometres_in_float),
-        cmocka_unit_test(start_follows_the_contract),
-        cmocka_unit_test(ties_go_to_the_lowest_body),
-        cmocka_unit_test(sensors_come_before_the_blocking_hit),
+        cmocka_unit_test(sweeps_are_exact_in_double), cmocka_unit_test(sweeps_are_within_two_micrometres_in_float),
+        cmocka_unit_test(start_follows_the_contract), cmocka_unit_test(a_hair_does_not_decide_which_surface_is_met),
+        cmocka_unit_test(ties_go_to_the_lowest_body), cmocka_unit_test(sensors_come_before_the_blocking_hit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
