@@ -71,7 +71,8 @@ void options_help(void)
           "                     move: direction, length 0 to 1; jump; facing: direction; start: centre of the capsule\n"
           "  --csv FILE         one row per character and step\n"
           "  --plot FILE        .svg or .png: the level from above with the paths, and the heights below\n"
-          "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling and overlaps\n"
+          "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling (from 5 Hz up)\n"
+          "                     and overlaps\n"
           "  --json             the summary as one JSON object\n"
           "\n"
           "Exit code: 0 all well, 1 a check failed or the run could not go on, 2 wrong usage.\n",

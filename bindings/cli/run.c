@@ -19,8 +19,9 @@
 
 #define WANDER_SPEED 5.0    /* m/s, by the definition of wandering */
 #define FALL_OUT_DEPTH 10.0 /* m below the lowest vertex */
-#define SAMPLE_PERIOD 16    /* steps, of --check sampled */
-#define EVENT_CAPACITY 64   /* per step; more are counted as lost by the library */
+#define STRAIGHT_DT 0.21  /* s; the way of a longer step bends round corners that a line between its ends would cross */
+#define SAMPLE_PERIOD 16  /* steps, of --check sampled */
+#define EVENT_CAPACITY 64 /* per step; more are counted as lost by the library */
 
 struct character {
     tahr_state state;
@@ -219,7 +220,7 @@ static void check_step(struct run *run, const struct moment *m, const tahr_state
         return;
     }
     r->checked++;
-    if (checker_crosses(run->checker, m->before, state->position)) {
+    if (run->dt <= STRAIGHT_DT && checker_crosses(run->checker, m->before, state->position)) {
         r->tunnels++;
         add_finding(run, m, "tunnelled", m->before);
         trace_mark(&run->trace, m->index, TRACE_TUNNEL, m->time, state->position);
