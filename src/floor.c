@@ -103,20 +103,24 @@ static double clearance(const tahr__step *step, const tahr_hit *hit, double rang
     return skin - (skin - max_of(hit->distance, 0)) / rate;
 }
 
-/* The same face as a moment ago. */
+/* Nearly the same face as a moment ago: within 0.8 degrees, less than the hysteresis. */
+static int is_same_face(const tahr_floor *old, const tahr_hit *hit)
+{
+    return old->body == hit->body && dot(old->surface_normal, hit->surface_normal) > 0.9999;
+}
+
 static uint32_t still_slope(const tahr__step *step, const tahr_hit *hit)
 {
     const tahr_floor *old = &step->state.floor;
-    return old->body == hit->body && old->feature == hit->feature ? old->flags & TAHR_FLOOR_SLOPE : 0;
+    return old->flags & TAHR_FLOOR_SLOPE && is_same_face(old, hit) ? TAHR_FLOOR_SLOPE : 0;
 }
 
-/* Nearly the same face as a moment ago, if it was walkable by itself, keeps the benefit of the hysteresis. */
+/* The same face, if it was walkable by itself, keeps the benefit of the hysteresis. */
 static int was_walkable(const tahr__step *step, const tahr_hit *hit)
 {
     const tahr_floor *old = &step->state.floor;
     return step->state.mode == TAHR_MODE_WALKING && floor_is_walkable(old) && (old->flags & TAHR_FLOOR_FACE) &&
-           old->body == hit->body &&
-           dot(old->surface_normal, hit->surface_normal) > 0.9999; /* within 0.8 degrees, less than the hysteresis */
+           is_same_face(old, hit);
 }
 
 static void fill(tahr_floor *floor, const tahr_hit *hit, double distance, uint32_t flags)

@@ -6,6 +6,8 @@
 enum { MAX_SENSORS = 16 };
 /* Pieces put in order before libccd is asked; of more than these the latest are asked about as they come. */
 enum { MAX_WAITING = 64 };
+/* The way (m) on which surfaces are met at once: ten times what answers are off by. */
+#define HAIR 1e-8
 
 /* A piece that may be hit, not before the fraction at which the tangent of its distance at the start says so. */
 typedef struct candidate {
@@ -23,6 +25,12 @@ typedef struct search {
     tahr_hit sensors[MAX_SENSORS];
     candidate waiting[MAX_WAITING + 1]; /* by earliest */
 } search;
+
+/* The part of the motion that counts as the same time. */
+static double hair_of(const search *s)
+{
+    return s->probe->motion_length > 0 ? HAIR / s->probe->motion_length : 0;
+}
 
 /* Order of answers: where, then who. Overlaps at the start come first, the deepest of them first. */
 static int comes_before(const tahr_hit *a, const tahr_hit *b)
@@ -53,10 +61,22 @@ static void keep_sensor(search *s, const tahr_hit *hit)
     }
 }
 
+/* Which of two surfaces that are met at once comes first is rounding: the lower name does, at the earlier time. */
+static void keep_tie(search *s, const tahr_hit *hit)
+{
+    double first = d_min(hit->fraction, s->best.fraction);
+    tahr_hit other = *hit;
+    other.fraction = s->best.fraction = first;
+    if (comes_before(&other, &s->best)) s->best = other;
+}
+
 static void keep(search *s, const tahr_hit *hit)
 {
     if (hit->sensor) {
         keep_sensor(s, hit);
+    } else if (s->found && !hit->start_overlap && !s->best.start_overlap &&
+               fabs(hit->fraction - s->best.fraction) <= hair_of(s)) {
+        keep_tie(s, hit);
     } else if (!s->found || comes_before(hit, &s->best)) {
         s->best = *hit;
         s->found = 1;
@@ -100,11 +120,11 @@ static void report(search *s, const tahr__ccd_piece *piece, tahr__ccd_near *near
     keep(s, &hit);
 }
 
-/* What is later than the nearest hit so far cannot matter; a little more lets equal fractions be told apart by id. */
+/* What is later than the nearest hit so far by more than a hair cannot matter. */
 static double limit_of(const search *s)
 {
     if (!s->found) return 1;
-    return s->best.start_overlap ? -1 : d_min(1, s->best.fraction * (1 + 1e-9) + 1e-12);
+    return s->best.start_overlap ? -1 : d_min(1, s->best.fraction + hair_of(s) + 1e-12);
 }
 
 static void resolve(search *s, candidate *c)
