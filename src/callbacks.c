@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * callbacks.c: a user's functions behind the same vtable as every backend, with contacts and rays derived from the sweep
- * where the user has none. */
+ * callbacks.c: a user's functions behind the same vtable as every backend, with contacts and rays derived from the
+ * sweep where the user has none. */
 #include "callbacks.h"
 
 #include <string.h>

@@ -115,8 +115,8 @@ static vec3 solve_symmetric(const double m[6], vec3 r)
                  1.0 / det);
 }
 
-/* Minimises the sum of squared violations, with a trace of |x - u|^2 to make the answer unique. Each round solves for the
- * set that is violated now; the set settles in a few rounds, 16 is a cap. */
+/* Minimises the sum of squared violations, with a trace of |x - u|^2 to make the answer unique. Each round solves for
+ * the set that is violated now; the set settles in a few rounds, 16 is a cap. */
 static vec3 least_squares(const tahr__plane *planes, uint32_t count, vec3 u)
 {
     const double ridge = 1e-6; /* pulls toward u a million times weaker than a plane pushes */

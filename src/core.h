@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * core.h: the core's own objects: the world behind its handle, a mover, and the step in progress that every rule gets. */
+ * core.h: the core's own objects: the world behind its handle, a mover, and the step in progress that every rule
+ * gets. */
 #ifndef TAHR_CORE_H
 #define TAHR_CORE_H
 
@@ -15,15 +16,23 @@ typedef struct tahr__memory {
     uint64_t bytes;
 } tahr__memory;
 
+/* What the core remembers of a body. */
+typedef struct tahr__body_note {
+    uint64_t pose_hash; /* its share of the revision */
+    uint64_t movable;
+} tahr__body_note;
+
 struct tahr_world {
     const tahr_backend *backend;
-    void *self; /* the backend's */
-    tahr_host host;
+    void *self;     /* the backend's */
+    tahr_host host; /* its log names the function that a backend complains in */
     tahr_log log;
-    tahr__memory memory;
-    uint64_t revision;   /* never 0; a pure function of the poses of all bodies and of the touches */
-    uint64_t *pose_hash; /* per body: its share of the revision */
+    const char *calling; /* that function, while it has the world for itself; else NULL */
+    uint32_t complaints; /* of the backend in it */
     uint32_t body_count;
+    tahr__memory memory;
+    uint64_t revision; /* never 0; a pure function of the poses of all bodies and of the touches */
+    tahr__body_note *bodies;
 };
 
 /* Gravity and what follows from it. */

@@ -62,8 +62,8 @@ double tahr__expm1(double x)
     return p * e + (p - 1);
 }
 
-/* 2 atanh(s) = ln((1 + s) / (1 - s)) with s = f / (2 + f), for 1 + f between sqrt 1/2 and sqrt 2. |s| <= 0.172: 0.0295^12 / 25
- * < 1e-19; for s^2 < 1e-5 three terms do: 1e-20 / 9. */
+/* 2 atanh(s) = ln((1 + s) / (1 - s)) with s = f / (2 + f), for 1 + f between sqrt 1/2 and sqrt 2. |s| <= 0.172:
+ * 0.0295^12 / 25 < 1e-19; for s^2 < 1e-5 three terms do: 1e-20 / 9. */
 static double log1p_series(double f)
 {
     static const double inverse_odd[] = {0.3333333333333333,   0.2,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * falling.c: one slice of falling: arcs in closed form, swept as chords, with the time of every contact solved on the arc. */
+ * falling.c: one slice of falling: arcs in closed form, swept as chords, with the time of every contact solved on the
+ * arc. */
 #include "falling.h"
 
 #include "floor.h"
@@ -52,8 +53,8 @@ static vec3 arc_at(const arc *a, double t, vec3 *velocity)
     return add_scaled(m.displacement, a->axis, rise);
 }
 
-/* s until the arc is highest; 0 if it is past that. A rise of less than a nanosecond is the rounding of an apex that was
- * met already. */
+/* s until the arc is highest; 0 if it is past that. A rise of less than a nanosecond is the rounding of an apex that
+ * was met already. */
 static double apex_time(const arc *a)
 {
     return a->rise > 1e-9 * a->gravity && a->gravity > 0 ? a->hold + a->rise / a->gravity : 0;
@@ -99,7 +100,7 @@ static double meet_on_arc(tahr__step *step, const arc *a, vec3 chord, double dur
     if (check.start_overlap || check.unknown) {
         return 0;
     }
-    if (check.blocking && (1 - check.fraction) * length(to) > 1e-9) { /* something else, or a curved edge, comes first */
+    if (check.blocking && (1 - check.fraction) * length(to) > 1e-9) { /* something else comes first */
         *hit = check;
         step->state.position = add_scaled(start, to, check.fraction);
         return t * check.fraction;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * float_mode.c: probes contraction, rounding and flushing to zero at run time. Host programs set these flags behind a
- * library's back (crtfastmath at load, an audio thread's denormal switch), and FMA contraction alone moves a slide by centimetres. */
+ * library's back (crtfastmath at load, an audio thread's denormal switch), and FMA contraction alone moves a slide by
+ * centimetres. */
 #include "float_mode.h"
 
 #include <float.h>

@@ -6,6 +6,15 @@
 
 enum { MESSAGE_SIZE = 256 };
 
+void tahr__say(const tahr_log *log, int32_t level, const char *function, const char *text)
+{
+    if (log && log->write) {
+        char line[MESSAGE_SIZE];
+        snprintf(line, sizeof line, "%s: %s", function, text);
+        log->write(log->user, level, line);
+    }
+}
+
 tahr_status tahr__complain(const tahr_log *log, tahr_status status, const char *function, const char *argument,
                            const char *what)
 {

@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * message.h: the one way an error becomes a log message. */
+ * message.h: the one way something becomes a log message. */
 #ifndef TAHR_MESSAGE_H
 #define TAHR_MESSAGE_H
 
 #include <tahr/abi.h>
+
+/* Writes "function: text" to the log (log may be NULL). */
+void tahr__say(const tahr_log *log, int32_t level, const char *function, const char *text);
 
 /* Writes "function: argument what" to the log as an error (log may be NULL). Returns status. */
 tahr_status tahr__complain(const tahr_log *log, tahr_status status, const char *function, const char *argument,

@@ -18,6 +18,17 @@ static void advance(tahr__step *step, vec3 motion, const tahr_hit *hit)
     }
 }
 
+static const char *outcome(const tahr_hit *hit)
+{
+    if (hit->unknown) {
+        return "undecided, taken for a wall";
+    }
+    if (hit->start_overlap) {
+        return "overlaps something already";
+    }
+    return hit->blocking ? "kept the skin to something" : "nothing in the way";
+}
+
 int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
 {
     const tahr_shape *shape = &step->config->shape;
@@ -29,6 +40,7 @@ int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
         /* What is still overlapped may be left, never entered deeper. */
         tahr__sweep(step, shape, step->state.position, motion, skin, TAHR_SWEEP_LEAVE_OVERLAP, hit);
     }
+    tahr__decide(step, TAHR_RULE_SWEEP, !hit->blocking, hit, hit->fraction, 1, outcome(hit));
     advance(step, motion, hit);
     return overlapped;
 }

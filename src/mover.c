@@ -51,12 +51,15 @@ static tahr__limits limits_of(const tahr_config *c, uint32_t capabilities)
 tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **out)
 {
     const char *field = NULL;
-    if (!world || !out) {
+    if (!world) {
         return TAHR_E_NULL;
+    }
+    if (!config || !out) {
+        return tahr__complain(&world->log, TAHR_E_NULL, "tahr_mover_create", config ? "mover" : "config", "is NULL");
     }
     tahr_status status = tahr_config_check(config, &field);
     if (status < 0) {
-        return tahr__complain(&world->log, status, "tahr_mover_create", field ? field : "config",
+        return tahr__complain(&world->log, status, "tahr_mover_create", field ? field : "config:",
                               field ? "is out of range or not finite" : tahr_status_message(status));
     }
     if (!(world->backend->capabilities & tahr__shape_capability(config->shape.type))) {
@@ -131,12 +134,33 @@ static int all_zero(const uint8_t tail[sizeof((tahr_state *)0)->reserved])
 }
 
 /* A sum is finite only if all its terms are (and no floor is so far away that it overflows). */
-static int floor_is_finite(const tahr_state *s)
+static const char *bad_floor(const tahr_state *s)
 {
     const tahr_floor *f = &s->floor;
     const vec3 n = f->normal, surface = f->surface_normal, point = f->point, at = s->floor_position;
     double sum = n.x + n.y + n.z + surface.x + surface.y + surface.z + point.x + point.y + point.z + f->distance;
-    return is_finite(sum + f->perch_distance + at.x + at.y + at.z + s->jump_hold);
+    if (is_finite(sum + f->perch_distance + at.x + at.y + at.z + s->jump_hold)) {
+        return NULL;
+    }
+    if (!vec_is_finite(n)) {
+        return "state.floor.normal";
+    }
+    if (!vec_is_finite(surface)) {
+        return "state.floor.surface_normal";
+    }
+    if (!vec_is_finite(point)) {
+        return "state.floor.point";
+    }
+    if (!vec_is_finite(at)) {
+        return "state.floor_position";
+    }
+    if (!is_finite(s->jump_hold)) {
+        return "state.jump_hold";
+    }
+    if (!is_finite(f->perch_distance)) {
+        return "state.floor.perch_distance";
+    }
+    return is_finite(f->distance) ? "state.floor" : "state.floor.distance";
 }
 
 static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
@@ -169,7 +193,7 @@ static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
     if (!all_zero(s->reserved)) {
         return "state.reserved";
     }
-    return floor_is_finite(s) ? NULL : "state.floor";
+    return bad_floor(s);
 }
 
 static tahr_status check_arguments(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
@@ -177,13 +201,16 @@ static tahr_status check_arguments(const tahr_mover *mover, const tahr_input *in
 {
     const tahr_log *log = &mover->world->log;
     tahr_status status = tahr__sized_check(input, sizeof *input);
-    if (status >= 0 && report) {
+    if (status < 0) {
+        return tahr__complain(log, status, "tahr_mover_step", "input:", tahr_status_message(status));
+    }
+    if (report) {
         uint32_t size;
         memcpy(&size, report, sizeof size);
-        status = size < sizeof *report || size > sizeof *report + TAHR__MOST_UNKNOWN ? TAHR_E_STRUCT_SIZE : TAHR_OK;
-    }
-    if (status < 0) {
-        return tahr__complain(log, status, "tahr_mover_step", "input or report", tahr_status_message(status));
+        if (size < sizeof *report || size > sizeof *report + TAHR__MOST_UNKNOWN) {
+            return tahr__complain(log, TAHR_E_STRUCT_SIZE, "tahr_mover_step",
+                                  "report:", tahr_status_message(TAHR_E_STRUCT_SIZE));
+        }
     }
     if (!(dt >= 0 && dt <= mover->config.max_dt)) {
         return tahr__complain_value(log, TAHR_E_ARGUMENT, "tahr_mover_step", "dt", dt,
@@ -263,8 +290,8 @@ static vec3 clean(vec3 v)
     return vec(v.x + 0.0, v.y + 0.0, v.z + 0.0);
 }
 
-/* -0.0 and 0.0 are one number; the caller's state holds only one of them, so that memcmp agrees with ==. The tail is zero
- * on both sides of a step, and stays where it is. */
+/* -0.0 and 0.0 are one number; the caller's state holds only one of them, so that memcmp agrees with ==. The tail is
+ * zero on both sides of a step, and stays where it is. */
 static void hand_over(const tahr_state *s, tahr_state *out)
 {
     const tahr_quat q = s->orientation;
@@ -347,8 +374,11 @@ static void detect_stuck(tahr__step *step, const tahr_state *before)
 
 tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report)
 {
-    if (!mover || !input || !state) {
+    if (!mover) {
         return TAHR_E_NULL;
+    }
+    if (!input || !state) {
+        return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
     }
     if (mover->busy) {
         return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * query.c: the only file that calls backend slots. Checks every question and every answer: a backend may lie, and what it
- * says decides where a character goes. */
+ * query.c: the only file that calls backend slots. Checks every question and every answer: a backend may lie, and what
+ * it says decides where a character goes. */
 #include "query.h"
 
 #include <string.h>
@@ -46,14 +46,14 @@ static const char *bad_hit(const tahr_hit *h)
     if (!h->blocking && !h->sensor && !h->start_overlap) {
         return NULL;
     }
+    if (h->unknown) {
+        return NULL;
+    }
     if (h->start_overlap && !(h->depth >= 0 && is_finite(h->depth))) {
         return "depth";
     }
     if (!is_finite(h->distance)) {
         return "distance";
-    }
-    if (h->unknown) {
-        return NULL;
     }
     if (!is_unit(h->normal)) {
         return "normal";
@@ -96,7 +96,8 @@ static vec3 exact_unit(vec3 n)
     return is_exact(n) ? n : unit(n);
 }
 
-/* What almost every hit is: nothing to find bad, and nothing to make exact. A sum is finite only if all its terms are. */
+/* What almost every hit is: nothing to find bad, and nothing to make exact. A sum is finite only if all its terms
+ * are. */
 static inline int is_flawless(const tahr_hit *h)
 {
     double sum = ((h->point.x + h->point.y) + (h->point.z + h->distance)) + h->walkable_angle;
@@ -388,14 +389,24 @@ static tahr_status bad_argument(const tahr_world *world, const char *function, c
     return tahr__complain(&world->log, TAHR_E_ARGUMENT, function, field, "is out of range or not finite");
 }
 
+/* One of query, answers and count is NULL; answers are called name. */
+static tahr_status null_argument(const tahr_world *world, const char *function, const void *query, const void *answers,
+                                 const char *name)
+{
+    return tahr__complain(&world->log, TAHR_E_NULL, function, !query ? "query" : (!answers ? name : "count"), "is NULL");
+}
+
 tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
                              uint32_t *count)
 {
     tahr_hit found[DIRECT_ANSWERS];
     tahr_query_context context = {0};
     uint32_t n = 0;
-    if (!world || !query || !hits || !count) {
+    if (!world) {
         return TAHR_E_NULL;
+    }
+    if (!query || !hits || !count) {
+        return null_argument(world, "tahr_world_sweep", query, hits, "hits");
     }
     const char *bad = bad_placement(&query->shape, query->position, query->up, query->orientation, query->margin);
     if (!bad && !(vec_is_finite(query->motion) && length(query->motion) <= 1e6)) {
@@ -416,9 +427,13 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     if (status < 0) {
         return status;
     }
+    if (n && found[n - 1].unknown) {
+        make_wall(&found[n - 1], query->position, query->motion, query->margin);
+        status = TAHR_UNKNOWN;
+    }
     memcpy(hits, found, n * sizeof found[0]);
     *count = n;
-    return n && found[n - 1].unknown ? TAHR_UNKNOWN : status;
+    return status;
 }
 
 tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts,
@@ -427,8 +442,11 @@ tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *que
     tahr_contact found[DIRECT_ANSWERS];
     tahr_query_context context = {0};
     uint32_t n = 0;
-    if (!world || !query || !contacts || !count) {
+    if (!world) {
         return TAHR_E_NULL;
+    }
+    if (!query || !contacts || !count) {
+        return null_argument(world, "tahr_world_contacts", query, contacts, "contacts");
     }
     const char *bad = bad_placement(&query->shape, query->position, query->up, query->orientation, query->margin);
     if (!bad && (query->flags || query->reserved)) {
@@ -453,11 +471,17 @@ tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *que
 
 tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
 {
-    if (!world || !query || !hit || !count) {
+    if (!world) {
         return TAHR_E_NULL;
     }
-    if (!vec_is_finite(query->origin) || !vec_is_finite(query->motion) || length(query->origin) > 2e7) {
-        return bad_argument(world, "tahr_world_ray", "origin or motion");
+    if (!query || !hit || !count) {
+        return null_argument(world, "tahr_world_ray", query, hit, "hit");
+    }
+    if (!vec_is_finite(query->origin) || length(query->origin) > 2e7) {
+        return bad_argument(world, "tahr_world_ray", "origin");
+    }
+    if (!vec_is_finite(query->motion)) {
+        return bad_argument(world, "tahr_world_ray", "motion");
     }
     tahr_query_context context = {0};
     tahr_hit found_hit;

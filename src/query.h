@@ -5,13 +5,13 @@
 
 #include "core.h"
 
-/* Sweeps `shape` of this character from `from` by `motion`, keeping `margin`. [out] hit: blocking 0 or 1, always filled in.
- * When the step has failed or used up its queries the answer is "blocked at fraction 0". One sweep. */
+/* Sweeps `shape` of this character from `from` by `motion`, keeping `margin`. [out] hit: blocking 0 or 1, always filled
+ * in. When the step has failed or used up its queries the answer is "blocked at fraction 0". One sweep. */
 void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
                  tahr_hit *hit);
 
-/* Everything within margin of the character's shape at `position`, without sensors. Returns the count, at most capacity.
- * One contact query. */
+/* Everything within margin of the character's shape at `position`, without sensors. Returns the count, at most
+ * capacity. One contact query. */
 uint32_t tahr__contacts(tahr__step *step, vec3 position, double margin, tahr_contact *contacts, uint32_t capacity);
 
 /* The first thing between origin and origin + motion. One ray. */

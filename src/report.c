@@ -23,6 +23,10 @@ void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double va
     if (hit) {
         event.normal = hit->normal;
     }
+    /* A world whose answers contradict each other may let a floor end before something that was met on it. */
+    if (r->event_count > 0) {
+        event.time = max_of(event.time, r->events[r->event_count - 1].time);
+    }
     r->events[r->event_count++] = event;
 }
 

@@ -26,6 +26,26 @@ static int is_size(double x)
     return x >= 1e-6 && x <= 1e6;
 }
 
+static const char *bad_size(const tahr_body_desc *b)
+{
+    const vec3 half = b->half_extents;
+    switch (b->type) {
+    case TAHR_BODY_MESH: return !b->vertices ? "vertices" : (!b->indices ? "indices" : NULL);
+    case TAHR_BODY_BOX:
+        if (!is_size(half.x)) {
+            return "half_extents.x";
+        }
+        return !is_size(half.y) ? "half_extents.y" : (!is_size(half.z) ? "half_extents.z" : NULL);
+    case TAHR_BODY_SPHERE: return is_size(b->radius) ? NULL : "radius";
+    case TAHR_BODY_CAPSULE:
+        if (!is_size(b->radius)) {
+            return "radius";
+        }
+        return is_size(b->half_height) && b->half_height >= b->radius ? NULL : "half_height";
+    default: return "type";
+    }
+}
+
 static const char *bad_body(const tahr_body_desc *b)
 {
     const char *pose = tahr__bad_pose(&b->pose, 1);
@@ -35,20 +55,10 @@ static const char *bad_body(const tahr_body_desc *b)
     if (b->flags & ~(uint32_t)(TAHR_BODY_SENSOR | TAHR_BODY_TWO_SIDED | TAHR_BODY_MOVABLE)) {
         return "flags";
     }
-    if (b->walkable_rule > TAHR_WALKABLE_NEVER || !is_finite(b->walkable_angle)) {
+    if (b->walkable_rule > TAHR_WALKABLE_NEVER) {
         return "walkable_rule";
     }
-    switch (b->type) {
-    case TAHR_BODY_MESH: return b->vertices && b->indices ? NULL : "vertices or indices";
-    case TAHR_BODY_BOX:
-        return is_size(b->half_extents.x) && is_size(b->half_extents.y) && is_size(b->half_extents.z) ? NULL
-                                                                                                      : "half_extents";
-    case TAHR_BODY_SPHERE: return is_size(b->radius) ? NULL : "radius";
-    case TAHR_BODY_CAPSULE:
-        return is_size(b->radius) && is_size(b->half_height) && b->half_height >= b->radius ? NULL
-                                                                                            : "radius or half_height";
-    default: return "type";
-    }
+    return is_finite(b->walkable_angle) ? bad_size(b) : "walkable_angle";
 }
 
 static tahr_status check_body(const tahr_log *log, const tahr_body_desc *b, uint32_t i)
@@ -73,19 +83,18 @@ static tahr_status check_size(const tahr_log *log, const void *body, uint32_t st
     memcpy(&size, body, sizeof size);
     tahr_status status = size == stride ? tahr__sized_check(body, sizeof(tahr_body_desc)) : TAHR_E_STRUCT_SIZE;
     if (status < 0) {
-        snprintf(name, sizeof name, "bodies[%u]", i);
+        snprintf(name, sizeof name, "bodies[%u]:", i);
         return tahr__complain(log, status, "tahr_world_open", name, tahr_status_message(status));
     }
     return TAHR_OK;
 }
 
-tahr_status tahr__bodies_read(const tahr_host *host, tahr_world_desc *scene, tahr_body_desc **own)
+tahr_status tahr__bodies_read(const tahr_host *host, const tahr_log *log, tahr_world_desc *scene, tahr_body_desc **own)
 {
-    const tahr_log *log = &host->log;
     tahr_status status = TAHR_OK;
     uint32_t stride = sizeof(tahr_body_desc);
     if (scene->body_count > 0 && !scene->bodies) {
-        return tahr__complain(log, TAHR_E_NULL, "tahr_world_open", "bodies", "is NULL");
+        return tahr__complain(log, TAHR_E_NULL, "tahr_world_open", "desc.bodies", "is NULL, but body_count is not 0");
     }
     if (scene->body_count > 0) {
         stride = scene->bodies[0].struct_size;

@@ -8,9 +8,9 @@
 /* Name of the first bad field of a pose, or NULL. */
 const char *tahr__bad_pose(const tahr_pose *pose, int zero_is_identity);
 
-/* Checks all bodies of a scene; the log names the body and the field. Descriptions of a newer, longer header are copied to
- * an array of this library's size: [out] own, to be freed; scene->bodies then points to it. */
-tahr_status tahr__bodies_read(const tahr_host *host, tahr_world_desc *scene, tahr_body_desc **own);
+/* Checks all bodies of a scene; the log names the body and the field. Descriptions of a newer, longer header are copied
+ * to an array of this library's size: [out] own, to be freed; scene->bodies then points to it. */
+tahr_status tahr__bodies_read(const tahr_host *host, const tahr_log *log, tahr_world_desc *scene, tahr_body_desc **own);
 
 /* Frees what tahr__bodies_read copied; NULL is allowed. */
 void tahr__bodies_free(const tahr_host *host, tahr_body_desc *own, uint32_t count);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * sleep.c: a step that left everything as it was is not computed again.
  *
- * A step is a function of world, config, input, dt and state. If it returned the state it was given, it will again, for as
- * long as none of the others changes: no threshold, no timer, no drift. */
+ * A step is a function of world, config, input, dt and state. If it returned the state it was given, it will again, for
+ * as long as none of the others changes: no threshold, no timer, no drift. */
 #include "sleep.h"
 
 #include <string.h>

@@ -12,8 +12,8 @@ int tahr__sleeps_on(const tahr_mover *mover, const tahr_input *input, double dt,
 /* What a step reports that was not computed: all that the noted one did but queries. */
 void tahr__sleep_report(const tahr_mover *mover, tahr_report *report);
 
-/* Notes a step that changed no bit of the state; forgets the last one after any other. state: as it is now; changed: is it
- * another one than before the step? */
+/* Notes a step that changed no bit of the state; forgets the last one after any other. state: as it is now; changed: is
+ * it another one than before the step? */
 void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, const tahr_state *state, int changed);
 
 #endif

@@ -11,8 +11,8 @@ static inline int is_upright(const tahr__step *step)
     return step->pull->size < 1e-6 || dot(step->pull->up, step->state.up) > 1 - 1e-15;
 }
 
-/* Rights the shape against gravity, pivoting about its foot; refused with a flag where it would overlap something. 0 or 1
- * contact query. */
+/* Rights the shape against gravity, pivoting about its foot; refused with a flag where it would overlap something. 0 or
+ * 1 contact query. */
 void tahr__right(tahr__step *step);
 
 /* Turns the orientation about up toward input.facing at turn_rate. No query. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * velocity.c: acceleration, turning, braking, jump and fall as exact solutions, so that a second of movement is the same
- * at 10 and at 1000 Hz.
+ * velocity.c: acceleration, turning, braking, jump and fall as exact solutions, so that a second of movement is the
+ * same at 10 and at 1000 Hz.
  *
  * With p, q the velocity along and across the wish, A acceleration, f turn friction, V the speed asked for:
  *   q(t) = q0 e^(-f t),  p(t) = min(p0 + A t, c(t)),  c = sqrt(V^2 - q^2).
@@ -65,10 +65,10 @@ static double cap(const tahr__law *law, double q2)
     return sqrt(max_of(law->speed * law->speed - q2, 0));
 }
 
-/* When the free line p0 + A s crosses the cap upward; t if not before. q2 = q(0)^2, e = expm1(-f t). F(s) = p0 + A s - c(s)
- * is convex, and as c <= V it is not negative at (V - p0) / A: Newton from there falls monotonically onto the upper root,
- * which is the crossing (a lower root at s = 0 belongs to a velocity wholly across the wish). 8 rounds reach rounding;
- * after a step of a billionth the next one would be of its square. */
+/* When the free line p0 + A s crosses the cap upward; t if not before. q2 = q(0)^2, e = expm1(-f t). The function p0 +
+ * A s - c(s) is convex, and as c <= V not negative at (V - p0) / A: Newton from there falls monotonically onto the
+ * upper root, which is the crossing (a lower root at s = 0 belongs to a velocity wholly across the wish). 8 rounds
+ * reach rounding; after a step of a billionth the next one would be of its square. */
 static double meeting_time(const tahr__law *law, double p0, double q2, double e, double t)
 {
     double a = law->acceleration, f = law->turn_friction;
@@ -126,8 +126,8 @@ static double brake_phase(const tahr__law *law, vec3 v, double t, tahr__motion *
     return until <= t && floor_speed == 0 ? t : used;
 }
 
-/* Along the wish: the free line, and from where it meets the cap along the cap. q2 = q(0)^2, e = expm1(-f t). Returns the
- * way, [out] the speed at the end. */
+/* Along the wish: the free line, and from where it meets the cap along the cap. q2 = q(0)^2, e = expm1(-f t). Returns
+ * the way, [out] the speed at the end. */
 static double bent(const tahr__law *law, double p, double q2, double e, double t, double *p1)
 {
     double f = law->turn_friction, a = law->acceleration, c = cap(law, q2);
@@ -146,8 +146,8 @@ static double bent(const tahr__law *law, double p, double q2, double e, double t
     return along;
 }
 
-/* Along the wish while the part across it is too small to bend the cap: the free line, and from where it meets the speed
- * asked for that speed. Returns the way, [out] the speed at the end. */
+/* Along the wish while the part across it is too small to bend the cap: the free line, and from where it meets the
+ * speed asked for that speed. Returns the way, [out] the speed at the end. */
 static double straight(const tahr__law *law, double p, double t, double *p1)
 {
     double v = law->speed, a = law->acceleration;
@@ -230,8 +230,8 @@ static double straight_time(const tahr__law *law, double p, double way)
     return 2 * way / (p + sqrt(p * p + 2 * a * way));
 }
 
-/* Newton, held within the duration, from the root for a constant acceleration (from rest the rate at a small part is nearly
- * 0, and any other guess halves its way down): 6 rounds reach rounding. */
+/* Newton, held within the duration, from the root for a constant acceleration (from rest the rate at a small part is
+ * nearly 0, and any other guess halves its way down): 6 rounds reach rounding. */
 double tahr__law_time(const tahr__law *law, vec3 v, double duration, vec3 whole, double part)
 {
     double low = 0, high = duration, size2 = length_squared(whole);

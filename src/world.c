@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * world.c: a scene behind one backend: opening, checking, placing bodies, closing. */
+#include <stdio.h>
 #include <string.h>
 
 #include "callbacks.h"
@@ -46,13 +47,55 @@ static void silent(void *user, int32_t level, const char *message)
 
 static const char *missing_slot(const tahr_backend *b)
 {
-    if (!b->name || !b->version) {
-        return "name or version";
-    }
-    if (!b->open || !b->close || !b->sweep || !b->contacts || !b->ray) {
-        return "open, close, sweep, contacts or ray";
+    const struct {
+        int there;
+        const char *name;
+    } needed[] = {{b->name != NULL, "backend.name"},   {b->version != NULL, "backend.version"},
+                  {b->open != NULL, "backend.open"},   {b->close != NULL, "backend.close"},
+                  {b->sweep != NULL, "backend.sweep"}, {b->contacts != NULL, "backend.contacts"},
+                  {b->ray != NULL, "backend.ray"}};
+    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
+        if (!needed[i].there) {
+            return needed[i].name;
+        }
     }
     return NULL;
+}
+
+/* The log of a description, if it can be trusted to be one. */
+static const tahr_log *log_of(const tahr_world_desc *desc)
+{
+    tahr_status status = tahr__sized_check(desc, sizeof *desc);
+    return status == TAHR_OK || status == TAHR_E_UNSUPPORTED ? desc->log : NULL;
+}
+
+/* A backend does not know on whose behalf it complains: outside of what has the world for itself, its own name must
+ * do. */
+static void write_named(void *user, int32_t level, const char *message)
+{
+    tahr_world *world = user;
+    if (world->calling) {
+        world->complaints += level == TAHR_LOG_ERROR;
+    }
+    tahr__say(&world->log, level, world->calling ? world->calling : world->backend->name, message);
+}
+
+static void enter_backend(tahr_world *world, const char *function)
+{
+    world->calling = function;
+    world->complaints = 0;
+}
+
+/* An error of the backend's that it did not explain gets at least its name. */
+static tahr_status leave_backend(tahr_world *world, const tahr_backend *backend, tahr_status status)
+{
+    if (status < 0 && world->complaints == 0) {
+        char text[128];
+        snprintf(text, sizeof text, "backend %.40s: %s", backend->name, tahr_status_message(status));
+        tahr__say(&world->log, TAHR_LOG_ERROR, world->calling, text);
+    }
+    world->calling = NULL;
+    return status;
 }
 
 /* Everything both ways of opening share: the handle, its allocator and log, the checks of the machine. */
@@ -64,7 +107,8 @@ static tahr_status new_world(const char *function, const tahr_world_desc *desc, 
         log = *desc->log;
     }
     if (!memory.user.alloc || !memory.user.free) {
-        return tahr__complain(&log, TAHR_E_NULL, function, "allocator.alloc or free", "is NULL");
+        return tahr__complain(&log, TAHR_E_NULL, function, memory.user.alloc ? "allocator.free" : "allocator.alloc",
+                              "is NULL");
     }
     const char *problem = tahr__float_mode_problem();
     if (problem) {
@@ -81,7 +125,7 @@ static tahr_status new_world(const char *function, const tahr_world_desc *desc, 
     world->host.struct_size = sizeof world->host;
     world->host.abi = TAHR_ABI;
     world->host.allocator = tahr__counting_allocator(&world->memory);
-    world->host.log = log;
+    world->host.log = (tahr_log){world, write_named};
     world->revision = 1;
     *out = world;
     return TAHR_OK;
@@ -90,7 +134,7 @@ static tahr_status new_world(const char *function, const tahr_world_desc *desc, 
 static void free_world(tahr_world *world, size_t extra)
 {
     tahr_allocator counting = world->host.allocator;
-    counting.free(counting.user, world->pose_hash, world->body_count * sizeof *world->pose_hash, 8);
+    counting.free(counting.user, world->bodies, world->body_count * sizeof *world->bodies, 8);
     tahr_allocator user = world->memory.user;
     user.free(user.user, world, sizeof *world + extra, 64);
 }
@@ -109,27 +153,29 @@ static uint64_t hash_pose(uint32_t body, const tahr_pose *pose)
     return hash;
 }
 
-/* The sum of the shares: putting bodies back gives the old number back, which a rollback needs to repeat bit for bit. */
+/* The sum of the shares: putting bodies back gives the old number back, which a rollback needs to repeat bit for
+ * bit. */
 static void move_revision(tahr_world *world, uint64_t by)
 {
     world->revision += by;
     world->revision += world->revision == 0;
 }
 
-static tahr_status keep_poses(tahr_world *world, const tahr_world_desc *desc)
+static tahr_status note_bodies(tahr_world *world, const tahr_world_desc *desc)
 {
     tahr_allocator a = world->host.allocator;
     if (desc->body_count == 0) {
         return TAHR_OK;
     }
-    world->pose_hash = a.alloc(a.user, desc->body_count * sizeof *world->pose_hash, 8);
-    if (!world->pose_hash) {
+    world->bodies = a.alloc(a.user, desc->body_count * sizeof *world->bodies, 8);
+    if (!world->bodies) {
         return tahr__complain(&world->log, TAHR_E_MEMORY, "tahr_world_open", "allocator", "returned NULL");
     }
     world->body_count = desc->body_count;
     for (uint32_t i = 0; i < desc->body_count; i++) {
-        world->pose_hash[i] = hash_pose(i, &desc->bodies[i].pose);
-        move_revision(world, world->pose_hash[i]);
+        world->bodies[i].pose_hash = hash_pose(i, &desc->bodies[i].pose);
+        world->bodies[i].movable = (desc->bodies[i].flags & TAHR_BODY_MOVABLE) != 0;
+        move_revision(world, world->bodies[i].pose_hash);
     }
     return TAHR_OK;
 }
@@ -140,12 +186,13 @@ static tahr_status open_scene(tahr_world *world, const tahr_backend *backend, co
     tahr_body_desc *own = NULL;
     memcpy(&scene, desc, sizeof scene);
     scene.struct_size = sizeof scene;
-    tahr_status status = tahr__bodies_read(&world->host, &scene, &own);
+    tahr_status status = tahr__bodies_read(&world->host, &world->log, &scene, &own);
     if (status >= 0) {
-        status = keep_poses(world, &scene);
+        status = note_bodies(world, &scene);
     }
     if (status >= 0) {
-        status = backend->open(&world->host, &scene, &world->self);
+        enter_backend(world, "tahr_world_open");
+        status = leave_backend(world, backend, backend->open(&world->host, &scene, &world->self));
     }
     tahr__bodies_free(&world->host, own, scene.body_count);
     return status;
@@ -154,22 +201,23 @@ static tahr_status open_scene(tahr_world *world, const tahr_backend *backend, co
 tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *desc, tahr_world **out)
 {
     tahr_world *world = NULL;
-    if (!backend || !desc || !out) {
-        return TAHR_E_NULL;
+    const tahr_log *log = log_of(desc);
+    if (!desc || !backend || !out) {
+        return tahr__complain(log, TAHR_E_NULL, "tahr_world_open", backend ? "world" : "backend", "is NULL");
     }
     tahr_status status = tahr__sized_check(desc, sizeof *desc);
     if (status < 0) {
-        return status;
+        return tahr__complain(log, status, "tahr_world_open", "desc:", tahr_status_message(status));
     }
     if (backend->struct_size < sizeof *backend) {
-        return tahr__complain(desc->log, TAHR_E_STRUCT_SIZE, "tahr_world_open", "backend.struct_size", "is too small");
+        return tahr__complain(log, TAHR_E_STRUCT_SIZE, "tahr_world_open", "backend.struct_size", "is too small");
     }
     if (tahr_abi_check((uint32_t)backend->abi_major << 16 | backend->abi_minor) < 0) {
-        return tahr__complain(desc->log, TAHR_E_ABI, "tahr_world_open", "backend", "was built for another ABI");
+        return tahr__complain(log, TAHR_E_ABI, "tahr_world_open", "backend", "was built for another ABI");
     }
     const char *missing = missing_slot(backend);
     if (missing) {
-        return tahr__complain(desc->log, TAHR_E_NULL, "tahr_world_open", missing, "of the backend is NULL");
+        return tahr__complain(log, TAHR_E_NULL, "tahr_world_open", missing, "is NULL");
     }
     status = new_world("tahr_world_open", desc, 0, &world);
     if (status < 0) {
@@ -187,26 +235,27 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
 
 tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tahr_world_desc *desc, tahr_world **out)
 {
+    static const char function[] = "tahr_world_open_callbacks";
     tahr_world *world = NULL;
+    const tahr_log *log = log_of(desc);
     if (!callbacks || !out) {
-        return TAHR_E_NULL;
+        return tahr__complain(log, TAHR_E_NULL, function, callbacks ? "world" : "callbacks", "is NULL");
     }
     tahr_status status = tahr__sized_check(callbacks, sizeof *callbacks);
-    if (status >= 0 && desc) {
-        status = tahr__sized_check(desc, sizeof *desc);
-    }
     if (status < 0) {
-        return status;
+        return tahr__complain(log, status, function, "callbacks:", tahr_status_message(status));
+    }
+    status = desc ? tahr__sized_check(desc, sizeof *desc) : TAHR_OK;
+    if (status < 0) {
+        return tahr__complain(log, status, function, "desc:", tahr_status_message(status));
     }
     if (!callbacks->sweep) {
-        return tahr__complain(desc ? desc->log : NULL, TAHR_E_NULL, "tahr_world_open_callbacks", "callbacks.sweep",
-                              "is NULL");
+        return tahr__complain(log, TAHR_E_NULL, function, "callbacks.sweep", "is NULL");
     }
     if (callbacks->flags) {
-        return tahr__complain(desc ? desc->log : NULL, TAHR_E_UNSUPPORTED, "tahr_world_open_callbacks",
-                              "callbacks.flags", "is not 0");
+        return tahr__complain(log, TAHR_E_UNSUPPORTED, function, "callbacks.flags", "is not 0");
     }
-    status = new_world("tahr_world_open_callbacks", desc, sizeof *callbacks, &world);
+    status = new_world(function, desc, sizeof *callbacks, &world);
     if (status < 0) {
         return status;
     }
@@ -225,29 +274,49 @@ void tahr_world_close(tahr_world *world)
     }
 }
 
+static tahr_status check_placement(const tahr_world *world, const tahr_body_pose *p, uint32_t i)
+{
+    char name[64];
+    const char *field = p->body >= world->body_count ? "body" : tahr__bad_pose(&p->pose, 0);
+    snprintf(name, sizeof name, "poses[%u].%s", i, field ? field : (p->flags ? "flags" : "body"));
+    if (p->body >= world->body_count) {
+        return tahr__complain_value(&world->log, TAHR_E_NOT_FOUND, "tahr_world_set", name, p->body, "no such body");
+    }
+    if (field) {
+        return tahr__complain(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", name, "is out of range or not finite");
+    }
+    if (p->flags) {
+        return tahr__complain(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", name, "is not 0");
+    }
+    if (!world->bodies[p->body].movable) {
+        return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", name, p->body,
+                                    "a body without TAHR_BODY_MOVABLE");
+    }
+    return TAHR_OK;
+}
+
 tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint32_t count)
 {
-    if (!world || (!poses && count > 0)) {
+    if (!world) {
         return TAHR_E_NULL;
+    }
+    if (!poses && count > 0) {
+        return tahr__complain(&world->log, TAHR_E_NULL, "tahr_world_set", "poses", "is NULL, but count is not 0");
     }
     if (!world->backend->place) {
         return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_set", world->backend->name,
                               "cannot place bodies");
     }
     for (uint32_t i = 0; i < count; i++) {
-        if (poses[i].body >= world->body_count) {
-            return tahr__complain_value(&world->log, TAHR_E_NOT_FOUND, "tahr_world_set", "poses.body", poses[i].body,
-                                        "no such body");
-        }
-        const char *bad = tahr__bad_pose(&poses[i].pose, 0);
-        if (bad || poses[i].flags) {
-            return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", "the pose of body",
-                                        poses[i].body, bad ? bad : "flags must be 0");
+        tahr_status bad = check_placement(world, &poses[i], i);
+        if (bad < 0) {
+            return bad;
         }
     }
-    tahr_status status = world->backend->place(world->self, poses, count);
+    enter_backend(world, "tahr_world_set");
+    tahr_status status = leave_backend(world, world->backend, world->backend->place(world->self, poses, count));
     for (uint32_t i = 0; i < count && status >= 0; i++) {
-        uint64_t *share = &world->pose_hash[poses[i].body], old = *share;
+        uint64_t *share = &world->bodies[poses[i].body].pose_hash, old = *share;
         *share = hash_pose(poses[i].body, &poses[i].pose);
         move_revision(world, *share - old);
     }

@@ -12,14 +12,18 @@ static int in_range(double x)
     return x >= -COORDINATE_LIMIT && x <= COORDINATE_LIMIT;
 }
 
-static int pose_valid(const tahr_pose *pose)
+/* Says what is wrong with a pose, or NULL. */
+static const char *bad_pose(const tahr_pose *pose)
 {
     const tahr_vec3 *p = &pose->position;
     const tahr_quat *q = &pose->orientation;
     double length2 = q->x * q->x + q->y * q->y + q->z * q->z + q->w * q->w;
     /* Unit within a millionth, or all zero for "identity". */
     int unit = (length2 > 1 - 1e-6 && length2 < 1 + 1e-6) || (q->x == 0 && q->y == 0 && q->z == 0 && q->w == 0);
-    return in_range(p->x) && in_range(p->y) && in_range(p->z) && unit;
+    if (!in_range(p->x) || !in_range(p->y) || !in_range(p->z)) {
+        return "pose.position is not finite within 1e7 m";
+    }
+    return unit ? NULL : "pose.orientation is not a unit quaternion";
 }
 
 static tahr_status refuse(const tahr__native *world, uint32_t body, const char *field, double value)
@@ -37,8 +41,9 @@ static tahr_status check(const tahr__native *world, uint32_t id, const tahr_body
     if (d->flags > (TAHR_BODY_SENSOR | TAHR_BODY_TWO_SIDED | TAHR_BODY_MOVABLE))
         return refuse(world, id, "flags", d->flags);
     if (d->walkable_rule > TAHR_WALKABLE_NEVER) return refuse(world, id, "walkable_rule", d->walkable_rule);
-    if (!pose_valid(&d->pose)) {
-        tahr__log_body(world->host, id, "pose is not finite within 1e7 m, or its orientation is not a unit quaternion");
+    const char *bad = bad_pose(&d->pose);
+    if (bad) {
+        tahr__log_body(world->host, id, bad);
         return TAHR_E_ARGUMENT;
     }
     if (d->type == TAHR_BODY_BOX) {
@@ -188,9 +193,17 @@ void tahr__bodies_close(tahr__native *world)
 tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
-        if (poses[i].body >= world->body_count) return TAHR_E_NOT_FOUND;
-        if (!(world->bodies[poses[i].body].flags & TAHR_BODY_MOVABLE)) return TAHR_E_ARGUMENT;
-        if (!pose_valid(&poses[i].pose)) return TAHR_E_ARGUMENT;
+        uint32_t id = poses[i].body;
+        if (id >= world->body_count) {
+            tahr__log_body(world->host, id, "no such body");
+            return TAHR_E_NOT_FOUND;
+        }
+        int movable = (world->bodies[id].flags & TAHR_BODY_MOVABLE) != 0;
+        const char *bad = movable ? bad_pose(&poses[i].pose) : "is not movable (TAHR_BODY_MOVABLE)";
+        if (bad) {
+            tahr__log_body(world->host, id, bad);
+            return TAHR_E_ARGUMENT;
+        }
     }
     for (uint32_t i = 0; i < count; i++)
         put_pose(&world->bodies[poses[i].body], &poses[i].pose);

@@ -15,6 +15,27 @@ static void complain(const tahr_host *host, const char *text)
     host->log.write(host->log.user, TAHR_LOG_ERROR, text);
 }
 
+/* Says what is wrong with the options, or NULL. */
+static const char *bad_option(const tahr_native_desc *d)
+{
+    if (d->precision > TAHR_NATIVE_DOUBLE) {
+        return "options.precision is neither TAHR_NATIVE_FLOAT nor TAHR_NATIVE_DOUBLE";
+    }
+    if (d->cache_triangles > CAPACITY_MAX) {
+        return "options.cache_triangles is above 4096";
+    }
+    if (d->no_cache > 1) {
+        return "options.no_cache is neither 0 nor 1";
+    }
+    if (d->no_simd > 1) {
+        return "options.no_simd is neither 0 nor 1";
+    }
+    if (d->reserved) {
+        return "options.reserved is not 0";
+    }
+    return d->cache_margin >= 0 && d->cache_margin <= 1e3 ? NULL : "options.cache_margin is not within 0 and 1000 m";
+}
+
 static tahr_status read_options(const tahr_host *host, const void *options, tahr__native *world)
 {
     tahr_native_desc d;
@@ -23,22 +44,19 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
         uint32_t size;
         memcpy(&size, options, sizeof size);
         if (size < sizeof d || size > sizeof d + MOST_UNKNOWN) {
-            complain(host, "native: options: struct_size is smaller than tahr_native_desc of version 0.1, or garbage");
+            complain(host, "options.struct_size is smaller than tahr_native_desc of version 0.1, or garbage");
             return TAHR_E_STRUCT_SIZE;
         }
         for (uint32_t i = sizeof d; i < size; i++) {
             if (((const unsigned char *)options)[i] == 0) continue;
-            complain(host, "native: options: fields of a newer version are set");
+            complain(host, "options has fields of a newer version that are not 0");
             return TAHR_E_UNSUPPORTED;
         }
         memcpy(&d, options, sizeof d);
     }
-    int counts =
-        d.precision <= TAHR_NATIVE_DOUBLE && d.cache_triangles <= CAPACITY_MAX && d.no_cache <= 1 && d.no_simd <= 1;
-    if (!counts || !(d.cache_margin >= 0 && d.cache_margin <= 1e3)) {
-        complain(host,
-                 "native: options: precision, cache_triangles (at most 4096), cache_margin (0 to 1000 m), no_cache or "
-                 "no_simd is out of range");
+    const char *bad = bad_option(&d);
+    if (bad) {
+        complain(host, bad);
         return TAHR_E_ARGUMENT;
     }
     world->round = d.precision == TAHR_NATIVE_FLOAT;

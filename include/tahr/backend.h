@@ -28,7 +28,7 @@ typedef struct tahr_host {
     uint32_t struct_size;
     uint32_t abi; /* TAHR_ABI of the library */
     tahr_allocator allocator;
-    tahr_log log; /* write is never NULL */
+    tahr_log log; /* write is never NULL; the library puts the name of its function in front of every message */
 } tahr_host;
 
 /* Travels with every query. cache: this character's memory of cache_size() bytes, zeroed once, 64-byte aligned, or
@@ -44,7 +44,7 @@ typedef struct tahr_query_context {
 /* The announcement before a step: everything the step is expected to ask about lies in bounds. A hint only. */
 typedef struct tahr_prepare {
     tahr_bounds bounds;
-    tahr_vec3 position; /* of the character at the start of the step; float geometry is local to the 4 m grid cell it is in */
+    tahr_vec3 position; /* of the character at the start of the step; float geometry is local to the 4 m cell it is in */
     tahr_vec3 up;
     uint32_t mask;
     uint32_t reserved;

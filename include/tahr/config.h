@@ -24,7 +24,7 @@ typedef struct tahr_config {
 
     /* Collision */
     uint32_t mask;       /* [all bits] bodies this character meets; 0: none */
-    uint32_t max_slides; /* [8] sweeps of one slice of walking or falling before the rest of the motion is dropped; 1..16 */
+    uint32_t max_slides; /* [8] sweeps of one slice of walking or falling, then the rest of the motion is dropped; 1..16 */
     double skin;         /* m [0.01] distance kept from everything that blocks */
     double max_depenetration; /* m [1.0] longest push out of an overlap per step */
 
@@ -65,16 +65,18 @@ typedef struct tahr_config {
 } tahr_config;
 
 /* Fills a config with a preset and sets its struct_size. [out] config of size bytes (sizeof(tahr_config)). Untouched on
- * error. Allocates nothing.
+ * error. Allocates nothing; may run on several threads.
  * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_ARGUMENT (no such preset). Since 0.1. */
 TAHR_API tahr_status tahr_config_init(tahr_config *config, size_t size, int32_t preset);
 
 /* Multiplies every length, speed and acceleration, so that a character of another size moves alike. factor > 0, finite.
- * Untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_ARGUMENT (factor, or
+ * Untouched on error. Allocates nothing; may run on several threads (not on one config).
+ * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_ARGUMENT (factor, or
  * a field that would leave its range). Since 0.1. */
 TAHR_API tahr_status tahr_config_scale(tahr_config *config, double factor);
 
 /* Checks every field. [out] field may be NULL; receives the name of the first bad one in static memory, or NULL.
+ * Allocates nothing; may run on several threads.
  * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (unknown tail not zero), TAHR_E_ARGUMENT. Since
  * 0.1. */
 TAHR_API tahr_status tahr_config_check(const tahr_config *config, const char **field);

@@ -74,7 +74,7 @@ typedef struct tahr_input {
 } tahr_input;
 
 enum {
-    TAHR_EVENT_LANDED = 1, /* value: speed into the floor, m/s */
+    TAHR_EVENT_LANDED = 1, /* value: speed against up, m/s, whatever the slope of the floor; 0 if it was rising */
     TAHR_EVENT_LEFT_GROUND = 2,
     TAHR_EVENT_JUMPED = 3,
     TAHR_EVENT_APEX = 4,
@@ -182,7 +182,7 @@ typedef struct tahr_report {
  * to config.gravity.
  * [out] state; [in] config (valid), position (finite, |x| <= 1e7 m).
  * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_ARGUMENT (config or position); untouched
- * on error. Since 0.1. */
+ * on error. Allocates nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_state_init(tahr_state *state, const tahr_config *config, const tahr_vec3 *position);
 
 /* 64-bit FNV-1a hash of the 512 bytes with -0.0 read as 0.0; equal states have equal hashes on every machine (bytes of
@@ -192,12 +192,14 @@ TAHR_API uint64_t tahr_state_hash(const tahr_state *state);
 /* Scratch memory and gather cache of one character at a time; holds nothing that matters to gameplay, so one mover may
  * step many characters and any state may be stepped by any mover of the same world and config, with the same bits.
  * [in] world, which must outlive the mover; config, copied. [out] mover, untouched on error; destroy it with
- * tahr_mover_destroy. Allocates from the world's allocator. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE,
- * TAHR_E_UNSUPPORTED (shape not among the backend's, unknown tail of config not zero), TAHR_E_ARGUMENT (the log names
- * the field), TAHR_E_MEMORY. Since 0.1. */
+ * tahr_mover_destroy. Allocates from the world's allocator. May run on several threads, also while movers of the world
+ * step, if that allocator and the log may be called so; not while the world is opened, changed or closed.
+ * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (shape not among the backend's, unknown tail of
+ * config not zero), TAHR_E_ARGUMENT (the log names the field), TAHR_E_MEMORY. Since 0.1. */
 TAHR_API tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **mover);
 
-/* Frees a mover; its world must still be open and no step of it under way. NULL is allowed. Since 0.1. */
+/* Frees a mover; its world must still be open and no step of it under way. NULL is allowed. Threads as for
+ * tahr_mover_create. Since 0.1. */
 TAHR_API void tahr_mover_destroy(tahr_mover *mover);
 
 /* Moves one character through dt seconds. World frame, SI units.

@@ -15,12 +15,12 @@ enum { TAHR_NATIVE_FLOAT = 0, TAHR_NATIVE_DOUBLE = 1 };
 /* Zero means default for every field but struct_size. Out of range: tahr_world_open returns TAHR_E_ARGUMENT. */
 typedef struct tahr_native_desc {
     uint32_t struct_size;
-    uint32_t precision; /* TAHR_NATIVE_FLOAT or _DOUBLE */
-    uint32_t cache_triangles; /* per character, 280 bytes each, default 128, at most 4096; more than fit are looked up each time */
-    uint32_t no_cache; /* 1: every query walks the tree; same bits */
-    uint32_t no_simd;  /* 1: the scalar twin; same bits */
-    uint32_t reserved;
-    double cache_margin; /* m around the announced box, default 1; 0..1000 */
+    uint32_t precision;       /* TAHR_NATIVE_FLOAT or _DOUBLE */
+    uint32_t cache_triangles; /* per character, 280 bytes each, default 128, at most 4096; what does not fit is slower */
+    uint32_t no_cache;        /* 1: every query walks the tree; same bits */
+    uint32_t no_simd;         /* 1: the scalar twin; same bits */
+    uint32_t reserved;        /* 0 */
+    double cache_margin;      /* m around the announced box, default 1; 0..1000 */
 } tahr_native_desc;
 
 /* The native backend: plain C, triangle meshes, boxes, spheres, capsules; for tahr_world_open, whose desc.options is a

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * types.h: frozen plain data: vectors, shapes, queries and their answers. SI units (metres, seconds, radians), right-handed
- * world frame, any up direction. Frozen: fixed size within an ABI range, reserved words zero. */
+ * types.h: frozen plain data: vectors, shapes, queries and their answers. SI units (metres, seconds, radians),
+ * right-handed world frame, any up direction. Frozen: fixed size within an ABI range, reserved words zero. */
 #ifndef TAHR_TYPES_H
 #define TAHR_TYPES_H
 
@@ -96,14 +96,14 @@ typedef struct tahr_hit {
     uint32_t unknown;       /* 1: the backend gave up; free up to fraction, nothing known beyond */
     uint32_t sensor;        /* 1: reported, does not block */
     double fraction;        /* 0..1 of the motion */
-    double distance; /* m, signed distance at that place: the margin for an ordinary hit, less if it was closer already */
+    double distance; /* m, signed distance at that place: the margin of an ordinary hit, less if it was closer already */
     double depth;    /* m, > 0 only with start_overlap */
-    tahr_vec3 normal; /* contact normal, unit, from the surface to the shape */
-    tahr_vec3 surface_normal; /* unit normal of the face that was hit; on an edge or vertex, of its face that opposes the motion most */
-    tahr_vec3 point;        /* on the surface */
-    double walkable_angle;  /* rad, with INCREASE and DECREASE */
-    uint32_t walkable_rule; /* TAHR_WALKABLE_* */
-    uint32_t surface;       /* the user's id of the surface */
+    tahr_vec3 normal;         /* contact normal, unit, from the surface to the shape */
+    tahr_vec3 surface_normal; /* unit, of the face; on an edge or vertex, of its face that opposes the motion most */
+    tahr_vec3 point;          /* on the surface */
+    double walkable_angle;    /* rad, with INCREASE and DECREASE */
+    uint32_t walkable_rule;   /* TAHR_WALKABLE_* */
+    uint32_t surface;         /* the user's id of the surface */
     uint32_t body;
     uint32_t feature; /* triangle of a mesh, face of a box, 0 of round bodies */
 } tahr_hit;
@@ -112,7 +112,7 @@ typedef struct tahr_hit {
 typedef struct tahr_contact {
     double distance;          /* m, signed: negative is penetration depth */
     tahr_vec3 normal;         /* contact normal, unit, from the surface to the shape: the way out */
-    tahr_vec3 surface_normal; /* unit normal of the face; on an edge or vertex, of its face that faces the normal most */
+    tahr_vec3 surface_normal; /* unit, of the face; on an edge or vertex, of its face that faces the normal most */
     tahr_vec3 point;          /* on the surface */
     double walkable_angle;
     uint32_t walkable_rule;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * world.h: describing a scene, opening a world on a backend or on your own callbacks, placing bodies, asking directly. */
+ * world.h: describing a scene, opening a world on a backend or on your own callbacks, placing bodies,
+ * asking directly. */
 #ifndef TAHR_WORLD_H
 #define TAHR_WORLD_H
 
@@ -96,16 +97,19 @@ TAHR_API tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint
  * ABI), TAHR_E_FLOAT_MODE, TAHR_E_GEOMETRY (index out of range, vertex not finite or beyond 1e7 m, mesh without
  * triangles), TAHR_E_ARGUMENT (type, flags, pose, size or rule of a body; options), TAHR_E_UNSUPPORTED (unknown tail of
  * a description not zero, or the backend cannot hold such a body), TAHR_E_MEMORY; the log names the body and the field.
- * Allocates. Since 0.1. */
+ * Allocates. Worlds may be opened, and closed, on several threads at once, if what they share (allocator, log, backend)
+ * may be called so; an open world belongs to no thread. Since 0.1. */
 TAHR_API tahr_status tahr_world_open(const struct tahr_backend *backend, const tahr_world_desc *desc, tahr_world **world);
 
 /* Opens a world whose geometry is behind the caller's functions. desc may be NULL; of it only allocator and log are
  * used. [out] world, untouched on failure. Returns TAHR_OK, TAHR_E_NULL (sweep missing), TAHR_E_STRUCT_SIZE,
- * TAHR_E_UNSUPPORTED (flags or an unknown tail not zero), TAHR_E_FLOAT_MODE, TAHR_E_MEMORY. Allocates. Since 0.1. */
+ * TAHR_E_UNSUPPORTED (flags or an unknown tail not zero), TAHR_E_FLOAT_MODE, TAHR_E_MEMORY. Allocates. Threads as for
+ * tahr_world_open. Since 0.1. */
 TAHR_API tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tahr_world_desc *desc,
                                                tahr_world **world);
 
-/* Closes a world; its movers must be destroyed before. NULL is allowed. Since 0.1. */
+/* Closes a world; its movers must be destroyed before, and nothing else may use it meanwhile. NULL is allowed.
+ * Since 0.1. */
 TAHR_API void tahr_world_close(tahr_world *world);
 
 /* Places movable bodies at new poses and advances the revision. All or nothing: every pose is checked first. Needs

@@ -21,13 +21,28 @@ enum { PLANS = 3 };
 static const plan NATIVE_PLANS[PLANS] = {{1, 20000}, {256, 300}, {10000, 20}};
 static const plan OTHER_PLANS[PLANS] = {{1, 600}, {16, 60}, {0, 0}};
 
+static const char OPTIONS[] = "  --csv FILE (build/bench.csv)  --world NAME  --backend NAME  --characters N  --help\n";
+
 static int usage(const char *wrong)
 {
-    fprintf(stderr,
-            "tahr_bench: '%s' is no option or lacks its value\n"
-            "  --csv FILE (build/bench.csv)  --world NAME  --backend NAME  --characters N\n",
-            wrong);
+    fprintf(stderr, "tahr_bench: '%s' is no option or lacks its value\n%s", wrong, OPTIONS);
     return 2;
+}
+
+/* Everything that can be asked for. */
+static int help(void)
+{
+    printf("tahr_bench: wandering characters, timed, on every world and backend or on those asked for\n%s", OPTIONS);
+    printf("worlds:");
+    for (int i = 0; i < BENCH_WORLDS; i++) {
+        printf(" %s", bench_world_name(i));
+    }
+    printf("\nbackends:");
+    for (int i = 0; i < SCENE_BACKEND_COUNT; i++) {
+        printf(" %s", SCENE_BACKENDS[i].name);
+    }
+    printf("\n");
+    return 0;
 }
 
 static int known(const options *o)
@@ -148,6 +163,11 @@ static int measure(FILE *csv, const options *o)
 int main(int argc, char **argv)
 {
     options o;
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--help") == 0) {
+            return help();
+        }
+    }
     int wrong = read_options(&o, argc, argv);
     if (wrong) {
         return wrong;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * wandering.c: wandering on the shared levels and on generated ones: no error, no NaN, no tunnelling, no penetration,
- * nobody stuck for good. */
+ * wandering.c: wandering on the shared levels and on generated ones: no error, no NaN, no tunnelling, the skin
+ * kept, nobody stuck for good. */
 #include "wandering.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ typedef struct watch {
     tahr_mover *mover;
     tahr_bounds bounds;
     uint64_t seed;
-    long tunnels, deep, stuck, fell, walking, steps, odd;
+    long tunnels, deep, close, stuck, fell, walking, steps, odd;
     double nearest; /* m, smallest distance of the true shape; negative: penetration */
     char failure[512];
 } watch;
@@ -153,6 +153,10 @@ static int take_step(watch *w, character *c, int id, int step)
     }
     double distance = clearance(w, p);
     w->nearest = distance < w->nearest ? distance : w->nearest;
+    if (distance < w->backend->clearance * w->config.skin - w->backend->slack) {
+        w->close++;
+        accuse(w, "clearance m", distance, c, &before, id, step);
+    }
     if (distance < -w->backend->penetration) {
         w->deep++;
         accuse(w, "penetration m", -distance, c, &before, id, step);
@@ -207,10 +211,10 @@ static int run_level(const char *name, const scene_mesh *mesh, const scene_solid
     }
     tahr_mover_destroy(w.mover);
     tahr_world_close(w.world);
-    printf("%-11s %-14s %8ld steps, %3.0f%% walking, fell out %ld, nearest %9.6f m, tunnels %ld, deep %ld, stuck %ld, "
-           "odd %ld\n",
+    printf("%-11s %-14s %8ld steps, %3.0f%% walking, fell out %ld, nearest %9.6f m, tunnels %ld, deep %ld, close %ld, "
+           "stuck %ld, odd %ld\n",
            name, backend->name, w.steps, 100.0 * (double)w.walking / (double)(w.steps + !w.steps), w.fell, w.nearest,
-           w.tunnels, w.deep, w.stuck, w.odd);
+           w.tunnels, w.deep, w.close, w.stuck, w.odd);
     if (w.failure[0]) {
         printf("    %s\n", w.failure);
     }

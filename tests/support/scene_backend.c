@@ -8,14 +8,14 @@
 #include <tahr/ccd.h>
 #endif
 
-/* The thresholds of Tahr's acceptance table: native keeps skin - 1e-5 m, double sweeps are within 1e-9 m and float ones
- * within 2e-6 m; ccd keeps half the skin, is within 1e-4 m, and may enter 5 mm where native may enter 1 mm. Slides of
- * ccd are judged at 1e-2 of their way (2 mm for the 0.2 m or so into a gutter), rest at 1e-6 m. */
+/* All keep skin - 1e-5 m and rest to the bit. Double sweeps of native are within 1e-9 m, float ones within 2e-6 m; ccd's
+ * are within 1e-4 m, exact onto a level floor, and it may enter 5 mm where native may enter 1 mm. Slides of ccd are judged
+ * at 1e-2 of their way (2 mm for the 0.2 m or so into a gutter), who pushes into a corner at 1e-6 m. */
 const scene_backend SCENE_BACKENDS[] = {
-    {"native", tahr_backend_v1_native, 1, TAHR_NATIVE_FLOAT, 1.0, 1e-5, 2e-6, 1e-3, 0, 0},
-    {"native-double", tahr_backend_v1_native, 1, TAHR_NATIVE_DOUBLE, 1.0, 1e-5, 1e-9, 1e-3, 0, 0},
+    {"native", tahr_backend_v1_native, 1, TAHR_NATIVE_FLOAT, 1.0, 1e-5, 2e-6, 2e-6, 1e-3, 0, 0},
+    {"native-double", tahr_backend_v1_native, 1, TAHR_NATIVE_DOUBLE, 1.0, 1e-5, 1e-9, 0, 1e-3, 0, 0},
 #ifdef TAHR_HAVE_CCD
-    {"ccd", tahr_backend_v1_ccd, 0, 0, 0.5, 0, 1e-4, 5e-3, 2e-3, 1e-6},
+    {"ccd", tahr_backend_v1_ccd, 0, 0, 1.0, 1e-5, 1e-4, 0, 5e-3, 2e-3, 1e-6},
 #endif
 };
 const int SCENE_BACKEND_COUNT = (int)(sizeof SCENE_BACKENDS / sizeof SCENE_BACKENDS[0]);

@@ -14,9 +14,10 @@ typedef struct scene_backend {
     double clearance;   /* of skin: what must stay free after every move */
     double slack;       /* m, below that */
     double gap_error;   /* m, of a sweep */
+    double level_error; /* m, of a sweep straight onto a level floor; 0: rounding only */
     double penetration; /* m, deepest allowed while wandering */
     double drift;       /* m, off the exact path after sliding to rest between surfaces */
-    double rest;        /* m, a character at rest may move; 0: not by one bit */
+    double push;        /* m, who pushes and gets nowhere may move; 0: not by one bit, as always without input */
 } scene_backend;
 
 enum { SCENE_MAX_BACKENDS = 3 };

@@ -37,6 +37,15 @@ static void spoil(int lie, tahr_hit *h, uint32_t *count)
     }
 }
 
+/* Every field but what says "unknown", and how far the way was free. */
+static void litter(tahr_hit *h)
+{
+    h->normal = h->surface_normal = h->point = fake_vec(NAN, INFINITY, -1e300);
+    h->distance = h->walkable_angle = NAN;
+    h->depth = -INFINITY;
+    h->walkable_rule = h->surface = h->body = h->feature = 0xDEADBEEF;
+}
+
 static void random_hit(fake_backend *b, tahr_hit *h)
 {
     memset(h, 0, sizeof *h);
@@ -76,8 +85,11 @@ static tahr_status backend_sweep(void *self, tahr_query_context *context, const 
     *count = hits[0].blocking;
     if (*count && b->unknown && hits[0].body == b->unknown_body) {
         tahr_hit gave_up = {.unknown = 1, .fraction = hits[0].fraction, .body = hits[0].body};
-        gave_up.blocking = b->unknown == UNKNOWN_BLOCKING;
+        gave_up.blocking = b->unknown != UNKNOWN_ALONE;
         hits[0] = gave_up; /* nothing is known of it but how far the way was free */
+        if (b->unknown == UNKNOWN_GARBAGE) {
+            litter(&hits[0]);
+        }
         return TAHR_OK;
     }
     if (*count && b->lie) {

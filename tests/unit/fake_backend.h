@@ -44,7 +44,7 @@ enum {
 extern const char *const contact_lie_fields[CONTACT_LIES];
 
 /* How a body is answered that the backend cannot decide. */
-enum { UNKNOWN_ALONE = 1, UNKNOWN_BLOCKING = 2 };
+enum { UNKNOWN_ALONE = 1, UNKNOWN_BLOCKING = 2, UNKNOWN_GARBAGE = 3, UNKNOWN_KINDS };
 
 enum {
     FAKE_BACKEND_SHAPES = TAHR_CAP_CAPSULE | TAHR_CAP_SPHERE | TAHR_CAP_BOX,

@@ -87,12 +87,18 @@ static void null_arguments_are_refused(void **unused)
     fake_world_flat(&w);
     rig_open(&r, &w, NULL, fake_vec(0, 0, 1));
     assert_int_equal(tahr_mover_step(NULL, &r.input, 0.1, &r.state, NULL), TAHR_E_NULL);
+    assert_int_equal(r.log.count, 0); /* no mover, no log */
     assert_int_equal(tahr_mover_step(r.mover, NULL, 0.1, &r.state, NULL), TAHR_E_NULL);
+    assert_string_equal(r.log.text, "tahr_mover_step: input is NULL");
     assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.1, NULL, NULL), TAHR_E_NULL);
+    assert_string_equal(r.log.text, "tahr_mover_step: state is NULL");
     tahr_mover *mover = (tahr_mover *)&r;
     assert_int_equal(tahr_mover_create(NULL, &r.config, &mover), TAHR_E_NULL);
     assert_int_equal(tahr_mover_create(r.world, NULL, &mover), TAHR_E_NULL);
+    assert_string_equal(r.log.text, "tahr_mover_create: config is NULL");
     assert_int_equal(tahr_mover_create(r.world, &r.config, NULL), TAHR_E_NULL);
+    assert_string_equal(r.log.text, "tahr_mover_create: mover is NULL");
+    assert_int_equal(r.log.count, 4);
     assert_true(mover == (tahr_mover *)&r);
     tahr_mover_destroy(NULL);
     rig_close(&r);
@@ -154,18 +160,18 @@ static void every_number_of_the_state_is_checked(void **unused)
                                    {"state.up", offsetof(tahr_state, up.x)},
                                    {"state.up", offsetof(tahr_state, up.y)},
                                    {"state.up", offsetof(tahr_state, up.z)},
-                                   {"state.floor", offsetof(tahr_state, floor.normal.x)},
-                                   {"state.floor", offsetof(tahr_state, floor.normal.z)},
-                                   {"state.floor", offsetof(tahr_state, floor.surface_normal.x)},
-                                   {"state.floor", offsetof(tahr_state, floor.surface_normal.z)},
-                                   {"state.floor", offsetof(tahr_state, floor.point.x)},
-                                   {"state.floor", offsetof(tahr_state, floor.point.z)},
-                                   {"state.floor", offsetof(tahr_state, floor.distance)},
-                                   {"state", offsetof(tahr_state, floor.perch_distance)},
-                                   {"state", offsetof(tahr_state, floor_position.x)},
-                                   {"state", offsetof(tahr_state, floor_position.y)},
-                                   {"state", offsetof(tahr_state, floor_position.z)},
-                                   {"state", offsetof(tahr_state, jump_hold)}};
+                                   {"state.floor.normal", offsetof(tahr_state, floor.normal.x)},
+                                   {"state.floor.normal", offsetof(tahr_state, floor.normal.z)},
+                                   {"state.floor.surface_normal", offsetof(tahr_state, floor.surface_normal.x)},
+                                   {"state.floor.surface_normal", offsetof(tahr_state, floor.surface_normal.z)},
+                                   {"state.floor.point", offsetof(tahr_state, floor.point.x)},
+                                   {"state.floor.point", offsetof(tahr_state, floor.point.z)},
+                                   {"state.floor.distance", offsetof(tahr_state, floor.distance)},
+                                   {"state.floor.perch_distance", offsetof(tahr_state, floor.perch_distance)},
+                                   {"state.floor_position", offsetof(tahr_state, floor_position.x)},
+                                   {"state.floor_position", offsetof(tahr_state, floor_position.y)},
+                                   {"state.floor_position", offsetof(tahr_state, floor_position.z)},
+                                   {"state.jump_hold", offsetof(tahr_state, jump_hold)}};
     const double bad[] = {NAN, INFINITY, -INFINITY};
     fake_world w;
     rig r;
@@ -232,6 +238,8 @@ static void struct_sizes_are_checked(void **unused)
     memset(&report, 0, sizeof report);
     report.struct_size = sizeof report - 4;
     assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.01, &r.state, &report), TAHR_E_STRUCT_SIZE);
+    assert_non_null(strstr(r.log.text, "report"));
+    assert_null(strstr(r.log.text, "input"));
     assert_memory_equal(&before, &r.state, sizeof before);
     rig_close(&r);
 }

@@ -41,6 +41,7 @@ static void moved_bodies_are_found_where_they_are(void **state)
     assert_true(h.body == 83 && fabs(h.fraction - 1.24 / 4) < 1e-9);
     move.body = 82;
     assert_int_equal(b->place(f.self, &move, 1), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(f.message, "body 82: is not movable"));
     move.body = MANY;
     assert_int_equal(b->place(f.self, &move, 1), TAHR_E_NOT_FOUND);
     move.body = 83;
@@ -51,11 +52,12 @@ static void moved_bodies_are_found_where_they_are(void **state)
 
 static void broken_bodies_and_options_are_refused(void **state)
 {
-    const char *const named[] = {"radius is -1", "half_height", "pose",    "orientation", "type is 9",
-                                 "options",      "options",     "options", "flags is 64"};
+    const char *const named[] = {"radius is -1", "half_height",       "pose.position",     "pose.orientation",
+                                 "type is 9",    "options.precision", "options.cache_tri", "options.cache_m",
+                                 "flags is 64",  "options.no_cache",  "options.no_simd",   "options.reserved"};
     (void)state;
     fixture f;
-    for (int n = 0; n < 9; n++) {
+    for (int n = 0; n < 12; n++) {
         tahr_body_desc body = fixture_body(TAHR_BODY_CAPSULE);
         tahr_native_desc options = fixture_options(0);
         body.radius = 0.5;
@@ -69,6 +71,9 @@ static void broken_bodies_and_options_are_refused(void **state)
         if (n == 6) options.cache_triangles = 5000;
         if (n == 7) options.cache_margin = NAN;
         if (n == 8) body.flags = 64;
+        if (n == 9) options.no_cache = 2;
+        if (n == 10) options.no_simd = 2;
+        if (n == 11) options.reserved = 1;
         fixture_init(&f);
         assert_int_equal(fixture_open(&f, &body, 1, &options, 0), TAHR_E_ARGUMENT);
         if (!strstr(f.message, named[n])) fail_msg("message %d was '%s'", n, f.message);

@@ -113,6 +113,58 @@ static void unknown_that_does_not_say_blocking_blocks_all_the_same(void **unused
     meet_the_unknown(UNKNOWN_ALONE, TAHR_MODE_FALLING);
 }
 
+static void unknown_with_garbage_beside_it_blocks_all_the_same(void **unused)
+{
+    (void)unused;
+    meet_the_unknown(UNKNOWN_GARBAGE, TAHR_MODE_WALKING);
+    meet_the_unknown(UNKNOWN_GARBAGE, TAHR_MODE_FALLING);
+}
+
+static int is_finite_state(const tahr_state *s)
+{
+    const tahr_floor *f = &s->floor;
+    const tahr_vec3 v[] = {s->position, s->velocity, s->up, f->normal, f->point, f->surface_normal, s->floor_position};
+    double sum = s->orientation.x + s->orientation.y + s->orientation.z + s->orientation.w;
+    for (size_t i = 0; i < sizeof v / sizeof v[0]; i++) {
+        sum += v[i].x + v[i].y + v[i].z;
+    }
+    return isfinite(sum + f->distance + f->perch_distance + s->jump_hold);
+}
+
+/* The plane below, or the wall beside, walking into it, falling onto it, standing there. */
+static void garbage_beside_unknown_leaves_a_finite_state(void **unused)
+{
+    (void)unused;
+    for (int how = UNKNOWN_ALONE; how < UNKNOWN_KINDS; how++) {
+        for (int scene = 0; scene < 8; scene++) {
+            fake_backend b;
+            rig r;
+            uint32_t unknown = 0;
+            rig_open_backend(&r, &b, scene & 4 ? FAKE_BACKEND_ALL & ~(uint32_t)TAHR_CAP_MARGIN : FAKE_BACKEND_ALL);
+            fake_add_plane(&b.world, fake_vec(-1, 0, 0), -3);
+            b.unknown = how;
+            b.unknown_body = (uint32_t)(scene & 1);
+            if (scene & 2) {
+                r.state.mode = TAHR_MODE_WALKING;
+            }
+            for (int i = 0; i < 90; i++) {
+                r.input.move = fake_vec(i < 60, 0, 0);
+                r.input.jump = i == 70;
+                rig_step(&r, 1.0 / 30);
+                assert_true(is_finite_state(&r.state));
+                assert_true(r.state.position.x <= 3 - 0.36 + 1e-6 && r.state.position.z >= 0.91 - 1e-6);
+                for (uint32_t k = 0; k < r.report.event_count; k++) {
+                    const tahr_event *e = &r.events[k];
+                    assert_true(isfinite(e->value + e->time + e->normal.x + e->normal.y + e->normal.z));
+                }
+                unknown += (r.report.flags & TAHR_REPORT_UNKNOWN) != 0;
+            }
+            assert_true(unknown > 0);
+            rig_close(&r);
+        }
+    }
+}
+
 /* Wrong but well-formed answers: the result is finite, within the cap, and no farther than asked. */
 static void random_answers_never_break_the_promises(void **unused)
 {
@@ -153,6 +205,7 @@ static void random_answers_never_break_the_promises(void **unused)
         for (int k = 0; k < 256; k++) {
             assert_int_equal(r.state.reserved[k], 0);
         }
+        rig_assert_in_order(&r, dt);
     }
     assert_true(most > 20);
     rig_close(&r);
@@ -189,6 +242,8 @@ int main(void)
                                        cmocka_unit_test(lies_of_contacts_end_the_step_and_are_named),
                                        cmocka_unit_test(unknown_blocks_at_the_last_free_fraction_with_a_flag),
                                        cmocka_unit_test(unknown_that_does_not_say_blocking_blocks_all_the_same),
+                                       cmocka_unit_test(unknown_with_garbage_beside_it_blocks_all_the_same),
+                                       cmocka_unit_test(garbage_beside_unknown_leaves_a_finite_state),
                                        cmocka_unit_test(random_answers_never_break_the_promises),
                                        cmocka_unit_test(a_backend_without_margin_walks_the_same_path)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "report.h"
 #include "rig.h"
 
 /* One jump from start to landing in one step: six events or more. */
@@ -113,12 +114,31 @@ static void mode_none_rests_and_takes_its_time(void **unused)
     rig_close(&r);
 }
 
+/* Only a world that contradicts itself can say so. */
+static void events_never_run_backward(void **unused)
+{
+    const double times[] = {0.1, 0.0229, 0.05, 0.2, 0.15}, reported[] = {0.1, 0.1, 0.1, 0.2, 0.2};
+    tahr_event events[5];
+    tahr__step step;
+    (void)unused;
+    memset(&step, 0, sizeof step);
+    step.report.events = events;
+    step.report.event_capacity = 5;
+    for (int i = 0; i < 5; i++) {
+        step.time = 0.5 * times[i];
+        step.ahead = 0.5 * times[i];
+        tahr__event(&step, TAHR_EVENT_HIT, NULL, 0);
+        assert_true(events[i].time == reported[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(events_that_do_not_fit_are_counted_and_flagged),
                                        cmocka_unit_test(absent_arrays_lose_nothing_and_change_nothing),
                                        cmocka_unit_test(decisions_that_do_not_fit_are_counted),
                                        cmocka_unit_test(unused_report_words_are_written_not_added_to),
+                                       cmocka_unit_test(events_never_run_backward),
                                        cmocka_unit_test(mode_none_rests_and_takes_its_time)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -91,7 +91,7 @@ static void bad_bodies_are_named(void **unused)
     b = mesh(), b.walkable_rule = 4;
     expect_body(b, TAHR_E_ARGUMENT, "walkable_rule");
     b = mesh(), b.walkable_angle = NAN;
-    expect_body(b, TAHR_E_ARGUMENT, "walkable");
+    expect_body(b, TAHR_E_ARGUMENT, "walkable_angle");
     b = mesh(), b.pose.position.y = NAN;
     expect_body(b, TAHR_E_ARGUMENT, "pose.position");
     b = mesh(), b.pose.position.y = 2e7;
@@ -105,7 +105,7 @@ static void bad_bodies_are_named(void **unused)
     for (int i = 0; i < 5; i++) {
         tahr_body_desc_init(&b, sizeof b, TAHR_BODY_BOX);
         b.half_extents = fake_vec(1, bad[i], 1);
-        expect_body(b, TAHR_E_ARGUMENT, "half_extents");
+        expect_body(b, TAHR_E_ARGUMENT, "half_extents.y");
         tahr_body_desc_init(&b, sizeof b, TAHR_BODY_SPHERE);
         b.radius = bad[i];
         expect_body(b, TAHR_E_ARGUMENT, "radius");
@@ -128,13 +128,18 @@ static void open_checks_backend_and_description(void **unused)
     desc.log = &l;
     const tahr_backend table = b.table;
     assert_int_equal(tahr_world_open(NULL, &desc, &world), TAHR_E_NULL);
+    assert_string_equal(log.text, "tahr_world_open: backend is NULL");
     assert_int_equal(tahr_world_open(&b.table, NULL, &world), TAHR_E_NULL);
     assert_int_equal(tahr_world_open(&b.table, &desc, NULL), TAHR_E_NULL);
-    desc.struct_size = 8;
+    assert_string_equal(log.text, "tahr_world_open: world is NULL");
+    desc.struct_size = 8; /* where the log would be is not known */
+    log.count = 0;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_STRUCT_SIZE);
+    assert_int_equal(log.count, 0);
     desc.struct_size = sizeof desc;
     desc.body_count = 3;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);
+    assert_non_null(strstr(log.text, "desc.bodies is NULL"));
     desc.body_count = 0;
     b.table.struct_size = 8;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_STRUCT_SIZE);
@@ -144,14 +149,17 @@ static void open_checks_backend_and_description(void **unused)
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_ABI);
     b.table = table, b.table.sweep = NULL;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);
+    assert_string_equal(log.text, "tahr_world_open: backend.sweep is NULL");
     b.table = table, b.table.name = NULL;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);
+    assert_string_equal(log.text, "tahr_world_open: backend.name is NULL");
     tahr_allocator broken = {NULL, NULL, NULL};
     b.table = table, desc.allocator = &broken;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);
     desc.allocator = NULL;
     b.open_answer = TAHR_E_GEOMETRY;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_GEOMETRY);
+    assert_string_equal(log.text, "tahr_world_open: backend fake: a mesh or shape is malformed"); /* it said nothing */
     assert_null(world);
     assert_int_equal(b.closed, 0);
     b.open_answer = TAHR_OK;
@@ -173,6 +181,9 @@ static void set_checks_every_pose_before_it_moves_one(void **unused)
     bodies[0] = bodies[1] = mesh();
     bodies[0].flags = bodies[1].flags = TAHR_BODY_MOVABLE;
     describe(&desc, &b, bodies, 2);
+    fake_log log;
+    tahr_log l = fake_log_of(&log);
+    desc.log = &l;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_OK);
     memset(poses, 0, sizeof poses);
     poses[0].pose.orientation.w = poses[1].pose.orientation.w = 1;
@@ -180,14 +191,20 @@ static void set_checks_every_pose_before_it_moves_one(void **unused)
     uint64_t revision = tahr_world_revision(world);
     assert_int_equal(tahr_world_set(NULL, poses, 2), TAHR_E_NULL);
     assert_int_equal(tahr_world_set(world, NULL, 2), TAHR_E_NULL);
+    assert_string_equal(log.text, "tahr_world_set: poses is NULL, but count is not 0");
+    assert_int_equal(tahr_world_set(world, NULL, 0), TAHR_OK);
     poses[1].body = 2;
     assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_NOT_FOUND);
+    assert_string_equal(log.text, "tahr_world_set: poses[1].body is 2, no such body");
     poses[1].body = 1, poses[1].flags = 1;
     assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(log.text, "poses[1].flags"));
     poses[1].flags = 0, poses[1].pose.position.x = NAN;
     assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(log.text, "poses[1].pose.position"));
     poses[1].pose.position.x = 0, poses[1].pose.orientation.w = 0;
     assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(log.text, "poses[1].pose.orientation"));
     assert_int_equal(b.placed, 0);
     assert_int_equal(tahr_world_revision(world), revision);
     poses[1].pose.orientation.w = 1;
@@ -199,6 +216,74 @@ static void set_checks_every_pose_before_it_moves_one(void **unused)
     assert_int_equal(tahr_world_set(world, poses, 2), TAHR_OK);
     assert_int_equal(tahr_world_revision(world), revision);
     tahr_world_close(world);
+}
+
+/* Whatever the backend: here one that would place anything. */
+static void bodies_that_are_not_movable_are_named(void **unused)
+{
+    fake_backend b;
+    fake_log log;
+    tahr_log l = fake_log_of(&log);
+    tahr_body_desc bodies[2];
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    tahr_body_pose poses[2];
+    (void)unused;
+    bodies[0] = bodies[1] = mesh();
+    bodies[0].flags = TAHR_BODY_MOVABLE;
+    describe(&desc, &b, bodies, 2);
+    desc.log = &l;
+    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_OK);
+    memset(poses, 0, sizeof poses);
+    poses[0].pose.orientation.w = poses[1].pose.orientation.w = 1;
+    poses[1].body = 1;
+    uint64_t revision = tahr_world_revision(world);
+    assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_ARGUMENT);
+    assert_string_equal(log.text, "tahr_world_set: poses[1].body is 1, a body without TAHR_BODY_MOVABLE");
+    assert_int_equal(b.placed, 0);
+    assert_int_equal(tahr_world_revision(world), revision);
+    assert_int_equal(tahr_world_set(world, poses, 1), TAHR_OK);
+    tahr_world_close(world);
+}
+
+/* abi.h promises it, and a backend does not know it. */
+static void messages_of_backends_name_the_function(void **unused)
+{
+    const double broken[] = {0, 0, 0, 1, NAN, 0, 0, 1, 0};
+    fake_log log;
+    tahr_log l = fake_log_of(&log);
+    tahr_body_desc b = mesh();
+    tahr_native_desc options = {.struct_size = sizeof options, .reserved = 1};
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    fake_memory memory = {0};
+    tahr_allocator allocator = fake_allocator(&memory);
+    (void)unused;
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = &b;
+    desc.body_count = 1;
+    desc.log = &l;
+    desc.options = &options;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_E_ARGUMENT);
+    assert_string_equal(log.text, "tahr_world_open: options.reserved is not 0");
+    desc.options = NULL;
+    b.vertices = broken;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_E_GEOMETRY);
+    assert_non_null(strstr(log.text, "tahr_world_open: body 0: vertex 1: y is "));
+    b.vertices = vertices;
+    desc.allocator = &allocator;
+    for (memory.fail_at = 1; world == NULL; memory.fail_at++, memory.requests = 0) {
+        log.count = 0;
+        if (tahr_world_open(tahr_backend_v1_native(), &desc, &world) == TAHR_OK) {
+            break;
+        }
+        assert_int_equal(log.count, 1);
+        assert_non_null(strstr(log.text, "tahr_world_open: "));
+        assert_null(world);
+    }
+    assert_true(memory.fail_at > 5);
+    tahr_world_close(world);
+    assert_int_equal(memory.live_blocks, 0);
 }
 
 static void fixed_bodies_cannot_be_placed(void **unused)
@@ -225,14 +310,25 @@ static void callbacks_are_checked(void **unused)
     tahr_world *world = NULL;
     (void)unused;
     fake_world_init(&fake);
-    assert_int_equal(tahr_world_open_callbacks(NULL, NULL, &world), TAHR_E_NULL);
-    assert_int_equal(tahr_world_open_callbacks(&c, NULL, NULL), TAHR_E_NULL);
+    fake_log log;
+    tahr_log l = fake_log_of(&log);
+    tahr_world_desc desc;
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.log = &l;
+    assert_int_equal(tahr_world_open_callbacks(NULL, NULL, &world), TAHR_E_NULL); /* without a log: no crash */
+    assert_int_equal(tahr_world_open_callbacks(NULL, &desc, &world), TAHR_E_NULL);
+    assert_string_equal(log.text, "tahr_world_open_callbacks: callbacks is NULL");
+    assert_int_equal(tahr_world_open_callbacks(&c, &desc, NULL), TAHR_E_NULL);
+    assert_string_equal(log.text, "tahr_world_open_callbacks: world is NULL");
     c.sweep = NULL;
-    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_E_NULL);
+    assert_int_equal(tahr_world_open_callbacks(&c, &desc, &world), TAHR_E_NULL);
+    assert_string_equal(log.text, "tahr_world_open_callbacks: callbacks.sweep is NULL");
     c.sweep = fake_sweep, c.flags = 1;
-    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_E_UNSUPPORTED);
+    assert_int_equal(tahr_world_open_callbacks(&c, &desc, &world), TAHR_E_UNSUPPORTED);
+    assert_non_null(strstr(log.text, "callbacks.flags"));
     c.flags = 0, c.struct_size = 4;
-    assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_E_STRUCT_SIZE);
+    assert_int_equal(tahr_world_open_callbacks(&c, &desc, &world), TAHR_E_STRUCT_SIZE);
+    assert_non_null(strstr(log.text, "callbacks: "));
     assert_null(world);
     c.struct_size = sizeof c;
     assert_int_equal(tahr_world_open_callbacks(&c, NULL, &world), TAHR_OK);
@@ -336,6 +432,8 @@ int main(void)
         cmocka_unit_test(bad_bodies_are_named),
         cmocka_unit_test(open_checks_backend_and_description),
         cmocka_unit_test(set_checks_every_pose_before_it_moves_one),
+        cmocka_unit_test(bodies_that_are_not_movable_are_named),
+        cmocka_unit_test(messages_of_backends_name_the_function),
         cmocka_unit_test(fixed_bodies_cannot_be_placed),
         cmocka_unit_test(an_array_of_longer_bodies_opens_when_what_is_new_is_zero),
         cmocka_unit_test(an_array_of_longer_bodies_is_unsupported_when_something_new_is_asked_for),
