@@ -9,6 +9,7 @@
 
 #include "floor.h"
 #include "ledge.h"
+#include "move.h"
 #include "path.h"
 #include "report.h"
 
@@ -180,6 +181,10 @@ tahr__next tahr__walk(tahr__step *step, double time)
     tahr__path w;
     tahr_floor floor;
     int looked = !floor_is_current(step);
+    int changed = step->state.floor_revision != 0 && step->state.floor_revision != step->world->revision;
+    if (changed && length_squared(step_level(step, step->input->move)) == 0) { /* who moves finds out by moving */
+        tahr__depenetrate(step);
+    }
     if (looked) {
         tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
         tahr__keep_floor(step, &floor);

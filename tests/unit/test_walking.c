@@ -122,6 +122,24 @@ static void falling_free_costs_one_sweep(void **unused)
     rig_close(&r);
 }
 
+static void what_is_placed_into_an_idle_character_pushes_it_out(void **unused)
+{
+    fake_world w;
+    rig r;
+    (void)unused;
+    fake_world_flat(&w);
+    rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
+    double radius = r.config.shape.radius, skin = r.config.skin;
+    fake_add_box(&w, fake_vec(radius - 0.05, -1, 0), fake_vec(3, 1, 2));
+    rig_step(&r, 1.0 / 60);
+    assert_true(r.state.position.x == 0); /* nobody said that the world changed */
+    assert_int_equal(tahr_world_touch(r.world), TAHR_OK);
+    rig_step(&r, 1.0 / 60);
+    assert_near(r.state.position.x, -0.05 - skin, 1e-9);
+    assert_non_null(rig_event(&r, TAHR_EVENT_DEPENETRATED));
+    rig_close(&r);
+}
+
 static void idle_character_does_not_move_by_one_bit(void **unused)
 {
     (void)unused;
@@ -302,6 +320,7 @@ int main(void)
                                        cmocka_unit_test(braking_stops_when_and_where_the_closed_form_says),
                                        cmocka_unit_test(flat_ground_costs_two_sweeps_walking_one_standing_none_cached),
                                        cmocka_unit_test(falling_free_costs_one_sweep),
+                                       cmocka_unit_test(what_is_placed_into_an_idle_character_pushes_it_out),
                                        cmocka_unit_test(idle_character_does_not_move_by_one_bit),
                                        cmocka_unit_test(speed_along_a_slope_is_the_asked_one),
                                        cmocka_unit_test(wall_is_slid_along_without_penetration),
