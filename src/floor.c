@@ -2,8 +2,6 @@
  * floor.c: walkable test, edge tolerance, perch, floor distance, find floor, height adjustment. */
 #include "floor.h"
 
-#include <string.h>
-
 #include "elementary.h"
 #include "lip.h"
 #include "move.h"

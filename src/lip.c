@@ -11,9 +11,6 @@
 #include "query.h"
 #include "report.h"
 
-/* Rounding of a height that is compared with the step height, as in step_up.c. */
-static const double ROUNDING = 1e-6;
-
 /* A face as it is seen from the place where it is touched. */
 typedef struct face {
     vec3 inward;   /* level, unit: behind it */
@@ -65,7 +62,7 @@ static int is_above(const tahr__step *step, const face *f, const tahr_hit *tread
 static int tread_of(tahr__step *step, const tahr_hit *hit, const face *f, double base)
 {
     const tahr_config *c = step->config;
-    double top = base + c->step_height + ROUNDING, bottom = min_of(base, f->at) - c->skin;
+    double top = base + c->step_height + TAHR__HEIGHT_ROUNDING, bottom = min_of(base, f->at) - c->skin;
     double near = c->perch_threshold, far = max_of(reach_of(step, f, top - f->at), near);
     tahr_hit tread;
     if (top < f->at) {

@@ -5,6 +5,9 @@
 
 #include "core.h"
 
+/* m, of a height that is compared with the step height. */
+#define TAHR__HEIGHT_ROUNDING 1e-6
+
 /* Is there a floor behind the unwalkable face of a hit, no lower than the hit and no higher than a step above `base` (m,
  * along up)? 1 or 2 rays. */
 int tahr__tread_behind(tahr__step *step, const tahr_hit *hit, double base);

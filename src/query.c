@@ -38,15 +38,24 @@ static const char *bad_rule(uint32_t rule, double angle)
     return is_finite(angle) ? NULL : "walkable_angle";
 }
 
+/* What hits and contacts say of the surface. */
+static const char *bad_surface(vec3 normal, vec3 surface_normal, vec3 point, uint32_t rule, double angle)
+{
+    if (!is_unit(normal)) {
+        return "normal";
+    }
+    if (!is_unit(surface_normal)) {
+        return "surface_normal";
+    }
+    return vec_is_finite(point) ? bad_rule(rule, angle) : "point";
+}
+
 static const char *bad_hit(const tahr_hit *h)
 {
     if (!(h->fraction >= 0 && h->fraction <= 1)) {
         return "fraction";
     }
-    if (!h->blocking && !h->sensor && !h->start_overlap) {
-        return NULL;
-    }
-    if (h->unknown) {
+    if (h->unknown || (!h->blocking && !h->sensor && !h->start_overlap)) {
         return NULL;
     }
     if (h->start_overlap && !(h->depth >= 0 && is_finite(h->depth))) {
@@ -55,16 +64,7 @@ static const char *bad_hit(const tahr_hit *h)
     if (!is_finite(h->distance)) {
         return "distance";
     }
-    if (!is_unit(h->normal)) {
-        return "normal";
-    }
-    if (!is_unit(h->surface_normal)) {
-        return "surface_normal";
-    }
-    if (!vec_is_finite(h->point)) {
-        return "point";
-    }
-    return bad_rule(h->walkable_rule, h->walkable_angle);
+    return bad_surface(h->normal, h->surface_normal, h->point, h->walkable_rule, h->walkable_angle);
 }
 
 static const char *bad_contact(const tahr_contact *c)
@@ -72,16 +72,7 @@ static const char *bad_contact(const tahr_contact *c)
     if (!is_finite(c->distance)) {
         return "distance";
     }
-    if (!is_unit(c->normal)) {
-        return "normal";
-    }
-    if (!is_unit(c->surface_normal)) {
-        return "surface_normal";
-    }
-    if (!vec_is_finite(c->point)) {
-        return "point";
-    }
-    return bad_rule(c->walkable_rule, c->walkable_angle);
+    return bad_surface(c->normal, c->surface_normal, c->point, c->walkable_rule, c->walkable_angle);
 }
 
 /* Unit to double precision: such a normal keeps its bits. */

@@ -14,9 +14,6 @@
 /* Less progress than this part of the radius at step height is a wall, not a step. */
 static const double PROGRESS = 1e-4;
 
-/* m, of a height that is compared with the step height. */
-static const double ROUNDING = 1e-6;
-
 typedef struct attempt {
     vec3 up;
     double lift;    /* m, raised by */
@@ -75,7 +72,7 @@ static double floor_height(tahr__step *step, double to)
     double foot = dot(step->state.floor_position, step->state.up) - step->config->shape.half_height;
     double before = foot - floor->perch_distance;
     tahr_hit face = {.blocking = 1, .surface_normal = floor->surface_normal, .point = floor->point};
-    return to - before > step->config->step_height + ROUNDING && tahr__is_lip(step, &face) ? at : before;
+    return to - before > step->config->step_height + TAHR__HEIGHT_ROUNDING && tahr__is_lip(step, &face) ? at : before;
 }
 
 /* Does a face too steep to stand on lead to a tread? */
@@ -96,7 +93,7 @@ static int land(tahr__step *step, attempt *a)
     }
     double top = dot(hit->point, a->up), base = floor_height(step, top);
     a->rise = top - dot(step->state.floor.point, a->up);
-    if (top - base > c->step_height + ROUNDING) {
+    if (top - base > c->step_height + TAHR__HEIGHT_ROUNDING) {
         return refuse(step, hit, top - base, c->step_height, "higher than a step");
     }
     if (!tahr__is_walkable(step, hit, 0) && !leads_up(step, hit, base)) {

@@ -18,10 +18,7 @@ typedef struct contacts_state {
 
 static int before(const tahr__found *a, const tahr__found *b)
 {
-    if (a->gap != b->gap) return a->gap < b->gap;
-    if (a->body != b->body) return a->body < b->body;
-    if (a->feature != b->feature) return a->feature < b->feature;
-    return a->item < b->item;
+    return a->gap != b->gap ? a->gap < b->gap : tahr__named_before(a, b);
 }
 
 static void keep(contacts_state *s, const tahr__found *f)

@@ -14,10 +14,14 @@ static size_t header_bytes(void)
     return whole_lines(sizeof(tahr__cache));
 }
 
+static size_t lanes_bytes(const tahr__native *world)
+{
+    return whole_lines(world->capacity * TAHR__LANE_ROWS * sizeof(float));
+}
+
 size_t tahr__cache_bytes(const tahr__native *world)
 {
-    size_t lanes = whole_lines(world->capacity * TAHR__LANE_ROWS * sizeof(float));
-    return header_bytes() + (world->no_cache ? 0 : lanes + world->capacity * sizeof(tahr__prim));
+    return header_bytes() + (world->no_cache ? 0 : lanes_bytes(world) + world->capacity * sizeof(tahr__prim));
 }
 
 static float *blocks_of(tahr__cache *cache)
@@ -27,8 +31,7 @@ static float *blocks_of(tahr__cache *cache)
 
 static tahr__prim *prims_of(const tahr__native *world, tahr__cache *cache)
 {
-    size_t lanes = whole_lines(world->capacity * TAHR__LANE_ROWS * sizeof(float));
-    return (tahr__prim *)(void *)((unsigned char *)cache + header_bytes() + lanes);
+    return (tahr__prim *)(void *)((unsigned char *)cache + header_bytes() + lanes_bytes(world));
 }
 
 typedef struct gather {

@@ -7,21 +7,22 @@
 #include "plane.h"
 #include "scene.h"
 
-#include <string.h>
-
 enum { ITERATIONS = 64, TARGETS = 5 };
 
 /* Below this distance (m) the direction between two points is rounding; the last one that was clear is used instead. */
 #define BLURRED 1e-9
 
+int tahr__named_before(const tahr__found *a, const tahr__found *b)
+{
+    if (a->body != b->body) return a->body < b->body;
+    return a->feature != b->feature ? a->feature < b->feature : a->item < b->item;
+}
+
 int tahr__found_before(const tahr__found *a, const tahr__found *b)
 {
     if (a->overlap != b->overlap) return a->overlap > b->overlap;
     if (a->overlap && a->gap != b->gap) return a->gap < b->gap;
-    if (a->t != b->t) return a->t < b->t;
-    if (a->body != b->body) return a->body < b->body;
-    if (a->feature != b->feature) return a->feature < b->feature;
-    return a->item < b->item;
+    return a->t != b->t ? a->t < b->t : tahr__named_before(a, b);
 }
 
 tahr_bounds tahr__query_box(const tahr__query *query, double t)

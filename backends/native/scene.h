@@ -203,6 +203,8 @@ int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const ta
 int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double margin, tahr__found *out);
 /* Is a before b? Overlaps first, the deepest of them; then (fraction, body, feature). */
 int tahr__found_before(const tahr__found *a, const tahr__found *b);
+/* The last of these alone: by body, feature, item. */
+int tahr__named_before(const tahr__found *a, const tahr__found *b);
 tahr_bounds tahr__query_box(const tahr__query *query, double t);
 /* Half the extent of a box core along n: apart, so that the code of round shapes stays small. */
 double tahr__box_extent(const tahr__query *query, tahr_vec3 n);

@@ -102,13 +102,6 @@ static void note_sensor(sweep_state *s, const tahr__found *f)
     s->lost = 1;
 }
 
-/* By the surface alone. */
-static int named_before(const tahr__found *a, const tahr__found *b)
-{
-    if (a->body != b->body) return a->body < b->body;
-    return a->feature != b->feature ? a->feature < b->feature : a->item < b->item;
-}
-
 /* The deepest overlap only: a sum of depths decides nothing. */
 static int overlap_first(sweep_state *s, const tahr__found *f)
 {
@@ -132,13 +125,13 @@ static int tie(sweep_state *s, const tahr__found *f)
     for (uint32_t i = 0; i < s->tied; i++) {
         if (s->ties[i].t > s->limit) continue;
         s->ties[kept] = s->ties[i];
-        if (named_before(&s->ties[last], &s->ties[kept])) last = kept;
+        if (tahr__named_before(&s->ties[last], &s->ties[kept])) last = kept;
         kept++;
     }
     s->tied = kept;
     if (kept < TIES) {
         s->ties[s->tied++] = *f;
-    } else if (named_before(f, &s->ties[last])) {
+    } else if (tahr__named_before(f, &s->ties[last])) {
         s->ties[last] = *f;
     } else {
         return 0;
@@ -286,7 +279,7 @@ static const tahr__found *first_of(sweep_state *s)
 {
     tahr__found *first = &s->ties[0];
     for (uint32_t i = 1; i < s->tied; i++)
-        first = named_before(&s->ties[i], first) ? &s->ties[i] : first;
+        first = tahr__named_before(&s->ties[i], first) ? &s->ties[i] : first;
     first->t = s->first;
     return first;
 }

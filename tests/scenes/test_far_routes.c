@@ -8,48 +8,26 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "scene_backend.h"
-#include "scene_obj.h"
+#include <tahr/native.h>
+
+#include "scene_level.h"
 #include "scene_wander.h"
 
-enum { ROUTES = 24, STEPS = 300, LEVELS = 4, SKIPPED = 77 };
+enum { ROUTES = 24, STEPS = 300, SKIPPED = 77 };
 
 /* GRAZED: what a graze may part routes by. */
 static const double DT = 1.0 / 60, AWAY = 1e6, SAME = 1e-6, GRAZED = 0.01;
 
-/* Bit i: route i grazes nothing, and is judged by SAME. */
-static const struct {
-    const char *name;
-    uint32_t judged;
-} LEVEL[LEVELS] = {{"dungeon", 0xf7cf7b}, {"nav_test", 0xfffbfe}, {"playground", 0xffdf7f}, {"hills", 0xffffff}};
-
-static int make_level(int index, scene_mesh *mesh)
-{
-    char path[1024], why[256] = "";
-    if (index == 2) {
-        scene_mesh_playground(mesh);
-    } else if (index == 3) {
-        scene_mesh_field(mesh, 120, 120, 0.5, scene_hills);
-    } else if (!scene_obj_find(LEVEL[index].name, path, sizeof path)) {
-        printf("SKIP: %s not present\n", LEVEL[index].name);
-        return 0;
-    } else {
-        scene_obj_read(path, mesh, why);
-    }
-    return !why[0] && !mesh->failed;
-}
+/* By level; bit i: route i grazes nothing, and is judged by SAME. */
+static const uint32_t JUDGED[SCENE_LEVELS] = {0xf7cf7b, 0xfffbfe, 0xffdf7f, 0xffffff};
 
 static tahr_world *open_at(const scene_mesh *mesh, const tahr_native_desc *options, double away)
 {
     tahr_world *world = NULL;
     tahr_body_desc body;
     tahr_world_desc desc;
-    tahr_body_desc_init(&body, sizeof body, TAHR_BODY_MESH);
+    scene_level_body(mesh, &body);
     body.flags = TAHR_BODY_TWO_SIDED;
-    body.vertices = mesh->vertices;
-    body.vertex_count = mesh->vertex_count;
-    body.indices = mesh->indices;
-    body.triangle_count = mesh->triangle_count;
     body.pose.position.x = body.pose.position.y = away;
     tahr_world_desc_init(&desc, sizeof desc);
     desc.bodies = &body;
@@ -103,7 +81,7 @@ static int run(int level, const scene_mesh *mesh, uint32_t precision)
         tahr_state state;
         scene_wander_spawn(worlds[0], &config, &bounds, &seed, &state);
         double parts = compare(movers[0], movers[1], &config, rounded(state.position), route);
-        int judged = (LEVEL[level].judged >> route & 1) != 0;
+        int judged = (JUDGED[level] >> route & 1) != 0;
         held += parts >= 0 && parts <= SAME;
         worst = fmax(worst, parts);
         judged_worst = judged ? fmax(judged_worst, parts) : judged_worst;
@@ -112,8 +90,8 @@ static int run(int level, const scene_mesh *mesh, uint32_t precision)
             failures++;
         }
     }
-    printf("%-11s %s: %d of %d routes within 1e-6 m, judged ones within %.2g m, any within %.2g m\n", LEVEL[level].name,
-           precision ? "double" : "float ", held, ROUTES, judged_worst, worst);
+    printf("%-11s %s: %d of %d routes within 1e-6 m, judged ones within %.2g m, any within %.2g m\n",
+           SCENE_LEVEL_NAMES[level], precision ? "double" : "float ", held, ROUTES, judged_worst, worst);
     for (int i = 0; i < 2; i++) {
         tahr_mover_destroy(movers[i]);
         tahr_world_close(worlds[i]);
@@ -124,9 +102,12 @@ static int run(int level, const scene_mesh *mesh, uint32_t precision)
 int main(void)
 {
     int runs = 0, failures = 0;
-    for (int level = 0; level < LEVELS; level++) {
+    for (int level = 0; level < SCENE_LEVELS; level++) {
         scene_mesh mesh = {0};
-        if (make_level(level, &mesh)) {
+        char why[256];
+        if (!scene_level_make(SCENE_LEVEL_NAMES[level], &mesh, why)) {
+            printf("SKIP: %s %s\n", SCENE_LEVEL_NAMES[level], why);
+        } else {
             runs++;
             failures += run(level, &mesh, TAHR_NATIVE_FLOAT) + run(level, &mesh, TAHR_NATIVE_DOUBLE);
         }

@@ -8,17 +8,15 @@
 #include <string.h>
 
 #include "scene_backend.h"
-#include "scene_obj.h"
+#include "scene_level.h"
 #include "scene_solid.h"
 #include "scene_wander.h"
 
-enum { CHARACTERS = 16, LEVELS = 4, STUCK_CHANGES = 5, STUCK_DIRECTIONS = 16, SKIPPED = 77 };
+enum { CHARACTERS = 16, STUCK_CHANGES = 5, STUCK_DIRECTIONS = 16, SKIPPED = 77 };
 
 /* The design's words: stuck for good is less than 0.2 m in 10 s over 5 headings, though 0.1 m are free somewhere; who
  * is 10 m below everything fell out. */
 static const double DT = 1.0 / 60, STUCK_SECONDS = 10, STUCK_WAY = 0.2, FREE_STEP = 0.1, FELL = 10;
-
-static const char *const NAMES[LEVELS] = {"dungeon", "nav_test", "playground", "hills"};
 
 typedef struct character {
     tahr_state state;
@@ -40,21 +38,6 @@ typedef struct watch {
     double nearest; /* m, smallest distance of the true shape; negative: penetration */
     char failure[512];
 } watch;
-
-static int make_level(int index, scene_mesh *mesh, char *why)
-{
-    char path[1024];
-    if (index == 2) {
-        scene_mesh_playground(mesh);
-    } else if (index == 3) {
-        scene_mesh_field(mesh, 120, 120, 0.5, scene_hills);
-    } else if (!scene_obj_find(NAMES[index], path, sizeof path)) {
-        snprintf(why, 256, "not present");
-    } else {
-        scene_obj_read(path, mesh, why);
-    }
-    return !why[0] && !mesh->failed;
-}
 
 /* A line to reproduce the step with: the state before it and the input. */
 static void accuse(watch *w, const char *what, double value, const character *c, const tahr_state *before, int id,
@@ -193,12 +176,8 @@ static int run_level(const char *name, const scene_mesh *mesh, const scene_solid
 {
     watch w = {.backend = backend, .solid = solid, .bounds = scene_mesh_bounds(mesh), .seed = 5, .nearest = HUGE_VAL};
     tahr_body_desc body;
-    tahr_body_desc_init(&body, sizeof body, TAHR_BODY_MESH);
+    scene_level_body(mesh, &body);
     body.flags = TAHR_BODY_TWO_SIDED;
-    body.vertices = mesh->vertices;
-    body.vertex_count = mesh->vertex_count;
-    body.indices = mesh->indices;
-    body.triangle_count = mesh->triangle_count;
     tahr_config_init(&w.config, sizeof w.config, TAHR_PRESET_PRECISE);
     tahr_status status = scene_backend_open(backend, &body, 1, NULL, &w.world);
     if (status == TAHR_OK) {
@@ -225,14 +204,14 @@ static int run_level(const char *name, const scene_mesh *mesh, const scene_solid
 int wandering_run(int native_steps, int other_steps, int argc, char **argv)
 {
     int runs = 0, failures = 0;
-    for (int i = 0; i < LEVELS; i++) {
+    for (int i = 0; i < SCENE_LEVELS; i++) {
         scene_mesh mesh = {0};
         char why[256] = "";
-        if (argc > 1 && strcmp(argv[1], NAMES[i]) != 0) {
+        if (argc > 1 && strcmp(argv[1], SCENE_LEVEL_NAMES[i]) != 0) {
             continue;
         }
-        if (!make_level(i, &mesh, why)) {
-            printf("SKIP: %s %s\n", NAMES[i], why);
+        if (!scene_level_make(SCENE_LEVEL_NAMES[i], &mesh, why)) {
+            printf("SKIP: %s %s\n", SCENE_LEVEL_NAMES[i], why);
             scene_mesh_free(&mesh);
             continue;
         }
@@ -241,7 +220,8 @@ int wandering_run(int native_steps, int other_steps, int argc, char **argv)
             const scene_backend *backend = &SCENE_BACKENDS[b];
             if (argc <= 2 || strcmp(argv[2], backend->name) == 0) {
                 runs++;
-                failures += !run_level(NAMES[i], &mesh, solid, backend, backend->native ? native_steps : other_steps);
+                failures += !run_level(SCENE_LEVEL_NAMES[i], &mesh, solid, backend,
+                                       backend->native ? native_steps : other_steps);
             }
         }
         scene_solid_close(solid);

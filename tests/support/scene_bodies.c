@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene_level.h"
+
 static int bad(scene *s, const char *what, const char *where)
 {
     if (!s->error[0]) {
@@ -116,14 +118,10 @@ static int read_shape(scene *s, json_t *item, tahr_body_desc *body)
         body->half_height = kind[0] == 'c' ? number(s, item, "half_height", NAN) : 0;
         return !s->error[0];
     }
-    tahr_body_desc_init(body, sizeof *body, TAHR_BODY_MESH);
     if (!make_mesh(s, item, kind, mesh)) {
         return bad(s, "no such kind of body", kind);
     }
-    body->vertices = mesh->vertices;
-    body->indices = mesh->indices;
-    body->vertex_count = mesh->vertex_count;
-    body->triangle_count = mesh->triangle_count;
+    scene_level_body(mesh, body);
     return !s->error[0] && !mesh->failed;
 }
 

@@ -170,24 +170,31 @@ static void open_checks_backend_and_description(void **unused)
     tahr_world_close(NULL);
 }
 
+/* Two bodies behind the fake backend, a movable one and one with these flags, and poses for them. */
+static tahr_world *open_two(fake_backend *b, fake_log *log, uint32_t flags, tahr_body_pose poses[2])
+{
+    tahr_body_desc bodies[2] = {mesh(), mesh()};
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    tahr_log l = fake_log_of(log);
+    bodies[0].flags = TAHR_BODY_MOVABLE;
+    bodies[1].flags = flags;
+    describe(&desc, b, bodies, 2);
+    desc.log = &l;
+    assert_int_equal(tahr_world_open(&b->table, &desc, &world), TAHR_OK);
+    memset(poses, 0, 2 * sizeof poses[0]);
+    poses[0].pose.orientation.w = poses[1].pose.orientation.w = 1;
+    poses[1].body = 1;
+    return world;
+}
+
 static void set_checks_every_pose_before_it_moves_one(void **unused)
 {
     fake_backend b;
-    tahr_body_desc bodies[2];
-    tahr_world_desc desc;
-    tahr_world *world = NULL;
+    fake_log log;
     tahr_body_pose poses[2];
     (void)unused;
-    bodies[0] = bodies[1] = mesh();
-    bodies[0].flags = bodies[1].flags = TAHR_BODY_MOVABLE;
-    describe(&desc, &b, bodies, 2);
-    fake_log log;
-    tahr_log l = fake_log_of(&log);
-    desc.log = &l;
-    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_OK);
-    memset(poses, 0, sizeof poses);
-    poses[0].pose.orientation.w = poses[1].pose.orientation.w = 1;
-    poses[1].body = 1;
+    tahr_world *world = open_two(&b, &log, TAHR_BODY_MOVABLE, poses);
     uint64_t revision = tahr_world_revision(world);
     assert_int_equal(tahr_world_set(NULL, poses, 2), TAHR_E_NULL);
     assert_int_equal(tahr_world_set(world, NULL, 2), TAHR_E_NULL);
@@ -223,20 +230,9 @@ static void bodies_that_are_not_movable_are_named(void **unused)
 {
     fake_backend b;
     fake_log log;
-    tahr_log l = fake_log_of(&log);
-    tahr_body_desc bodies[2];
-    tahr_world_desc desc;
-    tahr_world *world = NULL;
     tahr_body_pose poses[2];
     (void)unused;
-    bodies[0] = bodies[1] = mesh();
-    bodies[0].flags = TAHR_BODY_MOVABLE;
-    describe(&desc, &b, bodies, 2);
-    desc.log = &l;
-    assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_OK);
-    memset(poses, 0, sizeof poses);
-    poses[0].pose.orientation.w = poses[1].pose.orientation.w = 1;
-    poses[1].body = 1;
+    tahr_world *world = open_two(&b, &log, 0, poses);
     uint64_t revision = tahr_world_revision(world);
     assert_int_equal(tahr_world_set(world, poses, 2), TAHR_E_ARGUMENT);
     assert_string_equal(log.text, "tahr_world_set: poses[1].body is 1, a body without TAHR_BODY_MOVABLE");
