@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * test_far_routes.c: routes through levels are the same path with the level a thousand kilometres away.
  *
- * A route is what a wanderer with a seed asked for. Positions at 1e6 m have steps of 1.2e-10 m, and where a foot grazes an
- * edge the square root of that is what the contact moves by: routes with such a graze part by more than a micrometre and
- * are counted, not judged. */
+ * A route is what a wanderer with a seed asked for. Positions at 1e6 m have steps of 1.2e-10 m. Where a foot grazes an edge
+ * the contact moves by the square root of that, and now and then two rules stand on a knife's edge: such routes part by
+ * more than a micrometre. They are known by number and held to a centimetre. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,10 +15,10 @@
 
 enum { ROUTES = 24, STEPS = 300, SKIPPED = 77 };
 
-/* GRAZED: what a graze may part routes by. */
+/* GRAZED: what may part the routes that are known to. */
 static const double DT = 1.0 / 60, AWAY = 1e6, SAME = 1e-6, GRAZED = 0.01;
 
-/* By level; bit i: route i grazes nothing, and is judged by SAME. */
+/* By level; bit i: route i is judged by SAME. */
 static const uint32_t JUDGED[SCENE_LEVELS] = {0xf7cf7b, 0xfffbfe, 0xffdf7f, 0xffffff};
 
 static tahr_world *open_at(const scene_mesh *mesh, const tahr_native_desc *options, double away)
