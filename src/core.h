@@ -19,8 +19,22 @@ typedef struct tahr__memory {
 /* What the core remembers of a body. */
 typedef struct tahr__body_note {
     uint64_t pose_hash; /* its share of the revision */
-    uint64_t movable;
+    double reach;       /* m, radius around its position that holds all of it */
+    double fluid_friction;
+    tahr_vec3 surface_velocity; /* local */
+    tahr_pose pose, before;     /* before: where the motion of the last placement began */
+    double dt;                  /* s of that motion; 0: at rest */
+    double mass;
+    uint32_t flags;      /* TAHR_BODY_* */
+    uint32_t teleported; /* by the last placement */
 } tahr__body_note;
+
+/* What a world may hold, so that a step does not look for what is not there. */
+enum {
+    TAHR__HAS_SENSORS = 1 << 0,
+    TAHR__HAS_FLUIDS = 1 << 1,
+    TAHR__HAS_BASES = 1 << 2 /* bodies that move, drive a conveyor, or can be pushed */
+};
 
 struct tahr_world {
     const tahr_backend *backend;
@@ -30,6 +44,9 @@ struct tahr_world {
     const char *calling; /* that function, while it has the world for itself; else NULL */
     uint32_t complaints; /* of the backend in it */
     uint32_t body_count;
+    uint32_t has;         /* TAHR__HAS_* */
+    uint32_t moved_count; /* bodies in motion since the last placement: the first of moved */
+    uint32_t *moved;
     tahr__memory memory;
     uint64_t revision; /* never 0; a pure function of the poses of all bodies and of the touches */
     tahr__body_note *bodies;
@@ -48,8 +65,9 @@ typedef struct tahr__foot {
     double offset; /* m */
 } tahr__foot;
 
-/* Numbers derived from the config once, when the mover is created. */
+/* Numbers derived from config and shape: of the config's own shape once, when the mover is created. */
 typedef struct tahr__limits {
+    tahr_shape shape;           /* the character's now */
     double walkable;            /* cosine of the steepest walkable floor */
     double walkable_hysteresis; /* the same for a floor that was walkable */
     double width;               /* m, half width of the shape: what perch and edge rules measure against */
@@ -93,11 +111,14 @@ typedef struct tahr__step {
     tahr_state state;
     tahr_report report;
     tahr_query_context context;
-    double time;       /* s since the start of the step, at the begin of the slice */
-    double ahead;      /* s from there to what is being worked on: events happen then */
-    double push_left;  /* m of depenetration still allowed */
-    uint32_t queries;  /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
-    tahr_status error; /* sticky: after it every query answers "blocked here" */
+    tahr__limits own_limits; /* what limits points to while the shape is not the config's */
+    uint32_t ignore_body;    /* not there for this step's queries now, or TAHR_NO_BODY */
+    double dt;               /* s of the whole step */
+    double time;             /* s since the start of the step, at the begin of the slice */
+    double ahead;            /* s from there to what is being worked on: events happen then */
+    double push_left;        /* m of depenetration still allowed */
+    uint32_t queries;        /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
+    tahr_status error;       /* sticky: after it every query answers "blocked here" */
 } tahr__step;
 
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */
@@ -108,7 +129,7 @@ typedef struct tahr__next {
 
 static inline vec3 step_foot(const tahr__step *step)
 {
-    return add_scaled(step->state.position, step->state.up, -step->config->shape.half_height);
+    return add_scaled(step->state.position, step->state.up, -step->limits->shape.half_height);
 }
 
 /* The part across up. */

@@ -96,7 +96,7 @@ static double meet_on_arc(tahr__step *step, const arc *a, vec3 chord, double dur
     double t = meeting_time(a, hit->normal, scale(chord, hit->fraction), duration);
     vec3 to = arc_at(a, t, &v);
     tahr_hit check;
-    tahr__sweep(step, &step->config->shape, start, to, step->config->skin, 0, &check);
+    tahr__sweep(step, &step->limits->shape, start, to, step->config->skin, 0, &check);
     if (check.start_overlap || check.unknown) {
         return 0;
     }

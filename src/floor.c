@@ -39,7 +39,7 @@ int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable)
 
 static double inside_box(const tahr__step *step, vec3 offset)
 {
-    const tahr_shape *s = &step->config->shape;
+    const tahr_shape *s = &step->limits->shape;
     vec3 x = rotate(step->state.orientation, vec(1, 0, 0));
     vec3 y = rotate(step->state.orientation, vec(0, 1, 0));
     double dx = dot(offset, x), dy = dot(offset, y);
@@ -50,7 +50,7 @@ static double inside_box(const tahr__step *step, vec3 offset)
 static inline double inside_rim(const tahr__step *step, const tahr_hit *hit)
 {
     vec3 offset = step_level(step, sub(hit->point, step->state.position));
-    const tahr_shape *s = &step->config->shape;
+    const tahr_shape *s = &step->limits->shape;
     double skin = step->config->skin;
     return s->type == TAHR_SHAPE_BOX ? skin + inside_box(step, offset) : s->radius + skin - length(offset);
 }
@@ -78,7 +78,7 @@ static void sweep_down(tahr__step *step, const tahr__foot *foot, double range, t
 /* The foot of the shape, thinner all round, with its end where it was. */
 static tahr__foot thinner(const tahr__step *step, double by)
 {
-    tahr_shape s = step->config->shape;
+    tahr_shape s = step->limits->shape;
     if (s.type == TAHR_SHAPE_BOX) {
         s.half_x = max_of(s.half_x - by, 1e-3 * s.half_x);
         s.half_y = max_of(s.half_y - by, 1e-3 * s.half_y);

@@ -21,7 +21,10 @@ typedef struct entry {
 
 /* Indexed by TAHR_MODE_*. Transitions: walking -> falling when the floor ends or a jump starts; falling -> walking when
  * a floor is landed on; none stays. */
-static const entry modes[TAHR_MODE_FALLING + 1] = {{"none", rest}, {"walking", tahr__walk}, {"falling", tahr__fall}};
+static const entry modes[TAHR_MODE_CUSTOM + 1] = {
+    {"none", rest},   {"walking", tahr__walk}, {"falling", tahr__fall}, {"swimming", rest},
+    {"flying", rest}, {"hanging", rest},       {"custom", rest},
+};
 
 const char *tahr_mode_name(uint32_t mode)
 {

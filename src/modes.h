@@ -14,7 +14,7 @@ void tahr__change_mode(tahr__step *step, uint32_t mode);
 /* Is there such a mode? */
 static inline int tahr__is_mode(uint32_t mode)
 {
-    return mode <= TAHR_MODE_FALLING;
+    return mode <= TAHR_MODE_CUSTOM;
 }
 
 #endif

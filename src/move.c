@@ -31,7 +31,7 @@ static const char *outcome(const tahr_hit *hit)
 
 int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
 {
-    const tahr_shape *shape = &step->config->shape;
+    const tahr_shape *shape = &step->limits->shape;
     double skin = step->config->skin;
     tahr__sweep(step, shape, step->state.position, motion, skin, 0, hit);
     int overlapped = hit->start_overlap != 0;
@@ -71,7 +71,7 @@ static int joint_push(const tahr_contact *contacts, uint32_t count, double skin,
 static void push_out(tahr__step *step, vec3 push)
 {
     tahr_hit hit;
-    tahr__sweep(step, &step->config->shape, step->state.position, push, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP,
+    tahr__sweep(step, &step->limits->shape, step->state.position, push, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP,
                 &hit);
     advance(step, push, &hit);
     if (hit.start_overlap &&

@@ -2,18 +2,20 @@
  * mover.c: life cycle, entry checks, the announcement, the loop over slices of time. */
 #include <string.h>
 
+#include "arguments.h"
+#include "base_motion.h"
 #include "core.h"
-#include "elementary.h"
-#include "floor.h"
+#include "jump.h"
+#include "launch.h"
+#include "limits.h"
 #include "message.h"
 #include "modes.h"
+#include "overlap.h"
 #include "query.h"
 #include "report.h"
-#include "shape.h"
-#include "sized.h"
 #include "sleep.h"
+#include "stance.h"
 #include "turning.h"
-#include "walking.h"
 
 /* Bytes of a state that a step works on. */
 enum { USED = offsetof(tahr_state, reserved) };
@@ -24,29 +26,6 @@ static const double MIN_SLICE = 1e-9;
 /* Walking and falling may hand a step to each other this often (a gap as wide as the foot); then it ends, and says so.
  * Each time costs some 40 queries to find where the floor ended. */
 enum { MAX_SLICES = 6 };
-
-static tahr__pull pull_of(vec3 gravity)
-{
-    double size = length(gravity);
-    tahr__pull pull = {gravity, size, size > 0 ? scale(gravity, -1.0 / size) : vec(0, 0, 0)};
-    return pull;
-}
-
-static tahr__limits limits_of(const tahr_config *c, uint32_t capabilities)
-{
-    tahr__limits limits;
-    double sine;
-    tahr__sincos(c->walkable_angle, &sine, &limits.walkable);
-    tahr__sincos(c->walkable_angle + c->walkable_hysteresis, &sine, &limits.walkable_hysteresis);
-    const tahr_shape *s = &c->shape;
-    int box = s->type == TAHR_SHAPE_BOX;
-    limits.width = shape_width(s);
-    limits.around = box ? sqrt(s->half_x * s->half_x + s->half_y * s->half_y) : s->radius;
-    limits.axis = s->half_height - (box ? 0 : s->radius);
-    limits.pull = pull_of(c->gravity);
-    limits.foot = tahr__foot_of(s, capabilities);
-    return limits;
-}
 
 tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **out)
 {
@@ -82,7 +61,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     }
     mover->world = world;
     memcpy(&mover->config, config, sizeof mover->config);
-    mover->limits = limits_of(&mover->config, world->backend->capabilities);
+    mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->cache = cache;
     mover->cache_size = cache_size;
     *out = mover;
@@ -98,127 +77,6 @@ void tahr_mover_destroy(tahr_mover *mover)
         }
         a.free(a.user, mover, sizeof *mover, 64);
     }
-}
-
-/* False too for what is not finite: its square is not either. */
-static int is_within(vec3 v, double most)
-{
-    return length_squared(v) <= most * most;
-}
-
-static const char *bad_input(const tahr_input *in)
-{
-    if (!is_within(in->move, 1e6)) {
-        return "input.move";
-    }
-    if ((in->flags & TAHR_INPUT_FACING) && !is_within(in->facing, 1e6)) {
-        return "input.facing";
-    }
-    if ((in->flags & TAHR_INPUT_GRAVITY) && !is_within(in->gravity, 1e4)) {
-        return "input.gravity";
-    }
-    if (in->reserved) {
-        return "input.reserved";
-    }
-    return in->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING) ? "input.flags" : NULL;
-}
-
-static int all_zero(const uint8_t tail[sizeof((tahr_state *)0)->reserved])
-{
-    uint64_t any = 0, word;
-    for (size_t at = 0; at < sizeof((tahr_state *)0)->reserved; at += sizeof word) {
-        memcpy(&word, tail + at, sizeof word);
-        any |= word;
-    }
-    return any == 0;
-}
-
-/* A sum is finite only if all its terms are (and no floor is so far away that it overflows). */
-static const char *bad_floor(const tahr_state *s)
-{
-    const tahr_floor *f = &s->floor;
-    const vec3 n = f->normal, surface = f->surface_normal, point = f->point, at = s->floor_position;
-    double sum = n.x + n.y + n.z + surface.x + surface.y + surface.z + point.x + point.y + point.z + f->distance;
-    if (is_finite(sum + f->perch_distance + at.x + at.y + at.z + s->jump_hold)) {
-        return NULL;
-    }
-    if (!vec_is_finite(n)) {
-        return "state.floor.normal";
-    }
-    if (!vec_is_finite(surface)) {
-        return "state.floor.surface_normal";
-    }
-    if (!vec_is_finite(point)) {
-        return "state.floor.point";
-    }
-    if (!vec_is_finite(at)) {
-        return "state.floor_position";
-    }
-    if (!is_finite(s->jump_hold)) {
-        return "state.jump_hold";
-    }
-    if (!is_finite(f->perch_distance)) {
-        return "state.floor.perch_distance";
-    }
-    return is_finite(f->distance) ? "state.floor" : "state.floor.distance";
-}
-
-static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
-{
-    tahr_quat q = s->orientation;
-    double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
-    double up2 = length_squared(s->up);
-    if (!is_within(s->position, 2e7)) {
-        return "state.position";
-    }
-    if (!is_within(s->velocity, 1e5)) {
-        return "state.velocity";
-    }
-    if (!(q2 > 1 - 1e-6 && q2 < 1 + 1e-6)) {
-        return "state.orientation";
-    }
-    if (!(up2 > 1 - 1e-9 && up2 < 1 + 1e-9)) {
-        return "state.up";
-    }
-    if (shape->type == TAHR_SHAPE_BOX && !(dot(rotate(s->orientation, vec(0, 0, 1)), s->up) > 1 - 1e-6)) {
-        return "state.orientation";
-    }
-    if (!tahr__is_mode(s->mode)) {
-        return "state.mode";
-    }
-    const uint32_t flags = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMPING | TAHR_STATE_FLOOR_MOVED;
-    if (s->flags & ~flags) {
-        return "state.flags";
-    }
-    if (!all_zero(s->reserved)) {
-        return "state.reserved";
-    }
-    return bad_floor(s);
-}
-
-static tahr_status check_arguments(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
-                                   const tahr_report *report)
-{
-    const tahr_log *log = &mover->world->log;
-    tahr_status status = tahr__sized_check(input, sizeof *input);
-    if (status < 0) {
-        return tahr__complain(log, status, "tahr_mover_step", "input:", tahr_status_message(status));
-    }
-    if (report) {
-        uint32_t size;
-        memcpy(&size, report, sizeof size);
-        if (size < sizeof *report || size > sizeof *report + TAHR__MOST_UNKNOWN) {
-            return tahr__complain(log, TAHR_E_STRUCT_SIZE, "tahr_mover_step",
-                                  "report:", tahr_status_message(TAHR_E_STRUCT_SIZE));
-        }
-    }
-    if (!(dt >= 0 && dt <= mover->config.max_dt)) {
-        return tahr__complain_value(log, TAHR_E_ARGUMENT, "tahr_mover_step", "dt", dt,
-                                    "must be within 0 and config.max_dt");
-    }
-    const char *bad = bad_input(input);
-    bad = bad ? bad : bad_state(state, &mover->config.shape);
-    return bad ? tahr__complain(log, TAHR_E_ARGUMENT, "tahr_mover_step", bad, "is out of range or not finite") : TAHR_OK;
 }
 
 /* Everything that the step is expected to ask about: its motion, steps up, snaps and perches down, a few skins. */
@@ -239,31 +97,6 @@ static void announce(tahr__step *step, double dt)
     tahr__announce(step, &a);
 }
 
-/* A jump starts when the button goes down on ground. */
-static void begin_jump(tahr__step *step)
-{
-    tahr_state *s = &step->state;
-    int held = (s->flags & TAHR_STATE_JUMP_HELD) != 0;
-    if (!step->input->jump) {
-        s->flags &= ~(uint32_t)TAHR_STATE_JUMP_HELD;
-        s->jump_hold = 0;
-        return;
-    }
-    s->flags |= TAHR_STATE_JUMP_HELD;
-    if (held || s->mode != TAHR_MODE_WALKING) {
-        return;
-    }
-    tahr__leave_floor(step);
-    s->velocity = add_scaled(s->velocity, s->up, step->config->jump_speed);
-    s->jump_hold = step->config->jump_hold_time;
-    s->flags |= TAHR_STATE_JUMPING;
-    s->floor_revision = 0;
-    tahr__event(step, TAHR_EVENT_JUMPED, NULL, step->config->jump_speed);
-    tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
-    tahr__decide(step, TAHR_RULE_JUMP, 1, NULL, step->config->jump_speed, 0, "button went down on ground");
-    tahr__change_mode(step, TAHR_MODE_FALLING);
-}
-
 static void run(tahr__step *step, double dt)
 {
     if (!is_upright(step)) {
@@ -272,8 +105,13 @@ static void run(tahr__step *step, double dt)
     if (step->input->flags & TAHR_INPUT_FACING) {
         tahr__face(step, dt);
     }
-    begin_jump(step);
     announce(step, dt);
+    tahr__follow_base(step, dt);
+    tahr__take_stance(step);
+    if (step->input->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING)) {
+        tahr__launch(step);
+    }
+    tahr__begin_jump(step);
     double left = dt;
     while (left > MIN_SLICE && step->error >= 0 && step->report.slices < MAX_SLICES &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
@@ -283,6 +121,8 @@ static void run(tahr__step *step, double dt)
     if (left > MIN_SLICE) {
         step->report.time_lost += left;
     }
+    tahr__take_base(step);
+    tahr__find_overlaps(step);
 }
 
 static vec3 clean(vec3 v)
@@ -313,6 +153,7 @@ static void hand_over(const tahr_state *s, tahr_state *out)
     out->floor_position = clean(s->floor_position);
     out->floor_revision = s->floor_revision;
     out->jump_hold = s->jump_hold + 0.0;
+    memcpy(&out->radius, &s->radius, USED - offsetof(tahr_state, radius)); /* written clean where they are written */
 }
 
 static tahr_status worst(uint32_t flags)
@@ -347,6 +188,8 @@ static void start_report(tahr_report *r, const tahr_report *user)
         r->event_capacity = user->events ? user->event_capacity : 0;
         r->decisions = user->decisions;
         r->decision_capacity = user->decisions ? user->decision_capacity : 0;
+        r->queries = user->queries;
+        r->query_capacity = user->queries ? user->query_capacity : 0;
     }
 }
 
@@ -384,7 +227,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",
                               "is being stepped already");
     }
-    tahr_status status = check_arguments(mover, input, dt, state, report);
+    tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
     if (status < 0) {
         return status;
     }
@@ -399,19 +242,24 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.config = &mover->config;
     step.limits = &mover->limits;
     step.world = mover->world;
+    if (state->half_height != mover->config.shape.half_height || state->radius != mover->config.shape.radius) {
+        tahr__use_shape(&step, state->radius, state->half_height);
+    }
     step.input = input;
     memcpy(&step.state, state, USED);
     start_report(&step.report, report);
     step.context = (tahr_query_context){.cache = mover->cache};
     step.pull = &mover->limits.pull;
     if (input->flags & TAHR_INPUT_GRAVITY) {
-        pull = pull_of(input->gravity);
+        pull = tahr__pull_of(input->gravity);
         step.pull = &pull;
     }
     step.time = 0;
     step.ahead = 0;
     step.push_left = mover->config.max_depenetration;
     step.queries = 0;
+    step.ignore_body = TAHR_NO_BODY;
+    step.dt = dt;
     step.error = TAHR_OK;
     if (dt > 0) {
         mover->busy = 1;

@@ -119,7 +119,7 @@ void tahr__path_find_slope(tahr__path *w, tahr__step *step)
         return;
     }
     vec3 half_way = add_scaled(step->state.position, step_level(step, sub(floor->point, step->state.position)), 0.5);
-    tahr__ray(step, half_way, scale(up, -(step->config->shape.half_height + step->config->snap_distance)), &hit);
+    tahr__ray(step, half_way, scale(up, -(step->limits->shape.half_height + step->config->snap_distance)), &hit);
     double off = dot(w->slope, sub(hit.point, floor->point));
     int same = hit.blocking && dot(w->slope, hit.surface_normal) > 0.99 && off < step->config->skin &&
                off > -step->config->skin;

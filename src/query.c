@@ -273,7 +273,7 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
                     .motion = motion,
                     .margin = margin,
                     .mask = step->config->mask,
-                    .ignore_body = TAHR_NO_BODY,
+                    .ignore_body = step->ignore_body,
                     .flags = flags};
     step->report.sweeps++;
     tahr_status status = checked_sweep(step->world, &step->context, &q, hit, 1, &count);
@@ -299,13 +299,13 @@ uint32_t tahr__contacts(tahr__step *step, vec3 position, double margin, tahr_con
     if (!may_ask(step)) {
         return 0;
     }
-    tahr_contact_query q = {.shape = step->config->shape,
+    tahr_contact_query q = {.shape = step->limits->shape,
                             .position = position,
                             .up = step->state.up,
                             .orientation = step->state.orientation,
                             .margin = margin,
                             .mask = step->config->mask,
-                            .ignore_body = TAHR_NO_BODY};
+                            .ignore_body = step->ignore_body};
     step->report.contact_queries++;
     tahr_status status = checked_contacts(step->world, &step->context, &q, contacts, capacity, &count);
     if (status < 0) {
@@ -327,7 +327,7 @@ void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit)
         blocked_here(step, hit);
         return;
     }
-    tahr_ray q = {.origin = origin, .motion = motion, .mask = step->config->mask, .ignore_body = TAHR_NO_BODY};
+    tahr_ray q = {.origin = origin, .motion = motion, .mask = step->config->mask, .ignore_body = step->ignore_body};
     step->report.rays++;
     tahr_status status = checked_ray(step->world, &step->context, &q, hit, &count);
     if (status < 0) {

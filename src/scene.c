@@ -52,8 +52,18 @@ static const char *bad_body(const tahr_body_desc *b)
     if (pose) {
         return pose;
     }
-    if (b->flags & ~(uint32_t)(TAHR_BODY_SENSOR | TAHR_BODY_TWO_SIDED | TAHR_BODY_MOVABLE)) {
+    const uint32_t flags = (TAHR_BODY_CHARACTER << 1) - 1;
+    if (b->flags & ~flags || ((b->flags & TAHR_BODY_FLUID) && b->type == TAHR_BODY_MESH)) {
         return "flags";
+    }
+    if (!(length_squared(b->surface_velocity) <= 1e8)) {
+        return "surface_velocity";
+    }
+    if (!(b->mass >= 0 && b->mass <= 1e12)) {
+        return "mass";
+    }
+    if (!(b->fluid_friction >= 0 && b->fluid_friction <= 1e4)) {
+        return "fluid_friction";
     }
     if (b->walkable_rule > TAHR_WALKABLE_NEVER) {
         return "walkable_rule";
@@ -89,6 +99,18 @@ static tahr_status check_size(const tahr_log *log, const void *body, uint32_t st
     return TAHR_OK;
 }
 
+static int holds_fluid(const tahr_world_desc *scene, uint32_t stride)
+{
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        uint32_t flags;
+        memcpy(&flags, (const char *)scene->bodies + (size_t)i * stride + offsetof(tahr_body_desc, flags), sizeof flags);
+        if (flags & TAHR_BODY_FLUID) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 tahr_status tahr__bodies_read(const tahr_host *host, const tahr_log *log, tahr_world_desc *scene, tahr_body_desc **own)
 {
     tahr_status status = TAHR_OK;
@@ -102,7 +124,7 @@ tahr_status tahr__bodies_read(const tahr_host *host, const tahr_log *log, tahr_w
     for (uint32_t i = 0; i < scene->body_count && status >= 0; i++) {
         status = check_size(log, (const char *)scene->bodies + (size_t)i * stride, stride, i);
     }
-    if (status >= 0 && stride != sizeof(tahr_body_desc)) {
+    if (status >= 0 && (stride != sizeof(tahr_body_desc) || holds_fluid(scene, stride))) {
         *own = host->allocator.alloc(host->allocator.user, scene->body_count * sizeof(tahr_body_desc), 8);
         if (!*own) {
             return tahr__complain(log, TAHR_E_MEMORY, "tahr_world_open", "allocator", "returned NULL");
@@ -110,6 +132,7 @@ tahr_status tahr__bodies_read(const tahr_host *host, const tahr_log *log, tahr_w
         for (uint32_t i = 0; i < scene->body_count; i++) {
             memcpy(*own + i, (const char *)scene->bodies + (size_t)i * stride, sizeof(tahr_body_desc));
             (*own)[i].struct_size = sizeof(tahr_body_desc);
+            (*own)[i].flags |= (*own)[i].flags & TAHR_BODY_FLUID ? (uint32_t)TAHR_BODY_SENSOR : 0u;
         }
         scene->bodies = *own;
     }

@@ -8,6 +8,21 @@
 
 _Static_assert(sizeof(tahr_state) == 512, "tahr_state is 512 bytes for a whole ABI range");
 
+/* What belongs to the place that a character is at. */
+static void forget_places(tahr_state *state)
+{
+    state->base = (tahr_base){.body = TAHR_NO_BODY};
+    state->base.pose.orientation.w = 1;
+    for (int i = 0; i < TAHR_MAX_TOUCHED; i++) {
+        state->touched[i] = TAHR_NO_BODY;
+    }
+    state->touched_count = 0;
+    state->coyote_left = state->lift_left = state->wall_left = 0;
+    state->wall_normal = vec(0, 0, 0);
+    state->wall_body = state->drop_body = TAHR_NO_BODY;
+    state->wall_feature = state->drop_feature = 0;
+}
+
 tahr_status tahr_state_init(tahr_state *state, const tahr_config *config, const tahr_vec3 *position)
 {
     if (!state || !position) {
@@ -28,6 +43,26 @@ tahr_status tahr_state_init(tahr_state *state, const tahr_config *config, const 
     state->orientation = quat_between(vec(0, 0, 1), state->up);
     state->mode = TAHR_MODE_FALLING;
     state->floor.body = TAHR_NO_BODY;
+    state->radius = config->shape.radius;
+    state->half_height = config->shape.half_height;
+    forget_places(state);
+    return TAHR_OK;
+}
+
+tahr_status tahr_state_teleport(tahr_state *state, const tahr_vec3 *position)
+{
+    if (!state || !position) {
+        return TAHR_E_NULL;
+    }
+    if (!vec_is_finite(*position) || length(*position) > 1e7) {
+        return TAHR_E_ARGUMENT;
+    }
+    forget_places(state);
+    state->position = add(*position, vec(0, 0, 0)); /* -0.0 + 0.0 is 0.0 */
+    state->floor = (tahr_floor){.body = TAHR_NO_BODY};
+    state->floor_position = vec(0, 0, 0);
+    state->floor_revision = 0;
+    state->flags &= ~(uint32_t)TAHR_STATE_FLOOR_MOVED;
     return TAHR_OK;
 }
 

@@ -32,7 +32,7 @@ static int refuse(tahr__step *step, const tahr_hit *hit, double value, double li
 static double free_ahead(tahr__step *step, vec3 motion, double lift, tahr_hit *hit)
 {
     vec3 raised = add_scaled(step->state.position, step->state.up, lift);
-    tahr__sweep(step, &step->config->shape, raised, motion, step->config->skin, 0, hit);
+    tahr__sweep(step, &step->limits->shape, raised, motion, step->config->skin, 0, hit);
     double part = hit->start_overlap ? 0 : hit->fraction;
     return part == 1 || part * length(motion) > PROGRESS * step->limits->width ? part : 0;
 }
@@ -47,7 +47,7 @@ static int forward(tahr__step *step, vec3 motion, attempt *a)
     if (a->covered == 0 && !ahead.start_overlap) {
         return refuse(step, &ahead, ahead.fraction, 0, "blocked at step height too");
     }
-    tahr__sweep(step, &c->shape, step->state.position, scale(a->up, a->lift), c->skin, 0, &above);
+    tahr__sweep(step, &step->limits->shape, step->state.position, scale(a->up, a->lift), c->skin, 0, &above);
     if (above.blocking && !above.start_overlap) { /* a ceiling: as high as it lets */
         a->lift *= above.fraction;
         a->covered = free_ahead(step, motion, a->lift, &ahead);
@@ -69,7 +69,7 @@ static double floor_height(tahr__step *step, double to)
     if ((floor->flags & TAHR_FLOOR_FACE) || !(floor->flags & TAHR_FLOOR_PERCHING)) {
         return at;
     }
-    double foot = dot(step->state.floor_position, step->state.up) - step->config->shape.half_height;
+    double foot = dot(step->state.floor_position, step->state.up) - step->limits->shape.half_height;
     double before = foot - floor->perch_distance;
     tahr_hit face = {.blocking = 1, .surface_normal = floor->surface_normal, .point = floor->point};
     return to - before > step->config->step_height + TAHR__HEIGHT_ROUNDING && tahr__is_lip(step, &face) ? at : before;
@@ -87,7 +87,7 @@ static int land(tahr__step *step, attempt *a)
     const tahr_config *c = step->config;
     double range = a->lift + c->snap_distance;
     tahr_hit *hit = &a->landing;
-    tahr__sweep(step, &c->shape, a->position, scale(a->up, -range), c->skin, 0, hit);
+    tahr__sweep(step, &step->limits->shape, a->position, scale(a->up, -range), c->skin, 0, hit);
     if (!hit->blocking || hit->start_overlap) {
         return refuse(step, hit, range, 0, "nothing to land on");
     }

@@ -15,7 +15,7 @@ void tahr__right(tahr__step *step)
     vec3 foot = step_foot(step);
     s->orientation = quat_unit(quat_multiply(quat_between(s->up, up), s->orientation));
     s->up = up;
-    s->position = add_scaled(foot, up, step->config->shape.half_height);
+    s->position = add_scaled(foot, up, step->limits->shape.half_height);
     s->floor_revision = 0;
     /* Asked before the announcement: the cache still belongs to another step, perhaps of another character. */
     void *cache = step->context.cache;

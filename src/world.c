@@ -135,6 +135,7 @@ static void free_world(tahr_world *world, size_t extra)
 {
     tahr_allocator counting = world->host.allocator;
     counting.free(counting.user, world->bodies, world->body_count * sizeof *world->bodies, 8);
+    counting.free(counting.user, world->moved, world->body_count * sizeof *world->moved, 8);
     tahr_allocator user = world->memory.user;
     user.free(user.user, world, sizeof *world + extra, 64);
 }
@@ -161,6 +162,48 @@ static void move_revision(tahr_world *world, uint64_t by)
     world->revision += world->revision == 0;
 }
 
+/* Radius around the body's position that holds all of it. */
+static double reach_of(const tahr_body_desc *b)
+{
+    double most = 0;
+    switch (b->type) {
+    case TAHR_BODY_BOX: return length(b->half_extents);
+    case TAHR_BODY_SPHERE: return b->radius;
+    case TAHR_BODY_CAPSULE: return b->half_height;
+    default:
+        for (uint32_t i = 0; i < b->vertex_count; i++) {
+            const double *v = b->vertices + 3 * (size_t)i;
+            most = max_of(most, length_squared(vec(v[0], v[1], v[2])));
+        }
+        return sqrt(most);
+    }
+}
+
+static tahr__body_note note_of(uint32_t i, const tahr_body_desc *b)
+{
+    tahr_pose pose = b->pose;
+    if (pose.orientation.x == 0 && pose.orientation.y == 0 && pose.orientation.z == 0 && pose.orientation.w == 0) {
+        pose.orientation.w = 1;
+    }
+    tahr__body_note note = {.pose_hash = hash_pose(i, &b->pose),
+                            .reach = reach_of(b),
+                            .fluid_friction = b->fluid_friction,
+                            .surface_velocity = b->surface_velocity,
+                            .pose = pose,
+                            .before = pose,
+                            .mass = b->mass,
+                            .flags = b->flags};
+    return note;
+}
+
+static uint32_t has_of(const tahr__body_note *note)
+{
+    uint32_t sensor = note->flags & (TAHR_BODY_SENSOR | TAHR_BODY_FLUID);
+    uint32_t base = note->flags & TAHR_BODY_MOVABLE || length_squared(note->surface_velocity) > 0 || note->mass > 0;
+    return (sensor ? TAHR__HAS_SENSORS : 0u) | (note->flags & TAHR_BODY_FLUID ? TAHR__HAS_FLUIDS : 0u) |
+           (base ? TAHR__HAS_BASES : 0u);
+}
+
 static tahr_status note_bodies(tahr_world *world, const tahr_world_desc *desc)
 {
     tahr_allocator a = world->host.allocator;
@@ -168,13 +211,14 @@ static tahr_status note_bodies(tahr_world *world, const tahr_world_desc *desc)
         return TAHR_OK;
     }
     world->bodies = a.alloc(a.user, desc->body_count * sizeof *world->bodies, 8);
-    if (!world->bodies) {
+    world->moved = a.alloc(a.user, desc->body_count * sizeof *world->moved, 8);
+    world->body_count = desc->body_count;
+    if (!world->bodies || !world->moved) {
         return tahr__complain(&world->log, TAHR_E_MEMORY, "tahr_world_open", "allocator", "returned NULL");
     }
-    world->body_count = desc->body_count;
     for (uint32_t i = 0; i < desc->body_count; i++) {
-        world->bodies[i].pose_hash = hash_pose(i, &desc->bodies[i].pose);
-        world->bodies[i].movable = (desc->bodies[i].flags & TAHR_BODY_MOVABLE) != 0;
+        world->bodies[i] = note_of(i, &desc->bodies[i]);
+        world->has |= has_of(&world->bodies[i]);
         move_revision(world, world->bodies[i].pose_hash);
     }
     return TAHR_OK;
@@ -288,7 +332,7 @@ static tahr_status check_placement(const tahr_world *world, const tahr_body_pose
     if (p->flags) {
         return tahr__complain(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", name, "is not 0");
     }
-    if (!world->bodies[p->body].movable) {
+    if (!(world->bodies[p->body].flags & TAHR_BODY_MOVABLE)) {
         return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", name, p->body,
                                     "a body without TAHR_BODY_MOVABLE");
     }

@@ -86,6 +86,11 @@ typedef struct tahr_backend {
     size_t (*cache_size)(void *self);
     tahr_status (*prepare)(void *self, tahr_query_context *context, const tahr_prepare *announcement);
     tahr_status (*place)(void *self, const tahr_body_pose *poses, uint32_t count);
+
+    /* Optional: how a body moves, for worlds whose bodies the core did not describe (TAHR_E_NOT_FOUND: it is gone); the
+     * immersion of a shape, *fluid zeroed before the call. */
+    tahr_status (*body_motion)(void *self, uint32_t body, tahr_body_motion *motion);
+    tahr_status (*fluid)(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *fluid);
 } tahr_backend;
 
 /* What a shared object exports as `tahr_backend_v1`, and a static build as `tahr_backend_v1_<name>`. Static memory. */

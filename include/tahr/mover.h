@@ -12,7 +12,16 @@ extern "C" {
 
 typedef struct tahr_mover tahr_mover;
 
-enum { TAHR_MODE_NONE = 0, TAHR_MODE_WALKING = 1, TAHR_MODE_FALLING = 2 };
+/* NONE: frozen. HANGING: on an edge (config.ledge_grab). CUSTOM: the caller's own function (tahr_mover_set_custom_mode). */
+enum {
+    TAHR_MODE_NONE = 0,
+    TAHR_MODE_WALKING = 1,
+    TAHR_MODE_FALLING = 2,
+    TAHR_MODE_SWIMMING = 3,
+    TAHR_MODE_FLYING = 4,
+    TAHR_MODE_HANGING = 5,
+    TAHR_MODE_CUSTOM = 6
+};
 
 enum {
     TAHR_FLOOR_BLOCKING = 1 << 0, /* something is below, within reach */
@@ -21,7 +30,8 @@ enum {
     TAHR_FLOOR_WEDGED = 1 << 3,   /* held by several faces, each too steep to stand on */
     TAHR_FLOOR_RIM = 1 << 4,      /* something touches the rim of the shape; the floor was found by a thinner one */
     TAHR_FLOOR_FACE = 1 << 5,     /* the face that holds is walkable by itself, without a perch */
-    TAHR_FLOOR_SLOPE = 1 << 6     /* and large enough for its slope to set the speed; found out once for each face */
+    TAHR_FLOOR_SLOPE = 1 << 6,    /* and large enough for its slope to set the speed; found out once for each face */
+    TAHR_FLOOR_LINE = 1 << 7      /* SHRUNK: a ray found it under the axis; perch_distance is how deep */
 };
 
 /* What is below the shape. distance is the way down until the shape would be skin above it, plus skin. */
@@ -30,7 +40,7 @@ typedef struct tahr_floor {
     tahr_vec3 surface_normal; /* of the face */
     tahr_vec3 point;
     double distance;       /* m */
-    double perch_distance; /* m, with PERCHING: down to the floor further in */
+    double perch_distance; /* m, with PERCHING or LINE: down to the floor further in */
     uint32_t flags;        /* TAHR_FLOOR_* */
     uint32_t body;
     uint32_t feature;
@@ -38,10 +48,22 @@ typedef struct tahr_floor {
 } tahr_floor;
 
 enum {
-    TAHR_STATE_JUMP_HELD = 1 << 0,  /* the jump button was down in the last step */
-    TAHR_STATE_JUMPING = 1 << 1,    /* rising by a jump */
-    TAHR_STATE_FLOOR_MOVED = 1 << 2 /* the height was corrected after floor was looked for */
+    TAHR_STATE_JUMP_HELD = 1 << 0,   /* the jump button was down in the last step */
+    TAHR_STATE_JUMPING = 1 << 1,     /* rising by a jump */
+    TAHR_STATE_FLOOR_MOVED = 1 << 2, /* the height was corrected after floor was looked for */
+    TAHR_STATE_CROUCHED = 1 << 3,    /* smaller than config.shape */
+    TAHR_STATE_JUMP_SPENT = 1 << 4   /* this press of the jump button has started its jump */
 };
+
+/* The body that carries the character. */
+typedef struct tahr_base {
+    uint32_t body; /* or TAHR_NO_BODY */
+    uint32_t reserved;
+    tahr_pose pose;     /* of the body, as the last step saw it */
+    tahr_vec3 velocity; /* m/s, world: of the body at the foot; after it was left, what of it the character still has */
+} tahr_base;
+
+enum { TAHR_MAX_TOUCHED = 8 };
 
 /* Everything that decides a character's future. Frozen, 512 bytes, no pointers: copy it to remember, compare it with
  * memcmp to check a rollback, hash it to detect a desync. The reserved tail is zero. You may write position, velocity,
@@ -57,25 +79,60 @@ typedef struct tahr_state {
     tahr_vec3 floor_position; /* where floor was looked for */
     uint64_t floor_revision;  /* world revision at which floor was looked for; 0: look again */
     double jump_hold;         /* s, time for which gravity is still suspended */
-    uint8_t reserved[256];
+    double radius;            /* m, of the shape now: config.shape unless crouched or changed */
+    double half_height;       /* m */
+    tahr_base base;
+    uint32_t touched[TAHR_MAX_TOUCHED]; /* sensors that it is inside of, by ascending id, then TAHR_NO_BODY */
+    uint32_t touched_count;
+    uint32_t jump_count;   /* jumps since it last stood */
+    double coyote_left;    /* s for which a jump may still start after the floor ended */
+    double buffer_left;    /* s for which a jump asked for in the air still counts */
+    double lift_left;      /* s for which base.velocity is still imparted */
+    double wall_left;      /* s for which a wall jump may still start */
+    tahr_vec3 wall_normal; /* of the last wall touched in the air or jumped off, level; zero: none */
+    uint32_t wall_body;    /* or TAHR_NO_BODY */
+    uint32_t wall_feature;
+    uint32_t drop_body; /* one-way platform being dropped through, or TAHR_NO_BODY */
+    uint32_t drop_feature;
+    uint8_t reserved[40];
 } tahr_state;
 
-enum { TAHR_INPUT_GRAVITY = 1 << 0, TAHR_INPUT_FACING = 1 << 1 };
+enum {
+    TAHR_INPUT_GRAVITY = 1 << 0,
+    TAHR_INPUT_FACING = 1 << 1,
+    TAHR_INPUT_MODE = 1 << 2,         /* change to input.mode at the start of this step */
+    TAHR_INPUT_SHAPE = 1 << 3,        /* take radius and half_height; growing waits until there is room */
+    TAHR_INPUT_LAUNCH = 1 << 4,       /* add launch to the velocity, and leave the ground */
+    TAHR_INPUT_LAUNCH_LEVEL = 1 << 5, /* with LAUNCH: the part across up replaces that of the velocity */
+    TAHR_INPUT_LAUNCH_UP = 1 << 6,    /* with LAUNCH: the part along up replaces it */
+    TAHR_INPUT_IMPULSE = 1 << 7,      /* add impulse / config.mass; leaves the ground if that points upward */
+    TAHR_INPUT_DRIVE = 1 << 8,        /* drive is the velocity of this step (root motion) */
+    TAHR_INPUT_DRIVE_ADD = 1 << 9,    /* with DRIVE: it comes on top of the character's own, and is not kept */
+    TAHR_INPUT_DRIVE_LEVEL = 1 << 10  /* with DRIVE: only across up; falling goes on */
+};
 
 /* What the player or an AI wants during one step. */
 typedef struct tahr_input {
     uint32_t struct_size;
-    uint32_t flags; /* TAHR_INPUT_*: which of the optional fields below count */
-    uint32_t jump;  /* 1 while the button is held; a jump starts when it goes down */
+    uint32_t flags;  /* TAHR_INPUT_*: which of the optional fields below count */
+    uint32_t jump;   /* 1 while the button is held; a jump starts when it goes down */
+    uint32_t crouch; /* 1 while crouched: half height config.crouched_half_height */
+    tahr_vec3 move; /* world; length 0..1 of the mode's speed, longer is shortened to 1; the part along up counts only in
+                        * swimming and flying */
+    tahr_vec3 facing;   /* with FACING: turn toward this direction */
+    tahr_vec3 gravity;  /* m/s2, with GRAVITY: instead of config.gravity */
+    double radius;      /* m, with SHAPE; not of boxes */
+    double half_height; /* m, with SHAPE */
+    tahr_vec3 launch;   /* m/s, with LAUNCH */
+    tahr_vec3 impulse;  /* N s, with IMPULSE */
+    tahr_vec3 drive;    /* m/s, with DRIVE */
+    uint32_t mode;      /* with MODE */
     uint32_t reserved;
-    tahr_vec3 move;    /* world; length 0..1 of max_speed, longer is shortened to 1; the part along up is ignored */
-    tahr_vec3 facing;  /* with FACING: turn toward this direction */
-    tahr_vec3 gravity; /* m/s2, with GRAVITY: instead of config.gravity */
 } tahr_input;
 
 enum {
-    TAHR_EVENT_LANDED = 1, /* value: speed against up, m/s, whatever the slope of the floor; 0 if it was rising */
-    TAHR_EVENT_LEFT_GROUND = 2,
+    TAHR_EVENT_LANDED = 1,      /* value: speed against up, m/s, whatever the slope of the floor; 0 if it was rising */
+    TAHR_EVENT_LEFT_GROUND = 2, /* value: why, TAHR_LEFT_* */
     TAHR_EVENT_JUMPED = 3,
     TAHR_EVENT_APEX = 4,
     TAHR_EVENT_STOPPED = 5,
@@ -85,7 +142,23 @@ enum {
     TAHR_EVENT_DEPENETRATED = 9, /* value: length of the push, m */
     TAHR_EVENT_CRUSHED = 10,     /* value: depth that is left, m */
     TAHR_EVENT_STUCK = 11,
-    TAHR_EVENT_MODE = 12 /* value: the new mode */
+    TAHR_EVENT_MODE = 12,          /* value: the new mode */
+    TAHR_EVENT_OVERLAP_BEGIN = 13, /* of a sensor; in one step with its end: passed through */
+    TAHR_EVENT_OVERLAP_END = 14,
+    TAHR_EVENT_BASE = 15,     /* stands on another body (or TAHR_NO_BODY) */
+    TAHR_EVENT_SHAPE = 16,    /* value: the new half height, m */
+    TAHR_EVENT_LAUNCHED = 17, /* value: speed, m/s */
+    TAHR_EVENT_PUSHED = 18,   /* pushes a body that has a mass: at position, against normal; value: impulse, N s */
+    TAHR_EVENT_WALL_JUMPED = 19,
+    TAHR_EVENT_GRABBED = 20 /* hangs on an edge */
+};
+
+/* Why the ground was left: value of LEFT_GROUND. */
+enum {
+    TAHR_LEFT_LEDGE = 0, /* the floor ended */
+    TAHR_LEFT_JUMP = 1,
+    TAHR_LEFT_LAUNCH = 2,
+    TAHR_LEFT_MODE = 3 /* another mode was asked for, or a fluid was entered */
 };
 
 /* Something that happened inside a step. time counts from the start of the step, in order. Frozen. */
@@ -96,7 +169,7 @@ typedef struct tahr_event {
     uint32_t surface;
     double time;        /* s */
     double value;       /* see the type */
-    tahr_vec3 position; /* of the character */
+    tahr_vec3 position; /* of the character; PUSHED: where it pushes */
     tahr_vec3 normal;   /* contact normal, or zero */
 } tahr_event;
 
@@ -118,7 +191,14 @@ typedef struct tahr_event {
     X(TAHR_RULE_DEPENETRATION, 14, "depenetration")  \
     X(TAHR_RULE_JUMP, 15, "jump")                    \
     X(TAHR_RULE_SWEEP, 16, "sweep")                  \
-    X(TAHR_RULE_SLOPE, 17, "slope")
+    X(TAHR_RULE_SLOPE, 17, "slope")                  \
+    X(TAHR_RULE_BASE, 18, "base")                    \
+    X(TAHR_RULE_SHAPE, 19, "shape")                  \
+    X(TAHR_RULE_FLUID, 20, "fluid")                  \
+    X(TAHR_RULE_WALL_JUMP, 21, "wall_jump")          \
+    X(TAHR_RULE_LEDGE_GRAB, 22, "ledge_grab")        \
+    X(TAHR_RULE_CORNER, 23, "corner")                \
+    X(TAHR_RULE_PULL_BACK, 24, "pull_back")
 
 enum {
 #define TAHR_RULE_ENUM(constant, value, name) constant = (value),
@@ -140,6 +220,24 @@ typedef struct tahr_decision {
     const char *reason;
 } tahr_decision;
 
+enum { TAHR_QUERY_SWEEP = 1, TAHR_QUERY_CONTACTS = 2, TAHR_QUERY_RAY = 3, TAHR_QUERY_FLUID = 4 };
+
+/* One query as it was asked and answered, for debugging. Frozen. */
+typedef struct tahr_query_record {
+    uint32_t type;  /* TAHR_QUERY_* */
+    uint32_t count; /* of answers; the first one below */
+    tahr_shape shape;
+    tahr_vec3 position;
+    tahr_vec3 motion;
+    double margin;   /* m */
+    double fraction; /* SWEEP, RAY; 1 if free */
+    double distance; /* m, CONTACTS: signed; FLUID: immersion */
+    tahr_vec3 normal;
+    tahr_vec3 point;
+    uint32_t body;
+    uint32_t feature;
+} tahr_query_record;
+
 /* Facts about a step that are no errors; the step's status is the worst of them. */
 enum {
     TAHR_REPORT_UNKNOWN = 1 << 0, /* a query could not be decided */
@@ -149,13 +247,17 @@ enum {
     TAHR_REPORT_TRUNCATED = 1 << 4,  /* events or decisions were lost: see the counts */
     TAHR_REPORT_UP_REFUSED = 1 << 5, /* the new up direction would have overlapped something; the old one stays */
     TAHR_REPORT_CACHED_FLOOR = 1 << 6,
-    TAHR_REPORT_ASLEEP = 1 << 7 /* a step like the last one, which changed nothing: not computed, no queries counted */
+    TAHR_REPORT_ASLEEP = 1 << 7, /* a step like the last one, which changed nothing: not computed, no queries counted */
+    TAHR_REPORT_SHAPE_REFUSED = 1 << 8, /* no room for the shape asked for; tried again in the next step */
+    TAHR_REPORT_BASE_LOST = 1 << 9,     /* could not follow its base the whole way */
+    TAHR_REPORT_TOUCHED_LOST = 1 << 10, /* inside of more sensors than a state remembers */
+    TAHR_REPORT_MODE_REFUSED = 1 << 11  /* the mode asked for has no function, or no fluid around it */
 };
 
 /* The most queries one step may ask, whatever the world answers; then it stops where it is and says so. */
 #define TAHR_MAX_QUERIES_PER_STEP 256u
 
-/* What a step did. Set struct_size and the two arrays (NULL allowed); everything else is written by the step. */
+/* What a step did. Set struct_size and the three arrays (NULL allowed); everything else is written by the step. */
 typedef struct tahr_report {
     uint32_t struct_size;
     uint32_t flags; /* TAHR_REPORT_* */
@@ -163,9 +265,12 @@ typedef struct tahr_report {
     tahr_decision *decisions;
     uint32_t event_capacity, event_count, events_lost;
     uint32_t decision_capacity, decision_count, decisions_lost;
+    tahr_query_record *queries;
+    uint32_t query_capacity, query_count, queries_lost;
     uint32_t sweeps;
     uint32_t contact_queries;
     uint32_t rays;
+    uint32_t fluid_queries;
     uint32_t slides; /* times a motion was bent */
     uint32_t slices; /* pieces of time */
     uint32_t reserved;
@@ -184,6 +289,12 @@ typedef struct tahr_report {
  * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED, TAHR_E_ARGUMENT (config or position); untouched
  * on error. Allocates nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_state_init(tahr_state *state, const tahr_config *config, const tahr_vec3 *position);
+
+/* Puts a character somewhere else: floor, base, touched sensors and the memory of walls are forgotten, no event tells of
+ * them; velocity, mode and shape stay.
+ * [in,out] state; [in] position (finite, |x| <= 1e7 m). Returns TAHR_OK, TAHR_E_NULL, TAHR_E_ARGUMENT; untouched on error.
+ * Allocates nothing; may run on several threads. Since 0.1. */
+TAHR_API tahr_status tahr_state_teleport(tahr_state *state, const tahr_vec3 *position);
 
 /* 64-bit FNV-1a hash of the 512 bytes with -0.0 read as 0.0; equal states have equal hashes on every machine (bytes of
  * each word from the lowest). 0 for NULL. Since 0.1. */

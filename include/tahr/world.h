@@ -18,7 +18,11 @@ enum { TAHR_BODY_MESH = 1, TAHR_BODY_BOX = 2, TAHR_BODY_SPHERE = 3, TAHR_BODY_CA
 enum {
     TAHR_BODY_SENSOR = 1 << 0,    /* reported, never blocks */
     TAHR_BODY_TWO_SIDED = 1 << 1, /* mesh triangles block from behind too */
-    TAHR_BODY_MOVABLE = 1 << 2    /* will be placed again with tahr_world_set; others never move */
+    TAHR_BODY_MOVABLE = 1 << 2,   /* will be placed again with tahr_world_set or _move; others never move */
+    TAHR_BODY_FLUID = 1 << 3,     /* a volume to swim in: a sensor too; boxes, spheres, capsules */
+    TAHR_BODY_NO_BASE = 1 << 4,   /* stood on, but does not carry */
+    TAHR_BODY_NO_STEP = 1 << 5,   /* not stepped up on */
+    TAHR_BODY_CHARACTER = 1 << 6  /* stands for another character: see config.max_depenetration_character */
 };
 
 /* One body of a scene. Its id is its index in tahr_world_desc.bodies.
@@ -29,9 +33,12 @@ typedef struct tahr_body_desc {
     uint32_t flags; /* TAHR_BODY_* flags */
     uint32_t mask;
     tahr_pose pose;
-    uint32_t walkable_rule; /* TAHR_WALKABLE_* */
-    uint32_t surface;       /* handed back in hits and contacts */
-    double walkable_angle;  /* rad, with INCREASE and DECREASE */
+    uint32_t walkable_rule;     /* TAHR_WALKABLE_* */
+    uint32_t surface;           /* handed back in hits and contacts */
+    double walkable_angle;      /* rad, with INCREASE and DECREASE */
+    tahr_vec3 surface_velocity; /* m/s, local, up to 1e4: a conveyor; of a FLUID: its current */
+    double mass;                /* kg, 0..1e12; 0: no character moves it, and no push is reported */
+    double fluid_friction;      /* 1/s, FLUID: drag; 0: config.fluid_friction; up to 1e4 */
 
     /* Every size that counts lies within 1e-6..1e6 m, positions within 1e7 m of the origin. */
     tahr_vec3 half_extents; /* box, m */
@@ -44,11 +51,42 @@ typedef struct tahr_body_desc {
     uint32_t triangle_count;
 } tahr_body_desc;
 
+enum { TAHR_POSE_TELEPORT = 1 << 0 }; /* tahr_world_move: this body jumps there, and carries and pushes nobody */
+
 typedef struct tahr_body_pose {
     uint32_t body;
-    uint32_t flags; /* 0 */
+    uint32_t flags; /* TAHR_POSE_* */
     tahr_pose pose;
 } tahr_body_pose;
+
+/* How a body moves: the rigid motion from its previous pose to this one. */
+typedef struct tahr_body_motion {
+    tahr_pose pose;             /* now, world */
+    tahr_vec3 velocity;         /* m/s, of the body's origin */
+    tahr_vec3 angular_velocity; /* rad/s, world */
+    tahr_vec3 surface_velocity; /* m/s, world: a conveyor's, on top of that */
+    double mass;                /* kg, or 0 */
+    uint32_t flags;             /* TAHR_BODY_* */
+    uint32_t teleported;        /* 1: it jumped to this pose */
+} tahr_body_motion;
+
+/* "How deep is this upright shape in a fluid?" */
+typedef struct tahr_fluid_query {
+    tahr_vec3 position; /* centre of the shape, world */
+    tahr_vec3 up;       /* unit */
+    double radius;      /* m, half width of the shape */
+    double half_height; /* m */
+    uint32_t mask;
+    uint32_t reserved;
+} tahr_fluid_query;
+
+typedef struct tahr_fluid {
+    double immersion;   /* 0..1: part of the height below the surface; 0: no fluid */
+    double friction;    /* 1/s drag; 0: config.fluid_friction */
+    tahr_vec3 velocity; /* m/s, world: the current */
+    uint32_t body;      /* or TAHR_NO_BODY */
+    uint32_t reserved;
+} tahr_fluid;
 
 /* A scene. allocator and log are copied; everything else is read during tahr_world_open only. */
 typedef struct tahr_world_desc {
@@ -74,7 +112,20 @@ typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *qu
  * hit; only surface_normal is derived. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_ray_fn)(void *user, const tahr_ray *query, tahr_hit *hit);
 
-/* Your own collision engine. Only sweep is required; contacts missing: depenetration uses the depth and normal of a
+/* [in] query, [out] hits (capacity of them, zeroed) and *count: the sensors that a motion passes or ends in, ordered by
+ * (fraction, body, feature), each with fraction, body and feature. The motion is one that was found free. Statuses and
+ * threads as for tahr_sweep_fn. */
+typedef tahr_status (*tahr_sensors_fn)(void *user, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
+                                       uint32_t *count);
+/* [in] body, one that your hits name, [out] motion (at rest at the origin before the call). Return TAHR_E_NOT_FOUND for a
+ * body that is gone: who stood on it falls. Called at least once a step by who stands on it; must agree with what the
+ * queries answer. Other statuses and threads as for tahr_sweep_fn. */
+typedef tahr_status (*tahr_body_fn)(void *user, uint32_t body, tahr_body_motion *motion);
+/* [in] query, [out] fluid (zeroed before the call: leaving it so means "dry"). Statuses and threads as for tahr_sweep_fn. */
+typedef tahr_status (*tahr_fluid_fn)(void *user, const tahr_fluid_query *query, tahr_fluid *fluid);
+
+/* Your own collision engine. Only sweep is required; sensors missing: there are none; body missing: nothing moves; fluid
+ * missing: there is none; contacts missing: depenetration uses the depth and normal of a
  * sweep that starts in overlap, one surface at a time, and nothing is ever found to be a wedge; ray missing: a sphere
  * of 1 mm is swept. Copied; user must stay valid until the world is closed. The sweep must honour tahr_sweep.margin and
  * every shape that a mover has. */
@@ -85,6 +136,9 @@ typedef struct tahr_callbacks {
     tahr_sweep_fn sweep;
     tahr_contacts_fn contacts;
     tahr_ray_fn ray;
+    tahr_sensors_fn sensors;
+    tahr_body_fn body;
+    tahr_fluid_fn fluid;
 } tahr_callbacks;
 
 /* Sets every field to its default: zero, but struct_size, type, mask (all bits) and the orientation (identity). [out]
@@ -112,11 +166,21 @@ TAHR_API tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, 
  * Since 0.1. */
 TAHR_API void tahr_world_close(tahr_world *world);
 
-/* Places movable bodies at new poses and advances the revision. All or nothing: every pose is checked first. Needs
- * exclusive access: no step may run meanwhile. Characters are not carried: what is placed into one pushes it out in its
- * next step. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND (no such body), TAHR_E_ARGUMENT (not movable, not finite,
+/* Places movable bodies at new poses, at rest, and advances the revision. All or nothing: every pose is checked first.
+ * Needs exclusive access: no step may run meanwhile. Characters are not carried: what is placed into one pushes it out in
+ * its next step. Use it to put a scene back for a rollback. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND (no such body), TAHR_E_ARGUMENT (not movable, not finite,
  * not a unit quaternion, flags not 0), TAHR_E_UNSUPPORTED (a backend or callbacks that cannot place). Since 0.1. */
 TAHR_API tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint32_t count);
+
+/* Moves movable bodies to new poses within dt seconds (> 0, up to 10), and advances the revision. All or nothing. Needs
+ * exclusive access. In their next step characters are carried by what they stand on, by the exact difference of its
+ * poses, and pushed by what moves into them; bodies that are not named come to rest. Statuses as for tahr_world_set, and
+ * TAHR_E_ARGUMENT (dt). Since 0.1. */
+TAHR_API tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *poses, uint32_t count, double dt);
+
+/* How a body moves now. [out] motion, untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND, TAHR_E_BACKEND
+ * (an invalid answer of a callback). Allocates nothing; may run on several threads. Since 0.1. */
+TAHR_API tahr_status tahr_world_body(tahr_world *world, uint32_t body, tahr_body_motion *motion);
 
 /* Tells callback worlds that their geometry changed, so that cached floors are looked at again. Needs exclusive access.
  * Returns TAHR_OK, TAHR_E_NULL. Since 0.1. */

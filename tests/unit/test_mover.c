@@ -132,7 +132,7 @@ static void every_input_field_is_checked(void **unused)
     r.input.facing.x = NAN; /* without its flag it is not read */
     r.input.gravity.y = NAN;
     assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.01, &r.state, NULL), TAHR_OK);
-    r.input.flags = 1u << 9;
+    r.input.flags = 1u << 11;
     expect(&r, 0.1, TAHR_E_ARGUMENT, "input.flags");
     r.input.flags = 0;
     r.input.reserved = 7;
@@ -209,7 +209,7 @@ static void state_out_of_range_is_refused(void **unused)
     expect(&r, 0.1, TAHR_E_ARGUMENT, "state.mode");
     r.state = good, r.state.flags = 1u << 20;
     expect(&r, 0.1, TAHR_E_ARGUMENT, "state.flags");
-    r.state = good, r.state.reserved[255] = 1;
+    r.state = good, r.state.reserved[sizeof r.state.reserved - 1] = 1;
     expect(&r, 0.1, TAHR_E_ARGUMENT, "state.reserved");
     rig_close(&r);
 }

@@ -37,7 +37,7 @@ static void init_makes_a_standing_character_and_refuses_bad_places(void **unused
     assert_int_equal(tahr_state_init(&s, &c, &at), TAHR_OK);
     assert_true(s.position.x == 1 && s.mode == TAHR_MODE_FALLING && s.up.z == 1 && s.orientation.w == 1 &&
                 s.floor_revision == 0);
-    for (int i = 0; i < 256; i++) {
+    for (int i = 0; i < (int)sizeof s.reserved; i++) {
         assert_int_equal(s.reserved[i], 0);
     }
 }
@@ -82,7 +82,7 @@ static void hash_is_fnv1a_with_one_zero(void **unused)
     t.velocity.x = 1e-300;
     assert_true(tahr_state_hash(&s) != tahr_state_hash(&t));
     t = s;
-    t.reserved[255] = 1;
+    t.reserved[sizeof t.reserved - 1] = 1;
     assert_true(tahr_state_hash(&s) != tahr_state_hash(&t));
     assert_true(tahr_state_hash(NULL) == 0);
 }

@@ -86,7 +86,7 @@ static void bad_bodies_are_named(void **unused)
     expect_body(b, TAHR_E_GEOMETRY, "triangles");
     b = mesh(), b.type = 9;
     expect_body(b, TAHR_E_ARGUMENT, "type");
-    b = mesh(), b.flags = 64;
+    b = mesh(), b.flags = 128;
     expect_body(b, TAHR_E_ARGUMENT, "flags");
     b = mesh(), b.walkable_rule = 4;
     expect_body(b, TAHR_E_ARGUMENT, "walkable_rule");

@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: MIT
+ * arguments.c: the checks of what a step is given. */
+#include "arguments.h"
+
+#include <string.h>
+
+#include "message.h"
+#include "modes.h"
+#include "shape.h"
+#include "sized.h"
+
+/* False too for what is not finite: its square is not either. */
+static int is_within(vec3 v, double most)
+{
+    return length_squared(v) <= most * most;
+}
+
+/* The fields that only count with their flags. */
+static const char *bad_request(const tahr_input *in)
+{
+    const uint32_t known = (TAHR_INPUT_DRIVE_LEVEL << 1) - 1;
+    if (in->flags & ~known) {
+        return "input.flags";
+    }
+    if ((in->flags & TAHR_INPUT_MODE) && !tahr__is_mode(in->mode)) {
+        return "input.mode";
+    }
+    if ((in->flags & TAHR_INPUT_SHAPE) && !(in->half_height >= 1e-6 && in->half_height <= 1e4)) {
+        return "input.half_height";
+    }
+    if ((in->flags & TAHR_INPUT_SHAPE) && !(in->radius >= 0 && in->radius <= in->half_height)) {
+        return "input.radius";
+    }
+    if ((in->flags & TAHR_INPUT_LAUNCH) && !is_within(in->launch, 1e5)) {
+        return "input.launch";
+    }
+    if ((in->flags & TAHR_INPUT_IMPULSE) && !is_within(in->impulse, 1e9)) {
+        return "input.impulse";
+    }
+    return (in->flags & TAHR_INPUT_DRIVE) && !is_within(in->drive, 1e5) ? "input.drive" : NULL;
+}
+
+static const char *bad_input(const tahr_input *in)
+{
+    if (!is_within(in->move, 1e6)) {
+        return "input.move";
+    }
+    if ((in->flags & TAHR_INPUT_FACING) && !is_within(in->facing, 1e6)) {
+        return "input.facing";
+    }
+    if ((in->flags & TAHR_INPUT_GRAVITY) && !is_within(in->gravity, 1e4)) {
+        return "input.gravity";
+    }
+    if (in->reserved) {
+        return "input.reserved";
+    }
+    return in->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING) ? bad_request(in) : NULL;
+}
+
+static int all_zero(const uint8_t tail[sizeof((tahr_state *)0)->reserved])
+{
+    uint64_t any = 0, word;
+    for (size_t at = 0; at < sizeof((tahr_state *)0)->reserved; at += sizeof word) {
+        memcpy(&word, tail + at, sizeof word);
+        any |= word;
+    }
+    return any == 0;
+}
+
+/* A sum is finite only if all its terms are (and no floor is so far away that it overflows). */
+static const char *bad_floor(const tahr_state *s)
+{
+    const tahr_floor *f = &s->floor;
+    const vec3 n = f->normal, surface = f->surface_normal, point = f->point, at = s->floor_position;
+    double sum = n.x + n.y + n.z + surface.x + surface.y + surface.z + point.x + point.y + point.z + f->distance;
+    if (is_finite(sum + f->perch_distance + at.x + at.y + at.z + s->jump_hold)) {
+        return NULL;
+    }
+    if (!vec_is_finite(n)) {
+        return "state.floor.normal";
+    }
+    if (!vec_is_finite(surface)) {
+        return "state.floor.surface_normal";
+    }
+    if (!vec_is_finite(point)) {
+        return "state.floor.point";
+    }
+    if (!vec_is_finite(at)) {
+        return "state.floor_position";
+    }
+    if (!is_finite(s->jump_hold)) {
+        return "state.jump_hold";
+    }
+    if (!is_finite(f->perch_distance)) {
+        return "state.floor.perch_distance";
+    }
+    return is_finite(f->distance) ? "state.floor" : "state.floor.distance";
+}
+
+static const char *bad_shape(const tahr_state *s, const tahr_shape *shape)
+{
+    tahr_shape own = *shape;
+    if (s->radius == shape->radius && s->half_height == shape->half_height) {
+        return NULL;
+    }
+    own.radius = s->radius;
+    own.half_height = s->half_height;
+    if (!tahr__shape_check(&own)) {
+        return NULL;
+    }
+    return s->radius == shape->radius ? "state.half_height" : "state.radius";
+}
+
+static int is_time(double t)
+{
+    return t >= 0 && t <= 1e6;
+}
+
+/* What a state remembers beyond where it is: sums are finite only if all their terms are. */
+static const char *bad_memory(const tahr_state *s)
+{
+    const tahr_base *b = &s->base;
+    const vec3 p = b->pose.position, v = b->velocity, n = s->wall_normal;
+    const tahr_quat q = b->pose.orientation;
+    if (!is_finite(p.x + p.y + p.z + q.x + q.y + q.z + q.w)) {
+        return "state.base.pose";
+    }
+    if (!is_within(v, 1e6) || b->reserved) {
+        return b->reserved ? "state.base.reserved" : "state.base.velocity";
+    }
+    if (!(length_squared(n) <= 1 + 1e-6)) {
+        return "state.wall_normal";
+    }
+    if (s->touched_count > TAHR_MAX_TOUCHED) {
+        return "state.touched_count";
+    }
+    if (!is_time(s->coyote_left) || !is_time(s->buffer_left)) {
+        return is_time(s->coyote_left) ? "state.buffer_left" : "state.coyote_left";
+    }
+    if (!is_time(s->lift_left) || !is_time(s->wall_left)) {
+        return is_time(s->lift_left) ? "state.wall_left" : "state.lift_left";
+    }
+    return NULL;
+}
+
+static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
+{
+    tahr_quat q = s->orientation;
+    double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    double up2 = length_squared(s->up);
+    if (!is_within(s->position, 2e7)) {
+        return "state.position";
+    }
+    if (!is_within(s->velocity, 1e5)) {
+        return "state.velocity";
+    }
+    if (!(q2 > 1 - 1e-6 && q2 < 1 + 1e-6)) {
+        return "state.orientation";
+    }
+    if (!(up2 > 1 - 1e-9 && up2 < 1 + 1e-9)) {
+        return "state.up";
+    }
+    if (shape->type == TAHR_SHAPE_BOX && !(dot(rotate(s->orientation, vec(0, 0, 1)), s->up) > 1 - 1e-6)) {
+        return "state.orientation";
+    }
+    if (!tahr__is_mode(s->mode)) {
+        return "state.mode";
+    }
+    const uint32_t flags = (TAHR_STATE_JUMP_SPENT << 1) - 1;
+    if (s->flags & ~flags) {
+        return "state.flags";
+    }
+    if (!all_zero(s->reserved)) {
+        return "state.reserved";
+    }
+    const char *bad = bad_shape(s, shape);
+    bad = bad ? bad : bad_memory(s);
+    return bad ? bad : bad_floor(s);
+}
+
+tahr_status tahr__check_arguments(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
+                                  const tahr_report *report)
+{
+    const tahr_log *log = &mover->world->log;
+    tahr_status status = tahr__sized_check(input, sizeof *input);
+    if (status < 0) {
+        return tahr__complain(log, status, "tahr_mover_step", "input:", tahr_status_message(status));
+    }
+    if (report) {
+        uint32_t size;
+        memcpy(&size, report, sizeof size);
+        if (size < sizeof *report || size > sizeof *report + TAHR__MOST_UNKNOWN) {
+            return tahr__complain(log, TAHR_E_STRUCT_SIZE, "tahr_mover_step",
+                                  "report:", tahr_status_message(TAHR_E_STRUCT_SIZE));
+        }
+    }
+    if (!(dt >= 0 && dt <= mover->config.max_dt)) {
+        return tahr__complain_value(log, TAHR_E_ARGUMENT, "tahr_mover_step", "dt", dt,
+                                    "must be within 0 and config.max_dt");
+    }
+    const char *bad = bad_input(input);
+    bad = bad ? bad : bad_state(state, &mover->config.shape);
+    return bad ? tahr__complain(log, TAHR_E_ARGUMENT, "tahr_mover_step", bad, "is out of range or not finite") : TAHR_OK;
+}

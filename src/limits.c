@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT
+ * limits.c: what follows from a config, a shape and a gravity. */
+#include "limits.h"
+
+#include "elementary.h"
+#include "floor.h"
+#include "shape.h"
+
+tahr__pull tahr__pull_of(vec3 gravity)
+{
+    double size = length(gravity);
+    tahr__pull pull = {gravity, size, size > 0 ? scale(gravity, -1.0 / size) : vec(0, 0, 0)};
+    return pull;
+}
+
+tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t capabilities)
+{
+    tahr__limits limits;
+    double sine;
+    limits.shape = *s;
+    tahr__sincos(c->walkable_angle, &sine, &limits.walkable);
+    tahr__sincos(c->walkable_angle + c->walkable_hysteresis, &sine, &limits.walkable_hysteresis);
+    int box = s->type == TAHR_SHAPE_BOX;
+    limits.width = shape_width(s);
+    limits.around = box ? sqrt(s->half_x * s->half_x + s->half_y * s->half_y) : s->radius;
+    limits.axis = s->half_height - (box ? 0 : s->radius);
+    limits.pull = tahr__pull_of(c->gravity);
+    limits.foot = tahr__foot_of(s, capabilities);
+    return limits;
+}
