@@ -98,6 +98,7 @@ struct tahr_mover {
     void *cache;
     size_t cache_size;
     uint32_t busy;
+    tahr_state blank; /* what a state remembers that has nothing to remember: from radius on */
     tahr__sleep sleep;
 };
 
