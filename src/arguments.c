@@ -125,8 +125,8 @@ static const char *bad_memory(const tahr_state *s)
     if (!is_finite(p.x + p.y + p.z + q.x + q.y + q.z + q.w)) {
         return "state.base.pose";
     }
-    if (!is_within(v, 1e6) || b->reserved) {
-        return b->reserved ? "state.base.reserved" : "state.base.velocity";
+    if (!is_within(v, 1e6)) {
+        return "state.base.velocity";
     }
     if (!(length_squared(n) <= 1 + 1e-6)) {
         return "state.wall_normal";

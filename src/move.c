@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "push.h"
 #include "query.h"
 #include "report.h"
 
@@ -220,6 +221,9 @@ int tahr__depenetrate(tahr__step *step)
     for (int round = 0; round < TAHR__DEPENETRATION_ROUNDS && depth > TOUCHING && step->push_left > 0; round++) {
         vec3 push, before = step->state.position;
         int frees = joint_push(contacts, count, skin, &push);
+        if (!frees && step->world->has & TAHR__HAS_BASES) {
+            push = tahr__spare_the_fixed(step, contacts, count, push);
+        }
         double size = length(push);
         if (size > step->push_left) {
             push = scale(push, step->push_left / size);

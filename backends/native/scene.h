@@ -114,6 +114,13 @@ typedef struct tahr__query {
     uint32_t sensors; /* 0: sensor bodies are not looked at */
 } tahr__query;
 
+/* Is this body there for the query? */
+static inline int tahr__is_asked(const tahr__query *query, uint32_t body, uint32_t mask)
+{
+    int only = (query->flags & TAHR_SWEEP_ONLY_BODY) != 0;
+    return (mask & query->mask) && (body == query->ignore_body) == only;
+}
+
 /* Visits every primitive that may be within reach of box. The visitor may shrink box (and set narrowed) on the way. */
 typedef struct tahr__search {
     const tahr__query *query;

@@ -58,9 +58,10 @@ enum {
 /* The body that carries the character. */
 typedef struct tahr_base {
     uint32_t body; /* or TAHR_NO_BODY */
-    uint32_t reserved;
+    uint32_t seen; /* low half of the world's revision in the last step while bodies move, else 0 */
     tahr_pose pose;     /* of the body, as the last step saw it */
-    tahr_vec3 velocity; /* m/s, world: of the body at the foot; after it was left, what of it the character still has */
+    tahr_vec3 velocity; /* m/s, world: of the body at the foot, or what it was until it stopped (config.lift_momentum);
+                         * after it was left, what of it the character still has */
 } tahr_base;
 
 enum { TAHR_MAX_TOUCHED = 8 };
@@ -70,7 +71,7 @@ enum { TAHR_MAX_TOUCHED = 8 };
  * orientation and mode between steps; the floor is looked for again wherever position is not floor_position. */
 typedef struct tahr_state {
     tahr_vec3 position;    /* m, world, centre of the shape */
-    tahr_vec3 velocity;    /* m/s, world */
+    tahr_vec3 velocity;    /* m/s, along the world's axes; on a base (base.body) relative to it */
     tahr_quat orientation; /* its z axis is up (keep it so when you write it); yaw follows input.facing */
     tahr_vec3 up;
     uint32_t mode;  /* TAHR_MODE_* */
