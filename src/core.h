@@ -113,6 +113,7 @@ typedef struct tahr__step {
     tahr_query_context context;
     tahr__limits own_limits; /* what limits points to while the shape is not the config's */
     uint32_t ignore_body;    /* not there for this step's queries now, or TAHR_NO_BODY */
+    uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */
     double dt;               /* s of the whole step */
     double time;             /* s since the start of the step, at the begin of the slice */
     double ahead;            /* s from there to what is being worked on: events happen then */
@@ -136,6 +137,13 @@ static inline vec3 step_foot(const tahr__step *step)
 static inline vec3 step_level(const tahr__step *step, vec3 v)
 {
     return reject(v, step->state.up);
+}
+
+/* The part that config.plane lets through. */
+static inline vec3 step_constrained(const tahr__step *step, vec3 v)
+{
+    vec3 n = step->config->plane;
+    return length_squared(n) > 0 ? reject(v, n) : v;
 }
 
 #endif
