@@ -2,7 +2,7 @@
  * floor_distance.c: see floor_distance.h. */
 #include "floor_distance.h"
 
-#include "query.h"
+#include "foot.h"
 #include "report.h"
 
 /* How much of its straight part a probe keeps. */
