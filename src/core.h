@@ -111,15 +111,15 @@ typedef struct tahr__step {
     tahr_state state;
     tahr_report report;
     tahr_query_context context;
-    tahr__limits own_limits; /* what limits points to while the shape is not the config's */
-    uint32_t ignore_body;    /* not there for this step's queries now, or TAHR_NO_BODY */
+    tahr__limits own_limits;  /* what limits points to while the shape is not the config's */
+    uint32_t ignore_body;     /* not there for this step's queries now, or TAHR_NO_BODY */
     uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */
-    double dt;               /* s of the whole step */
-    double time;             /* s since the start of the step, at the begin of the slice */
-    double ahead;            /* s from there to what is being worked on: events happen then */
-    double push_left;        /* m of depenetration still allowed */
-    uint32_t queries;        /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
-    tahr_status error;       /* sticky: after it every query answers "blocked here" */
+    double dt;                /* s of the whole step */
+    double time;              /* s since the start of the step, at the begin of the slice */
+    double ahead;             /* s from there to what is being worked on: events happen then */
+    double push_left;         /* m of depenetration still allowed */
+    uint32_t queries;         /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
+    tahr_status error;        /* sticky: after it every query answers "blocked here" */
 } tahr__step;
 
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */
