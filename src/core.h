@@ -143,7 +143,7 @@ static inline vec3 step_level(const tahr__step *step, vec3 v)
 static inline vec3 step_constrained(const tahr__step *step, vec3 v)
 {
     vec3 n = step->config->plane;
-    return length_squared(n) > 0 ? reject(v, n) : v;
+    return length_squared(n) > 0 ? reject(v, unit(n)) : v; /* a config's is a unit to nine digits */
 }
 
 #endif

@@ -244,8 +244,8 @@ static const char *red_row(parity_table *table)
 void parity_number(parity_table *table, const char *what, double got, double expected, double tolerance)
 {
     if (!(fabs(got - expected) <= tolerance)) {
-        print_error("row %s, %s: %s is %.9g, expected %.9g within %g\n", red_row(table), table->where, what, got, expected,
-                    tolerance);
+        print_error("row %s, %s: %s is %.9g, expected %.9g within %g\n", red_row(table), table->where, what, got,
+                    expected, tolerance);
     }
 }
 

@@ -24,11 +24,11 @@ static void walkable_rows(void **unused)
         uint32_t rule;
         double angle;
         int overlap, walkable;
-    } rows[] = {{"W1", 1.0, TAHR_WALKABLE_DEFAULT, 0, 0, 1},         {"W2", 0.71, TAHR_WALKABLE_DEFAULT, 0, 0, 1},
-                {"W3", 0.7099, TAHR_WALKABLE_DEFAULT, 0, 0, 0},      {"W4", 0, TAHR_WALKABLE_DEFAULT, 0, 0, 0},
-                {"W5", -0.5, TAHR_WALKABLE_DEFAULT, 0, 0, 0},        {"W6", 1.0, TAHR_WALKABLE_DEFAULT, 0, 1, 0},
-                {"W7", 0.5, TAHR_WALKABLE_INCREASE, 75, 0, 1},       {"W7", 0.866025, TAHR_WALKABLE_DECREASE, 25, 0, 0},
-                {"W7", 1.0, TAHR_WALKABLE_NEVER, 0, 0, 0},           {"W8", 0.5, TAHR_WALKABLE_INCREASE, 30, 0, 0},
+    } rows[] = {{"W1", 1.0, TAHR_WALKABLE_DEFAULT, 0, 0, 1},    {"W2", 0.71, TAHR_WALKABLE_DEFAULT, 0, 0, 1},
+                {"W3", 0.7099, TAHR_WALKABLE_DEFAULT, 0, 0, 0}, {"W4", 0, TAHR_WALKABLE_DEFAULT, 0, 0, 0},
+                {"W5", -0.5, TAHR_WALKABLE_DEFAULT, 0, 0, 0},   {"W6", 1.0, TAHR_WALKABLE_DEFAULT, 0, 1, 0},
+                {"W7", 0.5, TAHR_WALKABLE_INCREASE, 75, 0, 1},  {"W7", 0.866025, TAHR_WALKABLE_DECREASE, 25, 0, 0},
+                {"W7", 1.0, TAHR_WALKABLE_NEVER, 0, 0, 0},      {"W8", 0.5, TAHR_WALKABLE_INCREASE, 30, 0, 0},
                 {"W8", 0.8, TAHR_WALKABLE_DECREASE, 60, 0, 1}};
     parity_scene empty = {.count = 0};
     parity_table t;
@@ -331,9 +331,9 @@ static void safe_move_rows(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(walkable_rows),   cmocka_unit_test(pull_back_rows),
-                                       cmocka_unit_test(move_rows),       cmocka_unit_test(adjustment_rows),
-                                       cmocka_unit_test(resolve_rows),    cmocka_unit_test(wedge_row),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(walkable_rows), cmocka_unit_test(pull_back_rows),
+                                       cmocka_unit_test(move_rows),     cmocka_unit_test(adjustment_rows),
+                                       cmocka_unit_test(resolve_rows),  cmocka_unit_test(wedge_row),
                                        cmocka_unit_test(safe_move_rows)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

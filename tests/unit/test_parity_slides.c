@@ -14,9 +14,18 @@
 #include "slide.h"
 
 /* Slopes of the table: 30 and 60 degrees, rising toward +x. */
-#define N30 {-0.5, 0, 0.8660254037844386}
-#define N60 {-0.8660254037844386, 0, 0.5}
-#define DIAGONAL {-0.7071067811865476, 0.7071067811865476, 0}
+#define N30                         \
+    {                               \
+        -0.5, 0, 0.8660254037844386 \
+    }
+#define N60                         \
+    {                               \
+        -0.8660254037844386, 0, 0.5 \
+    }
+#define DIAGONAL                                   \
+    {                                              \
+        -0.7071067811865476, 0.7071067811865476, 0 \
+    }
 
 static tahr_hit hit_of(vec3 normal, double fraction)
 {
@@ -144,8 +153,8 @@ static void slide_base_rows(void **unused)
     parity_row(&t, "S2", NULL);
     swept.hit = hit_of((vec3)DIAGONAL, 1);
     swept.hit.blocking = 0;
-    parity_number(&t, "part",
-                  tahr__slide_along_surface(&p.step, parity_vec(10, 0, 0), 0.75, swept.hit.normal, &swept), 0, 0);
+    parity_number(&t, "part", tahr__slide_along_surface(&p.step, parity_vec(10, 0, 0), 0.75, swept.hit.normal, &swept),
+                  0, 0);
     parity_count(&t, "queries", p.step.queries, 0);
     parity_row(&t, "S3", NULL);
     swept.hit = hit_of(vec(-1, 0, 0), 0.25);
@@ -240,8 +249,8 @@ static void slide_character_rows(void **unused)
         parity_vector(&t, "position", p.step.state.position, goes ? slide.x : 0, goes ? slide.y : 0, goes ? slide.z : 0,
                       1e-4);
         p.step.state.mode = TAHR_MODE_FLYING;
-        parity_vector(&t, "normal / 100 of the base", scale(tahr__slide_normal(&p.step, delta, n, &hit), 0.01), n.x, n.y,
-                      n.z, 1e-9);
+        parity_vector(&t, "normal / 100 of the base", scale(tahr__slide_normal(&p.step, delta, n, &hit), 0.01), n.x,
+                      n.y, n.z, 1e-9);
     }
     parity_close(&p);
     parity_end(&t);
@@ -263,10 +272,12 @@ static void plane_constraint_flattens_the_slide(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_wall_base_rows),          cmocka_unit_test(two_wall_character_rows),
-        cmocka_unit_test(slide_base_rows),             cmocka_unit_test(slide_into_a_second_wall_row),
-        cmocka_unit_test(slide_in_the_air_rows),       cmocka_unit_test(slide_character_rows),
-        cmocka_unit_test(plane_constraint_flattens_the_slide)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(two_wall_base_rows),
+                                       cmocka_unit_test(two_wall_character_rows),
+                                       cmocka_unit_test(slide_base_rows),
+                                       cmocka_unit_test(slide_into_a_second_wall_row),
+                                       cmocka_unit_test(slide_in_the_air_rows),
+                                       cmocka_unit_test(slide_character_rows),
+                                       cmocka_unit_test(plane_constraint_flattens_the_slide)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
