@@ -269,6 +269,25 @@ static void skin_does_not_depend_on_the_motion_and_the_pull_back_does(void **unu
     }
 }
 
+/* 2 cm in the floor. JOINT ends where the separation keeps it, SINGLE at 0.125 cm whatever that is. */
+static void pushes_end_where_the_separation_keeps_the_shape(void **unused)
+{
+    static const double gaps[COMBINATIONS] = {1.9, 0.125, 0.125, 0.125}; /* cm, at i & 1: pull-back, i & 2: single */
+    parity_scene scene = {.count = 0};
+    (void)unused;
+    parity_plane(&scene, 0, 0, 1, 0);
+    for (int i = 0; i < COMBINATIONS; i++) {
+        tahr_config c = combination(TAHR_PRESET_UNREAL, i);
+        tahr__swept swept;
+        parity p;
+        parity_open(&p, &scene, PARITY_FAKE, &c, 0, 0, 86);
+        tahr__safe_move(&p.step, parity_vec(10, 0, 0), &swept);
+        assert_near(100 * p.step.state.position.x, 10, 1e-9);
+        assert_near(100 * p.step.state.position.z - 88, gaps[i], 1e-9);
+        parity_close(&p);
+    }
+}
+
 /* At 1000 Hz a crawl of 1 mm/s moves 1e-6 m a step: with a skin that counts, with a pull-back it is too short to be seen. */
 static void short_moves_count_with_a_skin_only(void **unused)
 {
@@ -323,7 +342,7 @@ static void bad_answers_stop_the_move_where_it_is_proven_free(void **unused)
     } rows[] = {{{.unknown = 1, .fraction = 0.5}, TAHR_OK, 0, 10 * (0.5 - 0.101)},
                 {{.blocking = 1, .fraction = NAN, .normal = {0, 0, 1}}, TAHR_OK, 0, 0},
                 {{.blocking = 0}, TAHR_E_BACKEND, 0, 0},
-                {{.blocking = 1, .start_overlap = 1, .depth = 0.02, .normal = {0, 0, 1}}, TAHR_OK, 1, 0},
+                {{.blocking = 1, .start_overlap = 1, .fraction = 0.5, .depth = 0.02, .normal = {0, 0, 1}}, TAHR_OK, 1, 0},
                 {{.blocking = 1, .start_overlap = 1, .depth = 1e300, .normal = {0, 0, 1}}, TAHR_OK, 1, 0}};
     (void)unused;
     for (int i = 0; i < COMBINATIONS; i++) {
@@ -377,6 +396,7 @@ int main(void)
                                        cmocka_unit_test(overlaps_are_left_and_never_get_deeper),
                                        cmocka_unit_test(the_joint_solver_walks_with_every_combination),
                                        cmocka_unit_test(skin_does_not_depend_on_the_motion_and_the_pull_back_does),
+                                       cmocka_unit_test(pushes_end_where_the_separation_keeps_the_shape),
                                        cmocka_unit_test(short_moves_count_with_a_skin_only),
                                        cmocka_unit_test(bad_answers_stop_the_move_where_it_is_proven_free),
                                        cmocka_unit_test(pull_backs_can_be_traced)};

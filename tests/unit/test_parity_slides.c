@@ -187,6 +187,14 @@ static void slide_into_a_second_wall_row(void **unused)
     parity_vector(&t, "position", p.step.state.position, -0.5 * 2.598076, 4 + 0.5 * 4.5, 0, 1e-4);
     parity_count(&t, "hits told", p.step.report.event_count, 2);
     parity_number(&t, "speed into the first", p.events[0].value, 0.5 + 0.8660254037844386, 1e-12);
+    parity_row(&t, "S4", "a second wall that leads back");
+    s.asked = 0;
+    s.answers[0].normal = vec(-0.5, -0.8660254037844386, 0);
+    swept.hit = hit_of(vec(-1, 0, 0), 0);
+    parity_put(&p, 0, 0, 0);
+    part = tahr__slide_along_surface(&p.step, parity_vec(10, 10, 0), 1, vec(-1, 0, 0), &swept);
+    parity_number(&t, "part", part, 0.4, 1e-9);
+    parity_count(&t, "queries", p.step.queries, 1);
     parity_close(&p);
     parity_end(&t);
 }
@@ -209,6 +217,9 @@ static void slide_in_the_air_rows(void **unused)
         vec3 slide = tahr__slide_vector(&p.step, scale(rows[i].delta, 0.01), 1, n60);
         parity_vector(&t, "slide", slide, e.x, e.y, e.z, 1e-4);
     }
+    /* Under an overhang it rises less than asked: nothing to take away. */
+    parity_vector(&t, "slide", tahr__slide_vector(&p.step, parity_vec(10, 0, 10), 1, vec(-0.8, 0, -0.6)), -1.2, 0, 1.6,
+                  1e-9);
     parity_count(&t, "queries", p.step.queries, 0);
     parity_close(&p);
     parity_end(&t);
