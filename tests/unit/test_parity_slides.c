@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "near.h"
 #include "parity.h"
 #include "slide.h"
 
@@ -101,6 +102,23 @@ static void two_wall_character_rows(void **unused)
         {"U6", TAHR_MODE_FALLING, {20, 5, 0}, N60, 0.25, {-0.6, -0.8, 0}, {0, 3.75, 0}, 2.15, 0}};
     (void)unused;
     run_wall_rows(rows, sizeof rows / sizeof rows[0], "TwoWallAdjust, character");
+}
+
+/* An edge met from the side has an upright contact normal and a walkable face: it is no ramp to go up along. */
+static void an_upright_contact_of_a_walkable_face_is_no_ramp(void **unused)
+{
+    tahr_hit hit = hit_of(unit(vec(-1, 0, 0.00005)), 0);
+    parity p;
+    (void)unused;
+    open_empty(&p);
+    p.step.state.mode = TAHR_MODE_WALKING;
+    parity_floor(&p, 2.15, vec(0, 0, 1), STANDING);
+    hit.surface_normal = vec(0, 0, 1);
+    vec3 bent = tahr__two_wall_adjust(&p.step, parity_vec(20, 5, 0), &hit, vec(-0.6, -0.8, 0));
+    assert_near(bent.x, 0, 1e-8);
+    assert_near(bent.y, 0.05, 1e-8);
+    assert_near(bent.z, 0, 0);
+    parity_close(&p);
 }
 
 /* Answers of sweeps, one after the other; fraction 2: free. */
@@ -234,6 +252,9 @@ static void slide_character_rows(void **unused)
         vec3 floor, expected;
     } rows[] = {{"C1", {10, 5, 0}, N60, 2.15, {0, 0, 1}, {-1, 0, 0}},
                 {"C2", {10, 0, 0}, {-0.6, 0.3, -0.5}, 1.5, {0, 0, 1}, {-0.894427, 0.447214, 0}},
+                {"C2", {10, 0, -1}, {-0.6, 0.3, -0.5}, 1.5, {0, 0, 1}, {-0.894427, 0.447214, 0}},
+                {"C3", {-10, 0, 0}, {-0.6, 0.3, -0.5}, 1.5, N30, {-0.894427, 0.447214, 0}}, /* not against the floor */
+                {"C3", {10, 0, 0}, {-0.8, 0.6, 0}, 1.5, N30, {-0.8, 0.6, 0}},               /* upright */
                 {"C3", {10, 0, 0}, {-0.6, 0.3, -0.5}, 1.5, N30, {-1, 0, 0}},
                 {"C4", {10, 0, 0}, {-0.6, 0.3, -0.5}, 2.15, {0, 0, 1}, {-0.717137, 0.358569, -0.597614}}};
     parity_table t;
@@ -285,6 +306,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(two_wall_base_rows),
                                        cmocka_unit_test(two_wall_character_rows),
+                                       cmocka_unit_test(an_upright_contact_of_a_walkable_face_is_no_ramp),
                                        cmocka_unit_test(slide_base_rows),
                                        cmocka_unit_test(slide_into_a_second_wall_row),
                                        cmocka_unit_test(slide_in_the_air_rows),
