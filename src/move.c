@@ -99,6 +99,7 @@ static int safe_move(tahr__step *step, vec3 motion, tahr__swept *swept, int *ove
     }
     if (step->config->depenetration == TAHR_DEPENETRATION_JOINT) {
         tahr__depenetrate(step);
+        step->just_teleported |= !vec_equal(step->state.position, swept->start);
     } else if (!tahr__resolve_penetration(step, tahr__penetration_adjustment(step, &swept->hit), swept)) {
         return moved;
     }

@@ -284,6 +284,7 @@ static void pushes_end_where_the_separation_keeps_the_shape(void **unused)
         tahr__safe_move(&p.step, parity_vec(10, 0, 0), &swept);
         assert_near(100 * p.step.state.position.x, 10, 1e-9);
         assert_near(100 * p.step.state.position.z - 88, gaps[i], 1e-9);
+        assert_int_equal(p.step.just_teleported, 1);
         parity_close(&p);
     }
 }
