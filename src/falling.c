@@ -120,7 +120,8 @@ static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
     if (up < 1e-3 || leaves || step->error < 0) { /* 1e-3: a wall */
         return tahr__decide(step, TAHR_RULE_LANDING, 0, hit, up, 1e-3, "not met from above");
     }
-    tahr__find_floor(step, step->config->snap_distance, hit, floor);
+    tahr__supplied met = {.hit = hit};
+    tahr__find_floor(step, step->config->snap_distance, &met, floor);
     int near = floor->distance <= step->config->floor_max * step->config->skin;
     return tahr__decide(step, TAHR_RULE_LANDING, floor_is_walkable(floor) && near, hit, floor->distance,
                         step->config->floor_max * step->config->skin, "floor where it fell");

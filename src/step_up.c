@@ -117,7 +117,8 @@ double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
         return 0;
     }
     step->state.position = a.position;
-    tahr__find_floor(step, c->snap_distance, &a.landing, &floor);
+    tahr__supplied landing = {.hit = &a.landing};
+    tahr__find_floor(step, c->snap_distance, &landing, &floor);
     if (!floor_is_walkable(&floor) || step->error < 0) {
         step->state = before;
         refuse(step, &a.landing, floor.distance, 0, "no floor to stand on there");
