@@ -266,6 +266,20 @@ static int is_off_height(const tahr__step *step, double *gap)
     return floor_is_walkable(floor) && (*gap < lowest - tiny || *gap > highest + tiny);
 }
 
+/* Out of the floor by this motion alone: a push out first would be added to it, and make the character hop. */
+static void rise_out(tahr__step *step, vec3 motion, tahr__swept *swept)
+{
+    tahr__move_updated(step, motion, TAHR_SWEEP_LEAVE_OVERLAP, swept);
+    if (!swept->hit.start_overlap) {
+        return;
+    }
+    int joint = step->config->depenetration == TAHR_DEPENETRATION_JOINT;
+    if (joint ? tahr__depenetrate(step)
+              : tahr__resolve_penetration(step, tahr__penetration_adjustment(step, &swept->hit), swept)) {
+        tahr__move_updated(step, motion, TAHR_SWEEP_LEAVE_OVERLAP, swept);
+    }
+}
+
 static double adjust_shrunk(tahr__step *step)
 {
     const tahr_config *c = step->config;
@@ -277,9 +291,9 @@ static double adjust_shrunk(tahr__step *step)
     }
     double asked = c->floor_target * c->skin - gap;
     vec3 motion = scale(up, asked);
-    /* Out of the floor by this motion alone: a push out first would be added to it, and make the character hop. */
-    int out = gap < 0 && tahr__move_updated(step, motion, TAHR_SWEEP_LEAVE_OVERLAP, &swept);
-    if (!out) {
+    if (gap < 0) {
+        rise_out(step, motion, &swept);
+    } else {
         tahr__safe_move(step, motion, &swept);
     }
     const tahr_hit *hit = &swept.hit;
