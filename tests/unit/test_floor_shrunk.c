@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "dice.h"
+#include "fake_backend.h"
 #include "floor_distance.h"
 #include "limits.h"
 #include "parity.h"
@@ -303,6 +304,55 @@ static void what_is_not_known_never_lifts(void **unused)
     }
 }
 
+/* A backend that meets nothing and remembers what was swept. */
+static tahr_sweep swept;
+
+static tahr_status remember(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
+                            uint32_t capacity, uint32_t *count)
+{
+    (void)self, (void)context, (void)hits, (void)capacity;
+    swept = *query;
+    *count = 0;
+    return TAHR_OK;
+}
+
+static void probe_is_what_the_backend_can_sweep(void **unused)
+{
+    const struct {
+        uint32_t capabilities, flat_base, type;
+        double half_height;
+    } rows[] = {{FAKE_BACKEND_ALL, 0, TAHR_SHAPE_CAPSULE, 0.826},
+                {FAKE_BACKEND_ALL, 1, TAHR_SHAPE_BOX, 0.826},
+                {FAKE_BACKEND_ALL & ~(uint32_t)TAHR_CAP_BOX, 1, TAHR_SHAPE_CAPSULE, 0.826},
+                {FAKE_BACKEND_ALL & ~(uint32_t)TAHR_CAP_CAPSULE, 0, TAHR_SHAPE_SPHERE, 0.34}};
+    (void)unused;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        fake_backend backend;
+        tahr_world_desc desc;
+        tahr_config c = parity_config();
+        parity_scene nothing = {0};
+        tahr_world *world = NULL;
+        tahr_floor floor;
+        parity p;
+        c.flat_base = rows[i].flat_base;
+        fake_backend_init(&backend, rows[i].capabilities);
+        backend.table.sweep = remember;
+        assert_int_equal(tahr_world_desc_init(&desc, sizeof desc), TAHR_OK);
+        desc.options = &backend;
+        assert_int_equal(tahr_world_open(&backend.table, &desc, &world), TAHR_OK);
+        parity_open(&p, &nothing, PARITY_FAKE, &c, 0, 0, 88);
+        p.step.world = world;
+        tahr__find_floor(&p.step, c.snap_distance, NULL, &floor);
+        assert_int_equal(swept.shape.type, rows[i].type);
+        assert_near(swept.shape.half_height, rows[i].half_height, 1e-12);
+        assert_near(swept.position.z - swept.shape.half_height, 0.054, 1e-12); /* 5.4 cm above the end of the shape */
+        assert_near(swept.margin, 0, 0);
+        assert_int_equal(p.step.queries, 1 + rows[i].flat_base * (rows[i].type == TAHR_SHAPE_BOX));
+        tahr_world_close(world);
+        parity_close(&p);
+    }
+}
+
 static void ray_finds_the_floor_inside_a_rim_that_is_none(void **unused)
 {
     (void)unused;
@@ -369,6 +419,7 @@ int main(void)
                                        cmocka_unit_test(scaled_characters_find_scaled_floors),
                                        cmocka_unit_test(nothing_asks_more_than_it_may_or_answers_nonsense),
                                        cmocka_unit_test(what_is_not_known_never_lifts),
+                                       cmocka_unit_test(probe_is_what_the_backend_can_sweep),
                                        cmocka_unit_test(ray_finds_the_floor_inside_a_rim_that_is_none),
                                        cmocka_unit_test(characters_come_to_rest_in_the_band)};
     return cmocka_run_group_tests(tests, NULL, NULL);
