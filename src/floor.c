@@ -126,7 +126,8 @@ static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied,
         tahr__decide(step, TAHR_RULE_FLOOR, 0, NULL, floor->distance, range, "nothing below");
         return;
     }
-    fill(floor, &hit, hit.start_overlap ? -hit.depth : foot_clearance(step, &hit, range), flags | tahr__still_slope(step, &hit));
+    fill(floor, &hit, hit.start_overlap ? -hit.depth : foot_clearance(step, &hit, range),
+         flags | tahr__still_slope(step, &hit));
     int surface = tahr__is_walkable(step, &hit, tahr__was_walkable(step, &hit));
     floor->flags |= surface ? TAHR_FLOOR_FACE : 0u;
     /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
@@ -220,9 +221,7 @@ static void find_shrunk(tahr__step *step, double reach, const tahr__supplied *su
                              .radius = step->limits->width,
                              .supplied = supplied};
     tahr__compute_floor_distance(step, &look, floor);
-    if ((floor->flags & TAHR_FLOOR_BLOCKING) && !(floor->flags & TAHR_FLOOR_LINE)) {
-        doubt_rim(step, distance + (walking ? c->perch_extra : 0), floor);
-    }
+    doubt_rim(step, distance + (walking ? c->perch_extra : 0), floor); /* what a ray found lies under the axis: no doubt */
     int steep = (floor->flags & TAHR_FLOOR_BLOCKING) && !(floor->flags & TAHR_FLOOR_FACE);
     if (steep && !floor_is_walkable(floor) && c->slide_solver == TAHR_SLIDE_JOINT && wedge(step, floor)) {
         floor->flags |= TAHR_FLOOR_WALKABLE; /* for a solver that comes to rest between walls */
@@ -244,8 +243,7 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr__supplied *supp
 static void shift_floor(tahr__step *step, double height)
 {
     step->state.floor.distance += height;
-    step->state.floor.perch_distance +=
-        step->state.floor.flags & (TAHR_FLOOR_PERCHING | TAHR_FLOOR_LINE) ? height : 0;
+    step->state.floor.perch_distance += step->state.floor.flags & (TAHR_FLOOR_PERCHING | TAHR_FLOOR_LINE) ? height : 0;
     step->state.floor_position = step->state.position;
     step->state.flags |= TAHR_STATE_FLOOR_MOVED;
 }
@@ -334,7 +332,6 @@ static double adjust_whole(tahr__step *step)
     shift_floor(step, height);
     return height;
 }
-
 
 double tahr__adjust_height(tahr__step *step)
 {

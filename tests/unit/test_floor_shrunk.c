@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * test_floor_shrunk.c: TAHR_FLOOR_PROBE_SHRUNK where no table of numbers goes: random slopes, shapes, sizes and up
- * directions against closed forms, the most queries, answers that are none, and a flat base at edges. */
+ * directions against closed forms, the most queries, and a flat base at edges. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,11 +11,9 @@
 #include <cmocka.h>
 
 #include "dice.h"
-#include "fake_backend.h"
 #include "floor_distance.h"
 #include "limits.h"
 #include "parity.h"
-#include "perch.h"
 #include "rig.h"
 
 static const double DEGREE = 0.017453292519943295;
@@ -169,7 +167,8 @@ static void scaled_characters_find_scaled_floors(void **unused)
     oracle_random dice = {19};
     (void)unused;
     for (int i = 0; i < 400; i++) {
-        double edge = oracle_uniform(&dice, -40, 40), top = oracle_uniform(&dice, -10, 40), under = oracle_uniform(&dice, -12, 60);
+        double edge = oracle_uniform(&dice, -40, 40), top = oracle_uniform(&dice, -10, 40),
+               under = oracle_uniform(&dice, -12, 60);
         double tilt = oracle_uniform(&dice, -60, 60) * DEGREE, distance = 0, height = 0;
         uint32_t flags = 0, queries = 0;
         for (int k = -1; k < 4; k++) {
@@ -275,109 +274,6 @@ static void nothing_asks_more_than_it_may_or_answers_nonsense(void **unused)
     assert_true(most >= 5 && most_flat >= 8 && lines > 50 && perches > 20); /* the scenes are hard enough */
 }
 
-/* A backend that gives up, and a step that has used up its queries: the character stays where it is. */
-static tahr_status give_up(void *user, const tahr_sweep *query, tahr_hit *hit)
-{
-    (void)query;
-    hit->unknown = 1;
-    hit->fraction = *(const double *)user;
-    return TAHR_OK;
-}
-
-static void what_is_not_known_never_lifts(void **unused)
-{
-    double fraction = 0;
-    tahr_callbacks callbacks = {.struct_size = sizeof callbacks, .user = &fraction, .sweep = give_up};
-    tahr_floor floor;
-    parity p;
-    (void)unused;
-    for (int i = 0; i < 3; i++) {
-        fraction = i * 0.3;
-        parity_open_callbacks(&p, &callbacks, NULL);
-        p.step.state.mode = TAHR_MODE_WALKING;
-        p.step.queries = i == 2 ? TAHR_MAX_QUERIES_PER_STEP : 0;
-        tahr__find_floor(&p.step, p.config.snap_distance, NULL, &floor);
-        assert_true(floor.distance >= p.config.floor_target * p.config.skin);
-        tahr__keep_floor(&p.step, &floor);
-        assert_true(tahr__adjust_height(&p.step) <= 0);
-        parity_close(&p);
-    }
-}
-
-/* A backend that meets nothing and remembers what was swept. */
-static tahr_sweep swept;
-
-static tahr_status remember(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
-                            uint32_t capacity, uint32_t *count)
-{
-    (void)self, (void)context, (void)hits, (void)capacity;
-    swept = *query;
-    *count = 0;
-    return TAHR_OK;
-}
-
-static void probe_is_what_the_backend_can_sweep(void **unused)
-{
-    const struct {
-        uint32_t capabilities, flat_base, type;
-        double half_height;
-    } rows[] = {{FAKE_BACKEND_ALL, 0, TAHR_SHAPE_CAPSULE, 0.826},
-                {FAKE_BACKEND_ALL, 1, TAHR_SHAPE_BOX, 0.826},
-                {FAKE_BACKEND_ALL & ~(uint32_t)TAHR_CAP_BOX, 1, TAHR_SHAPE_CAPSULE, 0.826},
-                {FAKE_BACKEND_ALL & ~(uint32_t)TAHR_CAP_CAPSULE, 0, TAHR_SHAPE_SPHERE, 0.34}};
-    (void)unused;
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        fake_backend backend;
-        tahr_world_desc desc;
-        tahr_config c = parity_config();
-        parity_scene nothing = {0};
-        tahr_world *world = NULL;
-        tahr_floor floor;
-        parity p;
-        c.flat_base = rows[i].flat_base;
-        fake_backend_init(&backend, rows[i].capabilities);
-        backend.table.sweep = remember;
-        assert_int_equal(tahr_world_desc_init(&desc, sizeof desc), TAHR_OK);
-        desc.options = &backend;
-        assert_int_equal(tahr_world_open(&backend.table, &desc, &world), TAHR_OK);
-        parity_open(&p, &nothing, PARITY_FAKE, &c, 0, 0, 88);
-        p.step.world = world;
-        tahr__find_floor(&p.step, c.snap_distance, NULL, &floor);
-        assert_int_equal(swept.shape.type, rows[i].type);
-        assert_near(swept.shape.half_height, rows[i].half_height, 1e-12);
-        assert_near(swept.position.z - swept.shape.half_height, 0.054, 1e-12); /* 5.4 cm above the end of the shape */
-        assert_near(swept.margin, 0, 0);
-        assert_int_equal(p.step.queries, 1 + rows[i].flat_base * (rows[i].type == TAHR_SHAPE_BOX));
-        tahr_world_close(world);
-        parity_close(&p);
-    }
-}
-
-static void ray_finds_the_floor_inside_a_rim_that_is_none(void **unused)
-{
-    (void)unused;
-    for (int backend = PARITY_DOUBLE; backend < PARITY_BACKENDS; backend++) {
-        parity_scene scene = {0};
-        tahr_floor floor;
-        parity p;
-        if (!parity_has(backend)) {
-            continue;
-        }
-        /* The edge of a rock that may never be stood on, 20 cm off the axis: met 6.505 lower than its top. */
-        parity_box(&scene, fake_vec(20, -300, -100), fake_vec(300, 300, 0))->walkable_rule = TAHR_WALKABLE_NEVER;
-        parity_plane(&scene, 0, 0, 1, -20);
-        parity_open(&p, &scene, backend, NULL, 0, 0, 88);
-        p.step.state.mode = TAHR_MODE_WALKING;
-        tahr__find_floor(&p.step, p.config.snap_distance, NULL, &floor);
-        assert_int_equal(floor.flags, TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_LINE);
-        assert_near(100 * floor.distance, 34 - sqrt(34 * 34 - 20 * 20), parity_tolerance(backend));
-        assert_near(100 * floor.perch_distance, 20, parity_tolerance(backend));
-        assert_int_equal(floor.body, 1);
-        assert_int_equal(p.step.queries, 2);
-        parity_close(&p);
-    }
-}
-
 /* A whole character of the other preset, with each probe, comes to rest in the band over a floor, a slope and an edge. */
 static void characters_come_to_rest_in_the_band(void **unused)
 {
@@ -418,9 +314,6 @@ int main(void)
                                        cmocka_unit_test(turning_on_the_spot_changes_no_floor),
                                        cmocka_unit_test(scaled_characters_find_scaled_floors),
                                        cmocka_unit_test(nothing_asks_more_than_it_may_or_answers_nonsense),
-                                       cmocka_unit_test(what_is_not_known_never_lifts),
-                                       cmocka_unit_test(probe_is_what_the_backend_can_sweep),
-                                       cmocka_unit_test(ray_finds_the_floor_inside_a_rim_that_is_none),
                                        cmocka_unit_test(characters_come_to_rest_in_the_band)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

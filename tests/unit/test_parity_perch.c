@@ -49,7 +49,8 @@ static void perch_is_asked_for_in_the_ring_only(void **unused)
         int check_radius, should;
     } rows[] = {{"H1", 15, 18.9, TAHR_FLOOR_BLOCKING, 1, 0}, {"H2", 15, 18.9999, TAHR_FLOOR_BLOCKING, 1, 0},
                 {"H3", 15, 19.1, TAHR_FLOOR_BLOCKING, 1, 1}, {"H3", 15, 19.1, 0, 1, 0},
-                {"H4", 0.15, 30, TAHR_FLOOR_BLOCKING, 1, 0}, {"H5", 15, 18.9, TAHR_FLOOR_BLOCKING, 0, 1}};
+                {"H4", 0.15, 30, TAHR_FLOOR_BLOCKING, 1, 0}, {"H4", 0.15, 30, TAHR_FLOOR_BLOCKING, 0, 0},
+                {"H5", 15, 18.9, TAHR_FLOOR_BLOCKING, 0, 1}};
     parity_table t;
     parity p;
     (void)unused;
@@ -91,8 +92,12 @@ static void perch_needs_a_floor_within_reach(void **unused)
         double below, deepest, distance; /* distance < 0: not asked */
         int perches;
         uint32_t queries;
-    } rows[] = {{"K1", 30, 87.4001, 19.0434, 1, 1}, {"K2", 100, 87.4001, 89.0434, 0, 1}, {"K3", 30, 42.6, 19.0434, 1, 1},
-                {"K3", 30, 29.9, 19.0434, 0, 1},    {"K3", 30, 0, -1, 0, 0},             {"K4", 1e9, 87.4001, -1, 0, 1}};
+    } rows[] = {{"K1", 30, 87.4001, 19.0434, 1, 1},
+                {"K2", 100, 87.4001, 89.0434, 0, 1},
+                {"K3", 30, 42.6, 19.0434, 1, 1},
+                {"K3", 30, 29.9, 19.0434, 0, 1},
+                {"K3", 30, 0, -1, 0, 0},
+                {"K4", 1e9, 87.4001, -1, 0, 1}};
     parity_table t;
     (void)unused;
     parity_begin(&t, "perch floor");
@@ -126,8 +131,13 @@ static void floor_at_an_edge_is_one_with_a_perch(void **unused)
     const struct {
         const char *id;
         double below;
+        uint32_t mode;
         int walkable;
-    } rows[] = {{"F3", 30, 1}, {"F4", 100, 0}};
+    } rows[] = {{"F3", 30, TAHR_MODE_WALKING, 1},
+                {"F3", 60, TAHR_MODE_WALKING, 1}, /* 87.4 */
+                {"F3", 30, TAHR_MODE_FALLING, 1},
+                {"F4", 60, TAHR_MODE_FALLING, 0}, /* 42.6 */
+                {"F4", 100, TAHR_MODE_WALKING, 0}};
     parity_table t;
     (void)unused;
     parity_begin(&t, "find floor with a perch");
@@ -139,6 +149,7 @@ static void floor_at_an_edge_is_one_with_a_perch(void **unused)
                 continue;
             }
             open_edge(&p, backend, rows[i].below, 88 - ABOVE + 2.2);
+            p.step.state.mode = rows[i].mode;
             parity_row(&t, rows[i].id, parity_backend_name(backend));
             tahr__find_floor(&p.step, p.config.snap_distance, NULL, &floor);
             parity_length(&t, "distance", floor.distance, 2.2, parity_tolerance(backend));
@@ -204,10 +215,9 @@ static void perch_replaces_what_is_no_floor_and_keeps_the_height(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(perch_radius_leaves_a_ring),
-                                       cmocka_unit_test(perch_is_asked_for_in_the_ring_only),
-                                       cmocka_unit_test(perch_needs_a_floor_within_reach),
-                                       cmocka_unit_test(floor_at_an_edge_is_one_with_a_perch),
-                                       cmocka_unit_test(perch_replaces_what_is_no_floor_and_keeps_the_height)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(perch_radius_leaves_a_ring), cmocka_unit_test(perch_is_asked_for_in_the_ring_only),
+        cmocka_unit_test(perch_needs_a_floor_within_reach), cmocka_unit_test(floor_at_an_edge_is_one_with_a_perch),
+        cmocka_unit_test(perch_replaces_what_is_no_floor_and_keeps_the_height)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
