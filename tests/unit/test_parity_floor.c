@@ -309,6 +309,7 @@ static void height_is_put_right_outside_the_band(void **unused)
                 {"A6", 1, 0.5, 1, 0, 0.38385, 1.38385, 1, 0, 0},
                 {"A7", 1, 0, 1, 5, 0, 1, 0, 0, 0},
                 {"A7", 5, 0, 3, 5, -2.85, 0.15, 1, 0, 0},
+                {"A7", 5, 0, 2, 5, -2.85, -0.85, 1, 0, 0}, /* in the band, were it not for the ray */
                 /* A floor in the way down: contact after 2 of 2.85, from there 0.101 of 2.85 taken back. */
                 {"A7", 2, 0, 3, 5, -1.71215, 0.28785, 1, 0, 0}};
     parity_table t;
