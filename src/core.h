@@ -132,6 +132,12 @@ typedef struct tahr__next {
     double time_left; /* s */
 } tahr__next;
 
+/* Has anything in the world ever been moved? Then characters may be squeezed. */
+static inline int step_squeezes(const tahr__step *step)
+{
+    return step->world->moves > 1;
+}
+
 static inline vec3 step_foot(const tahr__step *step)
 {
     return add_scaled(step->state.position, step->state.up, -step->limits->shape.half_height);

@@ -72,7 +72,9 @@ static void sweep_down(tahr__step *step, const tahr__foot *foot, double range, t
 {
     vec3 up = step->state.up;
     vec3 from = add_scaled(step->state.position, up, foot->offset);
-    tahr__sweep(step, &foot->shape, from, scale(up, -range), step->config->skin, 0, hit);
+    /* Between walls that move in on the character only what is below counts. */
+    uint32_t flags = step_squeezes(step) ? (uint32_t)TAHR_SWEEP_LEAVE_OVERLAP : 0u;
+    tahr__sweep(step, &foot->shape, from, scale(up, -range), step->config->skin, flags, hit);
 }
 
 /* The foot of the shape, thinner all round, with its end where it was. */
