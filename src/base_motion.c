@@ -200,6 +200,7 @@ static void follow(tahr__step *step, double dt)
     tahr_body_motion motion;
     if (!read_base(step, s->base.body, &motion)) { /* it is gone */
         leave_base(step);
+        s->floor_revision = 0;
         base_changed(step, TAHR_NO_BODY);
         return;
     }

@@ -38,6 +38,9 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
 {
     tahr__sleep *s = &mover->sleep;
     const tahr_report *r = &step->report;
+    /* Where a base that the core has no note of is, only the next step asks. */
+    uint32_t base = step->state.base.body;
+    changed |= base != TAHR_NO_BODY && base >= mover->world->body_count;
     s->noted = !changed && mover->config.sleep && !r->decisions && r->event_count <= TAHR__SLEEP_EVENTS;
     if (!s->noted) {
         return;

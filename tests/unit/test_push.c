@@ -218,6 +218,7 @@ typedef struct storm {
     tahr_body_desc bodies[BOXES + 1];
     tahr_body_pose poses[BOXES];
     tahr_vec3 velocity[BOXES];
+    tahr_quat spin[BOXES]; /* turn of a step */
 } storm;
 
 static void begin_storm(storm *s, int boxes, uint64_t seed)
@@ -228,9 +229,22 @@ static void begin_storm(storm *s, int boxes, uint64_t seed)
     for (int b = 0; b < boxes; b++) {
         s->bodies[b + 1] = stage_box(fake_vec(20 + 3 * b, 0, 5), dice_vec(&s->random, 0.2, 1));
         s->velocity[b] = fake_vec(0, 0, 0);
+        s->spin[b] = LEVEL;
+        if (boxes > 1) { /* up to 0.2 rad a step: 12 rad/s */
+            tahr_vec3 axis = dice_direction(&s->random);
+            double sine = oracle_uniform(&s->random, 0, 0.1);
+            s->spin[b] = (tahr_quat){axis.x * sine, axis.y * sine, axis.z * sine, sqrt(1 - sine * sine)};
+        }
     }
     rig_open_bodies(&s->r, s->bodies, (uint32_t)boxes + 1, NULL, fake_vec(0, 0, 1));
     rig_settle(&s->r);
+}
+
+static tahr_quat product(tahr_quat a, tahr_quat b)
+{
+    tahr_quat q = {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+                   a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+    return q;
 }
 
 /* Moves all boxes; one that has gone past aims anew, from a place clear of the character. */
@@ -241,8 +255,11 @@ static void blow(storm *s, double dt)
         tahr_pose *pose = &s->bodies[b + 1].pose;
         if (stage_distance(pose->position, at) > 8) {
             tahr_vec3 way = dice_direction(&s->random);
-            double speed = oracle_uniform(&s->random, 0, 50);
-            way.z = oracle_below(&s->random, 2) ? fabs(way.z) : 0;
+            double speed = oracle_uniform(&s->random, 0, 50), level = hypot(way.x, way.y);
+            way.z = fabs(way.z);
+            if (oracle_below(&s->random, 2)) {
+                way = fake_vec(way.x / level, way.y / level, 0);
+            }
             pose->position = fake_vec(at.x + 5 * way.x, at.y + 5 * way.y, at.z + 5 * way.z);
             s->velocity[b] = fake_vec(-speed * way.x, -speed * way.y, -speed * way.z);
             tahr_body_pose put = {(uint32_t)b + 1, 0, *pose};
@@ -252,6 +269,7 @@ static void blow(storm *s, double dt)
         s->poses[b].pose.position.x += s->velocity[b].x * dt;
         s->poses[b].pose.position.y += s->velocity[b].y * dt;
         s->poses[b].pose.position.z += s->velocity[b].z * dt;
+        s->poses[b].pose.orientation = product(s->spin[b], pose->orientation);
     }
     assert_int_equal(tahr_world_move(s->r.world, s->poses, (uint32_t)s->boxes, dt), TAHR_OK);
 }
@@ -272,25 +290,38 @@ static double part_inside(const double from[3], const double to[3], const double
     return high - low;
 }
 
-/* The capsule's clearance from each box, and the way of its centre seen from the box. */
+static double distance_to_box(tahr_vec3 p, tahr_vec3 half)
+{
+    double x = fmax(fabs(p.x) - half.x, 0), y = fmax(fabs(p.y) - half.y, 0), z = fmax(fabs(p.z) - half.z, 0);
+    return sqrt(x * x + y * y + z * z);
+}
+
+static tahr_vec3 seen_from(const tahr_pose *pose, tahr_vec3 p)
+{
+    tahr_vec3 c = pose->position;
+    return fake_turn_back(pose->orientation, fake_vec(p.x - c.x, p.y - c.y, p.z - c.z));
+}
+
+/* The capsule's clearance from each box, at points of its axis, and the way of its centre seen from a box that does not
+ * turn. */
 static void check_boxes(storm *s, tahr_vec3 before, int crushed, int was_crushed)
 {
     const tahr_vec3 to = s->r.state.position;
     for (int b = 0; b < s->boxes; b++) {
-        const tahr_vec3 h = s->bodies[b + 1].half_extents, c = s->poses[b].pose.position;
-        tahr_vec3 from = stage_carried(&s->bodies[b + 1].pose, &s->poses[b].pose, before);
-        double f[3] = {from.x - c.x, from.y - c.y, from.z - c.z}, t[3] = {to.x - c.x, to.y - c.y, to.z - c.z};
-        double half[3] = {h.x, h.y, h.z}, out2 = 0;
-        s->bodies[b + 1].pose = s->poses[b].pose;
-        for (int a = 0; a < 3; a++) {
-            double gap = fmax(fabs(t[a]) - half[a] - (a == 2 ? 0.55 : 0), 0);
-            out2 += gap * gap;
+        const tahr_pose *now = &s->poses[b].pose;
+        const tahr_vec3 h = s->bodies[b + 1].half_extents;
+        tahr_vec3 f = seen_from(now, stage_carried(&s->bodies[b + 1].pose, now, before)), t = seen_from(now, to);
+        double least = INFINITY;
+        for (int i = -11; i <= 11; i++) {
+            least = fmin(least, distance_to_box(seen_from(now, fake_vec(to.x, to.y, to.z + 0.05 * i)), h));
         }
-        if (!crushed && sqrt(out2) < 0.35 - 1e-5) {
-            fail_msg("%g m into box %d, at %g %g %g of it", 0.35 - sqrt(out2), b, t[0], t[1], t[2]);
+        s->bodies[b + 1].pose = *now;
+        if (!crushed && least < 0.35 - 1e-5) {
+            fail_msg("%g m into box %d, at %g %g %g of it", 0.35 - least, b, t.x, t.y, t.z);
         }
-        if (!crushed && !was_crushed && s->boxes == 1 && part_inside(f, t, half) > 0) {
-            fail_msg("through the box, from %g %g %g to %g %g %g", f[0], f[1], f[2], t[0], t[1], t[2]);
+        double from[3] = {f.x, f.y, f.z}, end[3] = {t.x, t.y, t.z}, half[3] = {h.x, h.y, h.z};
+        if (!crushed && !was_crushed && s->boxes == 1 && part_inside(from, end, half) > 0) {
+            fail_msg("through the box, from %g %g %g to %g %g %g", f.x, f.y, f.z, t.x, t.y, t.z);
         }
     }
 }
@@ -319,6 +350,7 @@ static int storm_of(int boxes, int rounds)
                          is_crushed);
             }
             check_boxes(&s, before, is_crushed, was_crushed);
+            assert_false(boxes == 1 && is_crushed && s.velocity[0].z == 0); /* level, in the open: there is room */
             was_crushed = is_crushed;
         }
         rig_close(&s.r);
@@ -329,13 +361,13 @@ static int storm_of(int boxes, int rounds)
 static void a_box_at_fifty_metres_a_second_does_not_pass_through_a_character(void **unused)
 {
     (void)unused;
-    print_message("crushed in %d of 12000 steps\n", storm_of(1, 60));
+    print_message("crushed in %d steps\n", storm_of(1, 60));
 }
 
-static void many_boxes_do_not_enter_a_character_unless_they_crush_it(void **unused)
+static void tumbling_boxes_do_not_enter_a_character_unless_they_crush_it(void **unused)
 {
     (void)unused;
-    print_message("crushed in %d of 6000 steps\n", storm_of(BOXES, 30));
+    print_message("crushed in %d steps\n", storm_of(BOXES, 30));
 }
 
 static void a_conveyor_carries_and_hands_over_its_velocity(void **unused)
@@ -430,7 +462,7 @@ int main(void)
         cmocka_unit_test(a_pushed_character_slides_along_what_is_in_the_way),
         cmocka_unit_test(a_floor_that_rises_into_a_falling_character_is_landed_on_at_its_speed),
         cmocka_unit_test(a_box_at_fifty_metres_a_second_does_not_pass_through_a_character),
-        cmocka_unit_test(many_boxes_do_not_enter_a_character_unless_they_crush_it),
+        cmocka_unit_test(tumbling_boxes_do_not_enter_a_character_unless_they_crush_it),
         cmocka_unit_test(a_conveyor_carries_and_hands_over_its_velocity),
         cmocka_unit_test(hitting_a_body_with_a_mass_reports_its_push),
         cmocka_unit_test(standing_on_a_body_with_a_mass_reports_the_weight)};
