@@ -75,6 +75,19 @@ static int is_near(const tahr__step *step, const tahr__body_note *note, vec3 p, 
     return !(note->flags & TAHR_BODY_SENSOR) && length_squared(sub(off, scale(way, t))) <= reach * reach;
 }
 
+int tahr__moves_near(const tahr__step *step, uint32_t except)
+{
+    const tahr_world *world = step->world;
+    double reach = step->config->snap_distance + step->config->perch_extra + step->config->step_height;
+    for (uint32_t i = 0; i < world->moved_count; i++) {
+        uint32_t body = world->moved[i];
+        if (body != except && is_near(step, &world->bodies[body], step->state.position, reach)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 static void add_plane(tahr__plane *planes, uint32_t *count, uint32_t body, vec3 normal, double offset)
 {
     tahr__plane plane = {.normal = normal, .offset = offset, .body = body, .feature = *count};
