@@ -160,6 +160,25 @@ static void turn_along(tahr__step *step, tahr_quat from, tahr_quat to)
     }
 }
 
+/* The floor under a character that was carried without being tilted is the same one. */
+static void carry_floor(tahr__step *step, const tahr_pose *last, const tahr_pose *now)
+{
+    tahr_state *s = &step->state;
+    tahr_floor *floor = &s->floor;
+    vec3 up = s->up, axis;
+    double half = tahr__half_turn(last->orientation, now->orientation, &axis);
+    if (half > 0 && length_squared(cross(axis, up)) > 1e-24) {
+        return;
+    }
+    if (half > 0) {
+        tahr_quat turn = quat_multiply(now->orientation, quat_inverse(last->orientation));
+        floor->normal = unit(rotate(turn, floor->normal));
+        floor->surface_normal = unit(rotate(turn, floor->surface_normal));
+    }
+    floor->point = tahr__carried(last, now, floor->point);
+    s->floor_position = s->position;
+}
+
 /* The foot goes where that point of the base went; the shape stays upright over it. */
 static void carry(tahr__step *step, const tahr_pose *now)
 {
@@ -167,8 +186,12 @@ static void carry(tahr__step *step, const tahr_pose *now)
     vec3 foot = step_foot(step);
     vec3 motion = sub(tahr__carried(&last, now, foot), foot);
     step->ignore_body = step->state.base.body;
+    int known = vec_equal(step->state.floor_position, step->state.position);
     double lost = tahr__go_along(step, motion);
     step->ignore_body = TAHR_NO_BODY;
+    if (known && lost == 0) {
+        carry_floor(step, &last, now);
+    }
     if (step->config->turn_with_base) {
         turn_along(step, last.orientation, now->orientation);
     }
@@ -200,6 +223,7 @@ static void follow(tahr__step *step, double dt)
     tahr_body_motion motion;
     if (!read_base(step, s->base.body, &motion)) { /* it is gone */
         leave_base(step);
+        s->floor_revision = 0;
         base_changed(step, TAHR_NO_BODY);
         return;
     }
@@ -250,7 +274,8 @@ void tahr__ride(tahr__step *step, double dt)
     tahr_state *s = &step->state;
     const tahr_world *world = step->world;
     const vec3 from = s->position;
-    int moved = world->moved_count > 0 && s->base.seen != (uint32_t)world->revision;
+    uint32_t seen = world->moved_count > 0 ? (uint32_t)(world->revision + world->motion) : 0;
+    int moved = world->moved_count > 0 && s->base.seen != seen;
     step->frame_body = TAHR_NO_BODY;
     step->frame_is_base = 0;
     if (s->mode != TAHR_MODE_NONE) {
@@ -265,8 +290,13 @@ void tahr__ride(tahr__step *step, double dt)
         if (moved) {
             tahr__meet_bodies(step, from, dt);
         }
+        /* What moved is elsewhere, or the base: the floor need not be looked for again. */
+        if (moved && s->floor_revision == world->last_revision && world->last_revision != 0 &&
+            !tahr__moves_near(step, step->frame_body)) {
+            s->floor_revision = world->revision;
+        }
     }
-    s->base.seen = world->moved_count > 0 ? (uint32_t)world->revision : 0;
+    s->base.seen = seen;
 }
 
 static uint32_t support(const tahr_state *s)

@@ -19,7 +19,7 @@ typedef struct tahr__memory {
 /* What the core remembers of a body. */
 typedef struct tahr__body_note {
     uint64_t pose_hash;   /* its share of the revision */
-    uint64_t motion_hash; /* and that of its motion; 0: at rest */
+    uint64_t motion_hash; /* and of world->motion; 0: at rest */
     double reach;         /* m, radius around its position that holds all of it */
     double fluid_friction;
     tahr_vec3 surface_velocity; /* local */
@@ -50,7 +50,9 @@ struct tahr_world {
     uint32_t moves;       /* calls of tahr_world_move, from 1 */
     uint32_t *moved;
     tahr__memory memory;
-    uint64_t revision; /* never 0; a pure function of the poses and motions of all bodies and of the touches */
+    uint64_t revision; /* never 0; a pure function of the poses of all bodies and of the touches */
+    uint64_t motion;   /* the same of their motions; 0: all at rest */
+    uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a motion */
     tahr__body_note *bodies;
 };
 
@@ -133,6 +135,12 @@ typedef struct tahr__next {
     uint32_t mode;
     double time_left; /* s */
 } tahr__next;
+
+/* Has anything in the world ever been moved? Then characters may be squeezed. */
+static inline int step_squeezes(const tahr__step *step)
+{
+    return step->world->moves > 1;
+}
 
 static inline vec3 step_foot(const tahr__step *step)
 {

@@ -64,7 +64,7 @@ static void rest(tahr_world *world, tahr__body_note *note)
 {
     note->before = note->pose;
     note->dt = 0;
-    tahr__move_revision(world, (uint64_t)0 - note->motion_hash);
+    world->motion -= note->motion_hash;
     note->motion_hash = 0;
 }
 
@@ -108,6 +108,7 @@ tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint3
     }
     if (status >= 0) {
         unlist_resting(world);
+        world->last_revision = 0;
     }
     return status;
 }
@@ -127,7 +128,7 @@ static void move_body(tahr_world *world, const tahr_body_pose *p, double dt)
     note->dt = dt;
     const tahr_pose span = {vec(dt, 0, 0), {0, 0, 0, 0}};
     note->motion_hash = tahr__hash_pose(~p->body, &before) + tahr__hash_pose(~p->body, &span);
-    tahr__move_revision(world, note->motion_hash);
+    world->motion += note->motion_hash;
 }
 
 tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *poses, uint32_t count, double dt)
@@ -147,12 +148,16 @@ tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *poses, uint
     }
     world->moved_count = 0;
     world->moves++;
+    world->last_revision = world->revision;
     for (uint32_t i = 0; i < count; i++) {
         move_body(world, &poses[i], dt);
     }
     for (uint32_t i = 0; i < count; i++) {
         if (world->bodies[poses[i].body].dt > 0) {
             list_moved(world, poses[i].body);
+        }
+        if (poses[i].flags & TAHR_POSE_TELEPORT) {
+            world->last_revision = 0;
         }
     }
     return status;

@@ -75,6 +75,19 @@ static int is_near(const tahr__step *step, const tahr__body_note *note, vec3 p, 
     return !(note->flags & TAHR_BODY_SENSOR) && length_squared(sub(off, scale(way, t))) <= reach * reach;
 }
 
+int tahr__moves_near(const tahr__step *step, uint32_t except)
+{
+    const tahr_world *world = step->world;
+    double reach = step->config->snap_distance + step->config->perch_extra + step->config->step_height;
+    for (uint32_t i = 0; i < world->moved_count; i++) {
+        uint32_t body = world->moved[i];
+        if (body != except && is_near(step, &world->bodies[body], step->state.position, reach)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 static void add_plane(tahr__plane *planes, uint32_t *count, uint32_t body, vec3 normal, double offset)
 {
     tahr__plane plane = {.normal = normal, .offset = offset, .body = body, .feature = *count};
@@ -205,19 +218,34 @@ void tahr__meet_bodies(tahr__step *step, vec3 from, double dt)
     }
 }
 
+static int is_fixed(const tahr__step *step, uint32_t body)
+{
+    return body >= step->world->body_count || !(step->world->bodies[body].flags & TAHR_BODY_MOVABLE);
+}
+
+double tahr__fixed_depth(const tahr__step *step, const tahr_contact *contacts, uint32_t count)
+{
+    double depth = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        depth = is_fixed(step, contacts[i].body) ? max_of(depth, -contacts[i].distance) : depth;
+    }
+    return depth;
+}
+
 vec3 tahr__spare_the_fixed(const tahr__step *step, const tahr_contact *contacts, uint32_t count, vec3 push)
 {
     tahr__plane planes[TAHR__MAX_PLANES];
     uint32_t used = 0;
     vec3 spared;
+    double most = 0.5 * step->limits->width, size = length(push);
+    push = size > most ? scale(push, most / size) : push;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t body = contacts[i].body;
-        if (body < step->world->body_count && step->world->bodies[body].flags & TAHR_BODY_MOVABLE) {
+        if (!is_fixed(step, contacts[i].body)) {
             continue;
         }
         tahr__plane plane = {.normal = contacts[i].normal,
                              .offset = step->config->skin - contacts[i].distance,
-                             .body = body,
+                             .body = contacts[i].body,
                              .feature = contacts[i].feature};
         tahr__planes_add(planes, &used, &plane);
     }

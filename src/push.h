@@ -9,8 +9,14 @@
  * become what its velocity is relative to. For each body near: 1 to 2 sweeps of 16 pieces at most, and 12 for a push. */
 void tahr__meet_bodies(tahr__step *step, vec3 from, double dt);
 
+/* Has a body moved, but for one, within reach of the character or of its look for the floor? No query. */
+int tahr__moves_near(const tahr__step *step, uint32_t except);
+
+/* m, how deep the character is in bodies that never move. No query. */
+double tahr__fixed_depth(const tahr__step *step, const tahr_contact *contacts, uint32_t count);
+
 /* A push that not all contacts allow, corrected so that no body that never moves is entered: what moves gives way, or
- * crushes. No query. */
+ * crushes. No longer than half the width of the shape, so that nothing thin is passed. No query. */
 vec3 tahr__spare_the_fixed(const tahr__step *step, const tahr_contact *contacts, uint32_t count, vec3 push);
 
 /* Reports the push of a hit against a body that has a mass. speed: of the character into it, m/s. */

@@ -324,12 +324,13 @@ tahr_status tahr_world_touch(tahr_world *world)
         return TAHR_E_NULL;
     }
     tahr__move_revision(world, 1);
+    world->last_revision = 0;
     return TAHR_OK;
 }
 
 uint64_t tahr_world_revision(const tahr_world *world)
 {
-    return world ? world->revision : 0;
+    return world ? world->revision + world->motion : 0;
 }
 
 uint64_t tahr_world_memory(const tahr_world *world)

@@ -41,7 +41,8 @@ enum { TAHR_DEPENETRATION_JOINT = 1, TAHR_DEPENETRATION_SINGLE = 2 };
  * down after this frame's motion. */
 enum { TAHR_STEP_BY_TREAD = 1, TAHR_STEP_BY_CONTACT = 2 };
 
-/* Which velocity of a base goes with a character that leaves it. */
+/* Which velocity of a base goes with a character that leaves it: across up; along up, also downward, so that a jump is as
+ * high above a lift that sinks as above the ground; and of the base's turning. */
 enum { TAHR_IMPART_LEVEL = 1 << 0, TAHR_IMPART_UP = 1 << 1, TAHR_IMPART_TURN = 1 << 2 };
 
 /* Defaults in brackets are those of TAHR_PRESET_PRECISE, and after a bar those of TAHR_PRESET_UNREAL where they differ.

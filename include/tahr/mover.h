@@ -325,7 +325,9 @@ TAHR_API void tahr_mover_destroy(tahr_mover *mover);
  * state not finite or out of range; the log names the field), TAHR_E_BACKEND, TAHR_E_REENTRANT.
  * Allocates nothing. Pure: the result depends on world, config, input, dt and state only. Different movers may step on
  * different threads at once. Queries: at most TAHR_MAX_QUERIES_PER_STEP; on flat ground 2 sweeps moving, 1 standing, 0
- * standing on a cached floor or asleep. Since 0.1. */
+ * standing on a cached floor or asleep; on a base that moves 1 more (3 where it tilts); for
+ * every body that moves near the
+ * character 1 or 2, and 12 more while it pushes. Since 0.1. */
 TAHR_API tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report);
 

@@ -22,7 +22,7 @@ tahr_body_desc stage_box(tahr_vec3 at, tahr_vec3 half_extents)
 
 tahr_body_desc stage_ground(void)
 {
-    tahr_body_desc d = stage_box(fake_vec(0, 0, -1), fake_vec(50, 50, 1));
+    tahr_body_desc d = stage_box(fake_vec(0, 0, -1), fake_vec(2e4, 2e4, 1));
     d.flags = 0;
     return d;
 }

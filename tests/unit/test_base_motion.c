@@ -81,15 +81,120 @@ static tahr_pose everything(double t)
 static void standing_on_a_moving_base_is_going_with_it_exactly(void **unused)
 {
     tahr_pose (*const paths[])(double) = {turntable, lift, plunge, shuttle, diagonal, everything};
+    tahr_config configs[4] = {rig_config(), rig_config(), rig_config()};
     (void)unused;
+    configs[1].shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.8, .half_x = 0.3, .half_y = 0.2};
+    configs[2].shape = (tahr_shape){.type = TAHR_SHAPE_SPHERE, .radius = 0.4, .half_height = 0.4};
+    assert_int_equal(tahr_config_init(&configs[3], sizeof configs[3], TAHR_PRESET_UNREAL), TAHR_OK);
     for (size_t k = 0; k < sizeof paths / sizeof paths[0]; k++) {
         for (int i = 0; i < RIG_RATES; i++) {
-            rig r;
-            stand_on_slab(&r, NULL, 2, 1);
-            assert_true(ride(&r, paths[k], 3, 1 / rig_rates[i]) < 1e-9);
-            rig_close(&r);
+            for (int c = 0; c < 4; c++) {
+                rig r;
+                stand_on_slab(&r, &configs[c], 2, 1);
+                assert_true(ride(&r, paths[k], 3, 1 / rig_rates[i]) < 1e-9);
+                rig_close(&r);
+            }
         }
     }
+}
+
+static void a_moving_base_costs_one_sweep_more(void **unused)
+{
+    rig r;
+    (void)unused;
+    stand_on_slab(&r, NULL, 2, 1);
+    for (int n = 1; n < 60; n++) {
+        r.input.move = fake_vec(n < 30 ? 0 : 0.1, 0, 0);
+        stage_step(&r, 0, everything(n / 60.0), 1.0 / 60);
+        assert_int_equal(r.report.sweeps, n < 30 ? 1 : 3);
+        assert_int_equal(r.report.contact_queries + r.report.rays, 0);
+    }
+    rig_close(&r);
+}
+
+static void bodies_that_move_elsewhere_cost_no_query(void **unused)
+{
+    rig r;
+    tahr_body_desc bodies[2] = {stage_ground(), stage_box(fake_vec(20, 0, 1), fake_vec(1, 1, 1))};
+    (void)unused;
+    rig_open_bodies(&r, bodies, 2, NULL, fake_vec(0, 0, 1));
+    rig_settle(&r);
+    for (int n = 1; n < 60; n++) {
+        r.input.move = fake_vec(n < 30 ? 0 : 0.1, 0, 0);
+        stage_step(&r, 1, (tahr_pose){{20, 4 * sin(n / 60.0), 1}, LEVEL}, 1.0 / 60);
+        assert_int_equal(r.report.sweeps, n < 30 ? 0 : 2);
+        assert_int_equal(r.report.contact_queries + r.report.rays, 0);
+    }
+    rig_close(&r);
+}
+
+static void what_is_placed_while_others_move_is_noticed(void **unused)
+{
+    rig r;
+    tahr_body_desc bodies[3] = {stage_ground(), stage_box(fake_vec(20, 0, 1), fake_vec(1, 1, 1)),
+                                stage_box(fake_vec(30, 0, 1), fake_vec(1, 1, 1))};
+    tahr_body_pose put = {2, 0, {{1.2, 0, 1}, LEVEL}};
+    (void)unused;
+    for (int jumps = 0; jumps < 2; jumps++) {
+        rig_open_bodies(&r, bodies, 3, NULL, fake_vec(0, 0, 1));
+        rig_settle(&r);
+        stage_step(&r, 1, (tahr_pose){{20, 1, 1}, LEVEL}, 1.0 / 60);
+        tahr_body_pose poses[2] = {{1, 0, {{20, 2, 1}, LEVEL}}, put};
+        poses[1].flags = TAHR_POSE_TELEPORT;
+        assert_int_equal(tahr_world_move(r.world, poses, jumps ? 2 : 1, 1.0 / 60), TAHR_OK);
+        if (!jumps) {
+            assert_int_equal(tahr_world_set(r.world, &put, 1), TAHR_OK);
+        }
+        rig_step(&r, 1.0 / 60);
+        assert_non_null(rig_event(&r, TAHR_EVENT_DEPENETRATED));
+        assert_near(r.state.position.x, 0.2 - 0.35 - 0.01, 1e-5); /* out of it by the short way */
+        rig_close(&r);
+    }
+}
+
+/* A seesaw of up to 20 degrees. The foot stays over its point of the plank, at the height of a foot that is round: a sphere
+ * on a slope touches beside its lowest point, r (1 / cos - 1) = 22 mm higher up; the band of the clearance is 15 mm. */
+static void a_base_that_tilts_keeps_who_stands_on_it(void **unused)
+{
+    (void)unused;
+    for (int i = 1; i < RIG_RATES; i++) {
+        rig r;
+        double dt = 1 / rig_rates[i];
+        tahr_pose start = {{0, 0, -0.25}, LEVEL};
+        stand_on_slab(&r, NULL, 3, 0);
+        tahr_vec3 first = foot(&r);
+        for (int n = 1; n * dt < 4; n++) {
+            double angle = 0.35 * sin(2 * n * dt);
+            tahr_pose pose = {{0, 0, -0.25}, {0, sin(angle / 2), 0, cos(angle / 2)}};
+            stage_step(&r, 0, pose, dt);
+            assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
+            assert_false(r.report.flags & TAHR_REPORT_CRUSHED);
+            /* Upright over a point that also leans sideways as the plank turns: by what it stands off it, at most. */
+            assert_true(stage_distance(foot(&r), stage_carried(&start, &pose, first)) < 0.045);
+        }
+        rig_close(&r);
+    }
+}
+
+static void up_may_be_any_direction(void **unused)
+{
+    rig r;
+    tahr_config c = rig_config();
+    tahr_body_desc slab = stage_box(fake_vec(-0.25, 0, 0), fake_vec(0.25, 5, 5));
+    (void)unused;
+    c.gravity = fake_vec(-9.81, 0, 0);
+    rig_open_bodies(&r, &slab, 1, &c, fake_vec(1, 0.5, 1));
+    rig_settle(&r);
+    tahr_pose start = {{-0.25, 0, 0}, LEVEL};
+    tahr_vec3 first = fake_vec(r.state.position.x - 0.9, r.state.position.y, r.state.position.z);
+    for (int n = 1; n <= 180; n++) { /* turns about x, which is up; rises, and goes sideways */
+        double t = n / 60.0;
+        tahr_pose pose = {{-0.25 + sin(t), t, 2 * t}, {sin(t), 0, 0, cos(t)}};
+        stage_step(&r, 0, pose, 1.0 / 60);
+        tahr_vec3 now = fake_vec(r.state.position.x - 0.9, r.state.position.y, r.state.position.z);
+        assert_true(stage_distance(now, stage_carried(&start, &pose, first)) < 1e-9);
+    }
+    rig_close(&r);
 }
 
 static void ten_minutes_on_a_turntable_do_not_drift(void **unused)
@@ -184,9 +289,7 @@ static void jumps_are_as_high_above_a_base_as_above_the_ground(void **unused)
                 r.input.jump = n * dt > 0.2 && n * dt < 0.4;
                 stage_step(&r, 0, pose, dt);
                 t = n * dt;
-                const tahr_event *apex = rig_event(&r, TAHR_EVENT_APEX);
                 top = fmax(top, foot(&r).z - (pose.position.z + 0.25) - ground);
-                (void)apex;
                 assert_near(r.state.position.x, 2 * t, 1e-6);
             }
             /* 4.2^2 / (2 g) = 0.8991 m; sampled at the ends of steps: lower by up to g dt^2 / 8 */
@@ -425,6 +528,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(standing_on_a_moving_base_is_going_with_it_exactly),
+        cmocka_unit_test(a_moving_base_costs_one_sweep_more),
+        cmocka_unit_test(bodies_that_move_elsewhere_cost_no_query),
+        cmocka_unit_test(what_is_placed_while_others_move_is_noticed),
+        cmocka_unit_test(a_base_that_tilts_keeps_who_stands_on_it),
+        cmocka_unit_test(up_may_be_any_direction),
         cmocka_unit_test(ten_minutes_on_a_turntable_do_not_drift),
         cmocka_unit_test(the_orientation_turns_with_the_base_if_asked),
         cmocka_unit_test(walking_on_a_moving_base_is_walking_relative_to_it),
