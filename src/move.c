@@ -6,6 +6,7 @@
 
 #include "query.h"
 #include "report.h"
+#include "trail.h"
 
 /* An overlap of less is rounding of the backend, not worth a push (robustness: native float 2e-6 m). */
 static const double TOUCHING = 1e-7;
@@ -33,6 +34,7 @@ int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
 {
     const tahr_shape *shape = &step->limits->shape;
     double skin = step->config->skin;
+    tahr__trail_go(step);
     tahr__sweep(step, shape, step->state.position, motion, skin, 0, hit);
     int overlapped = hit->start_overlap != 0;
     if (overlapped) {

@@ -15,7 +15,7 @@ int tahr__sleeps_on(const tahr_mover *mover, const tahr_input *input, double dt,
     if (!s->noted || dt != s->dt || mover->world->revision != s->revision || capacity != s->report.event_capacity) {
         return 0;
     }
-    if (report && report->decisions) {
+    if (report && (report->decisions || report->queries)) {
         return 0; /* a trace wants to see the step */
     }
     return memcmp(state, &s->state, sizeof *state) == 0 && memcmp(input, &s->input, sizeof *input) == 0;
@@ -38,7 +38,7 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
 {
     tahr__sleep *s = &mover->sleep;
     const tahr_report *r = &step->report;
-    s->noted = !changed && mover->config.sleep && !r->decisions && r->event_count <= TAHR__SLEEP_EVENTS;
+    s->noted = !changed && mover->config.sleep && !r->decisions && !r->queries && r->event_count <= TAHR__SLEEP_EVENTS;
     if (!s->noted) {
         return;
     }

@@ -257,6 +257,10 @@ enum {
 /* The most queries one step may ask, whatever the world answers; then it stops where it is and says so. */
 #define TAHR_MAX_QUERIES_PER_STEP 256u
 
+/* And the most sweeps for sensors on top of them: none while no sensor is near, one for every straight piece of the way
+ * inside of a sensor, two where one is entered. */
+#define TAHR_MAX_SENSOR_QUERIES_PER_STEP 64u
+
 /* What a step did. Set struct_size and the three arrays (NULL allowed); everything else is written by the step. */
 typedef struct tahr_report {
     uint32_t struct_size;

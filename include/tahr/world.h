@@ -112,9 +112,11 @@ typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *qu
  * hit; only surface_normal is derived. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_ray_fn)(void *user, const tahr_ray *query, tahr_hit *hit);
 
-/* [in] query, [out] hits (capacity of them, zeroed) and *count: the sensors that a motion passes or ends in, ordered by
- * (fraction, body, feature), each with fraction, body and feature. The motion is one that was found free. Statuses and
- * threads as for tahr_sweep_fn. */
+/* [in] query, [out] hits (capacity of them, zeroed) and *count (0 before the call, at most capacity): the sensors that a
+ * motion passes, ends in or begins in, one record each, ordered by (fraction, body), with body, feature, surface and
+ * fraction, at which the distance falls to query->margin; those that the shape overlaps at the start (distance < 0) with
+ * start_overlap and fraction 0. A motion of zero asks for those alone. What stays zero is derived: normals from the motion.
+ * Return TAHR_TRUNCATED if there are more. Other statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_sensors_fn)(void *user, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
                                        uint32_t *count);
 /* [in] body, one that your hits name, [out] motion (at rest at the origin before the call). Return TAHR_E_NOT_FOUND for a
