@@ -22,7 +22,6 @@ void tahr__scope_revert(tahr__step *step, const tahr__scope *scope)
     r->slides = scope->slides;
     r->step_offset = scope->step_offset;
     r->residual = scope->residual;
-    step->push_left = scope->push_left;
     step->ahead = scope->ahead;
     if (step->trail) {
         tahr__trail_forget(step, scope->legs);

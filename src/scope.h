@@ -14,7 +14,7 @@ typedef struct tahr__scope {
     tahr_floor floor;
     uint32_t state_flags, report_flags;
     uint32_t event_count, events_lost, slides, legs;
-    double step_offset, residual, push_left, ahead;
+    double step_offset, residual, ahead;
 } tahr__scope;
 
 static inline void tahr__scope_open(tahr__step *step, tahr__scope *scope)
@@ -33,7 +33,6 @@ static inline void tahr__scope_open(tahr__step *step, tahr__scope *scope)
     scope->slides = r->slides;
     scope->step_offset = r->step_offset;
     scope->residual = r->residual;
-    scope->push_left = step->push_left;
     scope->ahead = step->ahead;
     if (step->trail) {
         tahr__trail_reach(step);
@@ -43,7 +42,7 @@ static inline void tahr__scope_open(tahr__step *step, tahr__scope *scope)
 }
 
 /* Puts back what was when the scope was opened, bit for bit. What queries said of themselves (undecided, capped, recorded)
- * stays. */
+ * stays, and so does what was spent of the step's depenetration. */
 void tahr__scope_revert(tahr__step *step, const tahr__scope *scope);
 
 #endif

@@ -160,7 +160,7 @@ static uint32_t write_hits(search *s, tahr_hit *hits, uint32_t capacity, int *lo
 {
     uint32_t count = 0, room = s->found && capacity > 0 ? capacity - 1 : capacity;
 
-    for (uint32_t i = 0; i < s->sensor_count && i++) {
+    for (uint32_t i = 0; i < s->sensor_count; i++) {
         tahr_hit hit = s->sensors[i];
         uint32_t at = count;
         if (s->found && hit.fraction > s->best.fraction) continue;

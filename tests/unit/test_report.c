@@ -91,6 +91,7 @@ static void unused_report_words_are_written_not_added_to(void **unused)
     report.struct_size = sizeof report;
     report.events = NULL;
     report.decisions = NULL;
+    report.queries = NULL;
     assert_int_equal(tahr_mover_step(r.mover, &r.input, 1.0 / 60, &r.state, &report), TAHR_OK);
     assert_true(report.sweeps == 1 && report.slices == 1 && report.flags == 0 && report.reserved == 0 &&
                 report.step_offset == 0);
