@@ -25,7 +25,7 @@ void tahr__trail_swept(tahr__trail *trail, const tahr_sweep *sweep, int clear)
     trail->sweep_motion = sweep->motion;
 }
 
-/* Does the last sweep cover the way to `to`? A nanometre aside is rounding. */
+/* Does the last sweep cover the way to `to`? A nanometre aside or beyond is rounding. */
 static int is_proven(const tahr__trail *trail, vec3 to)
 {
     vec3 way = sub(to, trail->at);
@@ -33,8 +33,8 @@ static int is_proven(const tahr__trail *trail, vec3 to)
     if (!trail->swept || !trail->clear || size2 == 0 || !vec_equal(trail->sweep_from, trail->at)) {
         return 0;
     }
-    double part = dot(way, trail->sweep_motion) / size2;
-    return part >= 0 && part <= 1 && length_squared(add_scaled(way, trail->sweep_motion, -part)) < 1e-18;
+    double part = clamp(dot(way, trail->sweep_motion) / size2, 0, 1);
+    return length_squared(add_scaled(way, trail->sweep_motion, -part)) < 1e-18;
 }
 
 void tahr__trail_reach(tahr__step *step)
