@@ -115,7 +115,8 @@ typedef tahr_status (*tahr_ray_fn)(void *user, const tahr_ray *query, tahr_hit *
 /* [in] query, [out] hits (capacity of them, zeroed) and *count (0 before the call, at most capacity): the sensors that a
  * motion passes, ends in or begins in, one record each, ordered by (fraction, body), with body, feature, surface and
  * fraction, at which the distance falls to query->margin; those that the shape overlaps at the start (distance < 0) with
- * start_overlap and fraction 0. A motion of zero asks for those alone. What stays zero is derived: normals from the motion.
+ * start_overlap and fraction 0. A motion of zero asks for those alone. What stays zero is derived: normal from the motion (the
+ * true one makes the times of events in a fall exact), surface_normal from normal, point from the position.
  * Return TAHR_TRUNCATED if there are more. Other statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_sensors_fn)(void *user, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
                                        uint32_t *count);

@@ -88,7 +88,8 @@ static tahr_status callback_sensors(void *user, const tahr_sweep *query, tahr_hi
             hits[at] = hits[at - 1];
         }
         memset(&hits[at], 0, sizeof hits[at]);
-        hits[at].body = hit.body; /* the least that a user may say */
+        hits[at].body = hit.body;
+        hits[at].normal = hit.normal;
         hits[at].surface = hit.surface;
         hits[at].fraction = hit.fraction;
         hits[at].start_overlap = hit.start_overlap;
