@@ -36,7 +36,7 @@ static void complete_sensor(const tahr_sweep *q, double part, tahr_hit *h)
     double size = length(q->motion);
     h->sensor = 1;
     h->blocking = h->unknown = 0;
-    h->fraction *= part;
+    h->fraction *= h->fraction <= 1 ? part : 1; /* what is wrong stays wrong */
     if (length_squared(h->normal) == 0) {
         h->normal = size > 0 ? scale(q->motion, -1 / size) : q->up;
     }

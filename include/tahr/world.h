@@ -16,7 +16,7 @@ struct tahr_backend;
 enum { TAHR_BODY_MESH = 1, TAHR_BODY_BOX = 2, TAHR_BODY_SPHERE = 3, TAHR_BODY_CAPSULE = 4 };
 
 enum {
-    TAHR_BODY_SENSOR = 1 << 0,    /* reported, never blocks */
+    TAHR_BODY_SENSOR = 1 << 0,    /* reported, never blocks; a mesh is met at its surface, other bodies inside too */
     TAHR_BODY_TWO_SIDED = 1 << 1, /* mesh triangles block from behind too */
     TAHR_BODY_MOVABLE = 1 << 2,   /* will be placed again with tahr_world_set or _move; others never move */
     TAHR_BODY_FLUID = 1 << 3,     /* a volume to swim in: a sensor too; boxes, spheres, capsules */
