@@ -42,11 +42,10 @@ void tahr__change_mode(tahr__step *step, uint32_t mode)
 
 double tahr__run_mode(tahr__step *step, double time)
 {
-    double begin = step->time;
     step->ahead = 0;
     tahr__next next = modes[step->state.mode].run(step, time);
     step->ahead = 0; /* a mode has moved step->time to where it ended */
-    tahr__time_slice(step, begin);
+    tahr__time_slice(step);
     tahr__change_mode(step, next.mode);
     return next.time_left;
 }

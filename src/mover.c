@@ -113,7 +113,7 @@ static void run(tahr__step *step, double dt)
         tahr__launch(step);
     }
     tahr__begin_jump(step);
-    tahr__time_slice(step, 0);
+    tahr__time_slice(step);
     double left = dt;
     while (left > MIN_SLICE && step->error >= 0 && step->report.slices < MAX_SLICES &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
@@ -124,7 +124,9 @@ static void run(tahr__step *step, double dt)
         step->report.time_lost += left;
     }
     tahr__take_base(step);
-    tahr__find_overlaps(step);
+    if (step->trail) {
+        tahr__find_overlaps(step);
+    }
 }
 
 static vec3 clean(vec3 v)

@@ -210,6 +210,17 @@ void tahr__sense(tahr__step *step)
     trail->count = trail->timed = 0;
 }
 
+void tahr__end_slice(tahr__step *step)
+{
+    tahr__trail *trail = step->trail;
+    trail->held = 0;
+    tahr__trail_stamp(step, trail->slice, step->time);
+    trail->slice = step->time;
+    if (trail->count > TAHR__LEGS / 2) {
+        tahr__sense(step);
+    }
+}
+
 /* What it is inside of where it is, whatever way it came. */
 static void look_here(tahr__step *step, double time)
 {
@@ -239,9 +250,6 @@ static int changed_shape(const tahr__step *step)
 void tahr__find_overlaps(tahr__step *step)
 {
     tahr__trail *trail = step->trail;
-    if (!trail) {
-        return;
-    }
     trail->held = 0;
     tahr__trail_stamp(step, step->time, step->time);
     tahr__sense(step);

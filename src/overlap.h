@@ -12,7 +12,10 @@
 /* Asks about the legs that have been gone along. */
 void tahr__sense(tahr__step *step);
 
-/* The same at the end of a step, and about what changed without a motion. */
+/* A slice of time is over, which began where the last one ended: nothing of it is taken back any more. */
+void tahr__end_slice(tahr__step *step);
+
+/* The same at the end of a step, and about what changed without a motion. Only where there is a trail, like the two above. */
 void tahr__find_overlaps(tahr__step *step);
 
 /* The character went here between two times (s from the start of the step). */
@@ -40,15 +43,11 @@ static inline void tahr__time_fall(tahr__step *step, vec3 velocity, double time,
     }
 }
 
-/* A slice of time is over, which began then: nothing of it is taken back any more. */
-static inline void tahr__time_slice(tahr__step *step, double begin)
+/* A slice of time is over. */
+static inline void tahr__time_slice(tahr__step *step)
 {
     if (step->trail) {
-        step->trail->held = 0;
-        tahr__trail_stamp(step, begin, step->time);
-        if (step->trail->count > TAHR__LEGS / 2) {
-            tahr__sense(step);
-        }
+        tahr__end_slice(step);
     }
 }
 

@@ -9,6 +9,7 @@ void tahr__trail_begin(tahr__trail *trail, tahr__step *step)
     trail->current = s->mode == TAHR_MODE_WALKING && s->floor_revision == step->world->revision &&
                      vec_equal(s->floor_position, s->position);
     trail->swept = trail->clear = 0;
+    trail->slice = 0;
     trail->at = s->position;
     trail->up = s->up;
     trail->orientation = s->orientation;
