@@ -41,7 +41,7 @@ static tahr__next fall_off(tahr__step *step, tahr__path *w, vec3 to, double part
     step->state.floor_revision = 0;
     step->time += w->began + used;
     step->ahead = 0;
-    tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
+    tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, TAHR_LEFT_LEDGE);
     tahr__next next = {TAHR_MODE_FALLING, w->duration - used};
     return next;
 }
@@ -79,7 +79,7 @@ static tahr__next stand(tahr__step *step, double time, int looked)
     }
     tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
     if (!floor_is_walkable(&floor)) {
-        tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
+        tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, TAHR_LEFT_LEDGE);
         tahr__keep_floor(step, &floor);
         tahr__next fall = {TAHR_MODE_FALLING, time};
         return fall;
@@ -151,7 +151,7 @@ tahr__next tahr__walk(tahr__step *step, double time)
     }
     if (!floor_is_walkable(&step->state.floor)) {
         tahr__next fall = {TAHR_MODE_FALLING, time};
-        tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
+        tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, TAHR_LEFT_LEDGE);
         return fall;
     }
     double part = 1;

@@ -386,6 +386,93 @@ static void a_fluid_is_a_sensor_too(void **unused)
     sensor_close(&s);
 }
 
+/* A jump among sensors in one step: with too little room the earliest events are kept. */
+static void overlaps_that_do_not_fit_are_counted(void **unused)
+{
+    sensor_rig s;
+    tahr_event all[RIG_EVENTS], some[RIG_EVENTS + 1];
+    (void)unused;
+    sensor_begin(&s, ON_NATIVE);
+    gate(&s, -1, 1);
+    gate(&s, 2, 2.5);
+    sensor_box(&s, fake_vec(-16, -16, 2), fake_vec(16, 16, 3));
+    sensor_open(&s, NULL, fake_vec(0, 0, 1));
+    rig_settle(&s.r);
+    s.r.input.move = fake_vec(1, 0, 0);
+    s.r.input.jump = 1;
+    const tahr_state start = s.r.state;
+    rig_step(&s.r, 1);
+    rig_assert_in_order(&s.r, 1);
+    const tahr_state end = s.r.state;
+    const uint32_t n = s.r.report.event_count;
+    memcpy(all, s.r.events, sizeof all);
+    assert_int_equal(sensor_events(&s.r, TAHR_EVENT_OVERLAP_BEGIN), 2); /* the second gate, the layer above */
+    assert_int_equal(sensor_events(&s.r, TAHR_EVENT_OVERLAP_END), 2);   /* the first gate, and that layer */
+    for (uint32_t room = 0; room < n; room++) {
+        tahr_report report = {.struct_size = sizeof report, .events = some, .event_capacity = room};
+        s.r.state = start;
+        memset(some, 0x12, sizeof some);
+        assert_int_equal(tahr_mover_step(s.r.mover, &s.r.input, 1, &s.r.state, &report), TAHR_TRUNCATED);
+        assert_true(report.event_count == room && report.events_lost == n - room);
+        assert_memory_equal(some, all, room * sizeof all[0]);
+        assert_int_equal(((unsigned char *)&some[room])[0], 0x12);
+        assert_memory_equal(&s.r.state, &end, sizeof end);
+    }
+    sensor_close(&s);
+}
+
+/* Ten seconds of falling are hundreds of pieces; after 64 sweeps for sensors only the end is looked at. */
+static void sweeps_for_sensors_are_capped(void **unused)
+{
+    (void)unused;
+    for (int backend = 0; backend < sensor_backends(); backend++) {
+        sensor_rig with, without;
+        tahr_config c = rig_config();
+        c.max_dt = 10;
+        sensor_begin(&with, backend);
+        sensor_begin(&without, backend);
+        uint32_t inside = sensor_box(&with, fake_vec(-16, -16, -900), fake_vec(16, 16, 900));
+        uint32_t last = sensor_box(&with, fake_vec(-16, -16, 430), fake_vec(16, 16, 450));
+        sensor_open(&with, &c, fake_vec(0, 0, 600));
+        sensor_open(&without, &c, fake_vec(0, 0, 600));
+        rig_step(&with.r, 6);
+        rig_step(&without.r, 6);
+        rig_assert_in_order(&with.r, 6);
+        assert_true(with.r.report.sweeps > without.r.report.sweeps + TAHR_MAX_SENSOR_QUERIES_PER_STEP / 2);
+        assert_true(with.r.report.sweeps <= without.r.report.sweeps + TAHR_MAX_SENSOR_QUERIES_PER_STEP);
+        assert_memory_equal(&with.r.state.position, &without.r.state.position, sizeof(tahr_vec3));
+        assert_near(with.r.state.position.z, 600 - 40 * 40 / (2 * 9.81) - 40 * (6 - 40 / 9.81), 1e-6); /* terminal */
+        assert_true(with.r.state.touched_count == 2 && with.r.state.touched[1] == last);
+        assert_non_null(sensor_event(&with.r, TAHR_EVENT_OVERLAP_BEGIN, inside));
+        assert_non_null(sensor_event(&with.r, TAHR_EVENT_OVERLAP_BEGIN, last));
+        sensor_close(&with);
+        sensor_close(&without);
+    }
+}
+
+static void a_sleeper_wakes_when_its_sensor_goes(void **unused)
+{
+    (void)unused;
+    for (int backend = 0; backend < sensor_backends(); backend++) {
+        sensor_rig s;
+        tahr_event events[8];
+        tahr_report report = {.struct_size = sizeof report, .events = events, .event_capacity = 8};
+        sensor_begin(&s, backend);
+        uint32_t body = gate(&s, -2, 2);
+        sensor_open(&s, NULL, fake_vec(0, 0, 1));
+        rig_settle(&s.r);
+        for (int i = 0; i < 3; i++) {
+            assert_int_equal(tahr_mover_step(s.r.mover, &s.r.input, 0.1, &s.r.state, &report), TAHR_OK);
+        }
+        assert_true(report.flags & TAHR_REPORT_ASLEEP && report.event_count == 0);
+        sensor_put(&s, body, fake_vec(40, 0, 3));
+        assert_int_equal(tahr_mover_step(s.r.mover, &s.r.input, 0.1, &s.r.state, &report), TAHR_OK);
+        assert_true(!(report.flags & TAHR_REPORT_ASLEEP) && report.event_count == 1);
+        assert_true(events[0].type == TAHR_EVENT_OVERLAP_END && events[0].body == body && events[0].time == 0);
+        sensor_close(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -402,6 +489,9 @@ int main(void)
         cmocka_unit_test(touching_is_not_inside),
         cmocka_unit_test(another_mask_ends_what_it_does_not_meet),
         cmocka_unit_test(a_fluid_is_a_sensor_too),
+        cmocka_unit_test(overlaps_that_do_not_fit_are_counted),
+        cmocka_unit_test(sweeps_for_sensors_are_capped),
+        cmocka_unit_test(a_sleeper_wakes_when_its_sensor_goes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
