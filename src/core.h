@@ -73,8 +73,10 @@ typedef struct tahr__limits {
     double width;               /* m, half width of the shape: what perch and edge rules measure against */
     double around;              /* m, radius of the circle around the shape seen along its axis */
     double axis;                /* m, half of the segment that rounding makes a capsule, or half the height of a box */
-    tahr__pull pull;            /* of config.gravity */
+    tahr__pull pull;            /* of config.gravity, in the plane */
     tahr__foot foot;            /* of the whole shape */
+    vec3 plane;                 /* config.plane, exactly unit; zero: none */
+    uint32_t in_plane;          /* 1: there is one */
 } tahr__limits;
 
 /* Events of a step that can be repeated; a step with more is computed again. */
@@ -112,6 +114,7 @@ typedef struct tahr__step {
     tahr_report report;
     tahr_query_context context;
     tahr__limits own_limits; /* what limits points to while the shape is not the config's */
+    tahr_input own_input;    /* what input points to while it is held in a plane */
     uint32_t ignore_body;    /* not there for this step's queries now, or TAHR_NO_BODY */
     double dt;               /* s of the whole step */
     double time;             /* s since the start of the step, at the begin of the slice */

@@ -5,6 +5,7 @@
 #include "elementary.h"
 #include "lip.h"
 #include "move.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 
@@ -231,7 +232,7 @@ double tahr__adjust_height(tahr__step *step)
     const tahr_floor *floor = &step->state.floor;
     double target = c->floor_target * c->skin;
     double gap = floor->distance;
-    if (!floor_is_walkable(floor) || floor_is_in_band(step)) {
+    if (!floor_is_walkable(floor) || floor_is_in_band(step) || !may_rise(step)) {
         return 0;
     }
     vec3 before = step->state.position;
@@ -260,7 +261,9 @@ int tahr__is_wedged(tahr__step *step)
     uint32_t count = tahr__contacts(step, step->state.position, 1.01 * step->config->skin, contacts, CONTACTS);
     for (uint32_t i = 0; i < count; i++) {
         tahr__plane plane = {.normal = contacts[i].normal, .body = contacts[i].body, .feature = contacts[i].feature};
-        tahr__planes_add(planes, &used, &plane);
+        if (!is_in_plane(step) || tahr__plane_surface(step, &plane.normal, &plane.offset)) {
+            tahr__planes_add(planes, &used, &plane);
+        }
     }
     tahr__project(planes, used, scale(step->state.up, -1), &way);
     double left = length(way);

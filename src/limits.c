@@ -4,6 +4,7 @@
 
 #include "elementary.h"
 #include "floor.h"
+#include "plane.h"
 #include "shape.h"
 
 tahr__pull tahr__pull_of(vec3 gravity)
@@ -24,7 +25,9 @@ tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t
     limits.width = shape_width(s);
     limits.around = box ? sqrt(s->half_x * s->half_x + s->half_y * s->half_y) : s->radius;
     limits.axis = s->half_height - (box ? 0 : s->radius);
-    limits.pull = tahr__pull_of(c->gravity);
+    limits.plane = unit(c->plane);
+    limits.in_plane = length_squared(c->plane) > 0;
+    limits.pull = tahr__pull_of(along_plane(&limits, c->gravity));
     limits.foot = tahr__foot_of(s, capabilities);
     return limits;
 }

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 
@@ -53,16 +54,18 @@ static double deepest(const tahr_contact *contacts, uint32_t count)
 }
 
 /* The shortest push that leaves `skin` to everything, or the least-squares one. Returns 1 if it suffices. */
-static int joint_push(const tahr_contact *contacts, uint32_t count, double skin, vec3 *push)
+static int joint_push(const tahr__step *step, const tahr_contact *contacts, uint32_t count, vec3 *push)
 {
     tahr__plane planes[TAHR__MAX_PLANES];
     uint32_t used = 0;
     for (uint32_t i = 0; i < count; i++) {
         tahr__plane plane = {.normal = contacts[i].normal,
-                             .offset = skin - contacts[i].distance,
+                             .offset = step->config->skin - contacts[i].distance,
                              .body = contacts[i].body,
                              .feature = contacts[i].feature};
-        tahr__planes_add(planes, &used, &plane);
+        if (!is_in_plane(step) || tahr__plane_surface(step, &plane.normal, &plane.offset)) {
+            tahr__planes_add(planes, &used, &plane);
+        }
     }
     return tahr__project(planes, used, vec(0, 0, 0), push);
 }
@@ -116,7 +119,7 @@ int tahr__depenetrate(tahr__step *step)
     double depth = deepest(contacts, count);
     for (int round = 0; round < TAHR__DEPENETRATION_ROUNDS && depth > TOUCHING && step->push_left > 0; round++) {
         vec3 push, before = step->state.position;
-        int frees = joint_push(contacts, count, skin, &push);
+        int frees = joint_push(step, contacts, count, &push);
         double size = length(push);
         if (size > step->push_left) {
             push = scale(push, step->push_left / size);

@@ -11,6 +11,7 @@
 #include "message.h"
 #include "modes.h"
 #include "overlap.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 #include "sleep.h"
@@ -90,8 +91,11 @@ static void announce(tahr__step *step, double dt)
     double drop = c->snap_distance + c->perch_extra + fall;
     vec3 up = step->state.up, p = step->state.position;
     vec3 away = vec(max_of(up.x, -up.x), max_of(up.y, -up.y), max_of(up.z, -up.z));
-    double around = step->limits->around + level;
-    vec3 half = add_scaled(vec(around, around, around), away, step->limits->axis + 0.5 * (rise + drop));
+    double around = step->limits->around + level, axis = step->limits->axis;
+    if (is_stance_open(step)) {
+        tahr__announce_stance(step, &around, &axis);
+    }
+    vec3 half = add_scaled(vec(around, around, around), away, axis + 0.5 * (rise + drop));
     vec3 middle = add_scaled(p, up, 0.5 * (rise - drop));
     tahr_prepare a = {.bounds = {sub(middle, half), add(middle, half)}, .position = p, .up = up, .mask = c->mask};
     tahr__announce(step, &a);
@@ -99,6 +103,11 @@ static void announce(tahr__step *step, double dt)
 
 static void run(tahr__step *step, double dt)
 {
+    const tahr_input *input = step->input;
+    const vec3 start = step->state.position;
+    if (is_in_plane(step)) {
+        tahr__plane_begin(step);
+    }
     if (!is_upright(step)) {
         tahr__right(step);
     }
@@ -107,7 +116,9 @@ static void run(tahr__step *step, double dt)
     }
     announce(step, dt);
     tahr__follow_base(step, dt);
-    tahr__take_stance(step);
+    if (is_stance_open(step)) {
+        tahr__take_stance(step);
+    }
     if (step->input->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING)) {
         tahr__launch(step);
     }
@@ -120,6 +131,9 @@ static void run(tahr__step *step, double dt)
     }
     if (left > MIN_SLICE) {
         step->report.time_lost += left;
+    }
+    if (is_in_plane(step)) {
+        tahr__plane_end(step, input, start);
     }
     tahr__take_base(step);
     tahr__find_overlaps(step);
@@ -251,7 +265,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.context = (tahr_query_context){.cache = mover->cache};
     step.pull = &mover->limits.pull;
     if (input->flags & TAHR_INPUT_GRAVITY) {
-        pull = tahr__pull_of(input->gravity);
+        pull = tahr__pull_of(along_plane(&mover->limits, input->gravity));
         step.pull = &pull;
     }
     step.time = 0;

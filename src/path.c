@@ -3,10 +3,12 @@
 #include "path.h"
 
 #include "floor.h"
+#include "launch.h"
 #include "move.h"
 #include "query.h"
 #include "report.h"
 #include "slide.h"
+#include "stance.h"
 #include "step_up.h"
 
 /* The velocity asked for, and how it is approached. Along walls what they leave of it is asked for: pushing slantwise into
@@ -14,9 +16,13 @@
 static inline void set_law(tahr__path *w, const tahr__step *step)
 {
     const tahr_config *c = step->config;
+    if (is_driven(step)) {
+        w->law = drive_law(tahr__slide(w->walls, w->wall_count, step_level(step, step->input->drive)));
+        return;
+    }
     vec3 wish = step_level(step, step->input->move);
     double size = length(wish);
-    double asked = c->max_speed * min_of(size, 1);
+    double asked = walking_speed(step) * min_of(size, 1);
     double kept = 1; /* cosine to the wall: of the speed and of the acceleration */
     if (w->wall_count > 0 && size > 0) {
         wish = tahr__bend(w->walls, w->wall_count, wish);
@@ -50,12 +56,17 @@ void tahr__path_carry_floor(tahr__path *w, const tahr__step *step)
 static inline void begin_piece(tahr__step *step, tahr__path *w, vec3 velocity, double duration)
 {
     set_law(w, step);
-    w->velocity = tahr__slide(w->walls, w->wall_count, velocity);
+    w->velocity = is_driven(step) ? scale(w->law.wish, w->law.speed) : tahr__slide(w->walls, w->wall_count, velocity);
     w->duration = duration;
     tahr__motion m = tahr__law_advance(&w->law, w->velocity, duration);
     w->wish = m.displacement;
     w->left = w->left_before = 1;
     w->stop_time = m.stop_time >= 0 ? w->began + m.stop_time : -1;
+    if (is_drifting(step)) {
+        w->drift = step_level(step, step->input->drive);
+        w->wish = tahr__slide(w->walls, w->wall_count, add_scaled(w->wish, w->drift, duration));
+        w->stop_time = -1; /* its own velocity may stop, the character does not */
+    }
     w->from = step->state.position;
     step->state.velocity = m.velocity;
 }
@@ -68,6 +79,7 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     w->turns = 0;
     w->careful = 0;
     w->ease = 0;
+    w->drifts = (uint32_t)is_drifting(step);
     tahr__path_carry_floor(w, step);
     w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
     begin_piece(step, w, step_level(step, step->state.velocity), duration);
@@ -80,6 +92,9 @@ static double time_of_part(const tahr__path *w, double part)
     double size2 = length_squared(w->wish);
     if (part <= 0 || part >= 1 || size2 == 0) {
         return part <= 0 ? 0 : w->duration;
+    }
+    if (w->drifts) {
+        return tahr__drift_time(&w->law, w->velocity, w->drift, w->duration, w->wish, part);
     }
     if (dot(w->velocity, w->wish) < 0 && part * part * size2 <= touched * touched) {
         return 0; /* turns round first, and passes here again later: what is met at once was touched at the begin */
@@ -209,7 +224,8 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit, doubl
 {
     vec3 velocity = tahr__law_advance(&w->law, w->velocity, used).velocity;
     step->ahead = w->began + used;
-    tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(velocity, hit->normal), 0));
+    vec3 whole = w->drifts ? add(velocity, w->drift) : velocity;
+    tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(whole, hit->normal), 0));
     step->report.slides++;
     if (!add_wall(step, w, hit)) {
         return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");

@@ -12,6 +12,7 @@
 #include "move.h"
 #include "path.h"
 #include "report.h"
+#include "stance.h"
 
 void tahr__leave_floor(tahr__step *step)
 {
@@ -112,7 +113,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
         if (w->turns > 0 && !w->careful) {
             return WALK_AGAIN;
         }
-        if (!step->config->walk_off_ledges) {
+        if (!may_walk_off(step)) {
             tahr__stay_on_ledge(step, w);
             return FLOOR;
         }
