@@ -75,20 +75,29 @@ static change plan(const tahr__step *step, const tahr_shape *shape)
     return to;
 }
 
-/* The least way along up that brings a skin between the shape and what it overlaps; half-way between floor and ceiling. */
-static double clearing(const tahr__step *step, const tahr_contact *contacts, uint32_t count)
+/* The ways along up, from the place to->at, that leave a skin to all that was found in the way. */
+typedef struct span {
+    double low, high;
+} span;
+
+static void narrow(const tahr__step *step, const tahr_contact *contacts, uint32_t count, double shift, span *free)
 {
-    double low = -INFINITY, high = INFINITY;
     for (uint32_t i = 0; i < count; i++) {
         double rate = dot(contacts[i].normal, step->state.up);
         double lack = step->config->skin - contacts[i].distance;
         if (rate > SIDEWAYS) {
-            low = max_of(low, lack / rate);
+            free->low = max_of(free->low, shift + lack / rate);
         } else if (rate < -SIDEWAYS) {
-            high = min_of(high, lack / rate);
+            free->high = min_of(free->high, shift + lack / rate);
         }
     }
-    return low > high ? 0.5 * (low + high) : clamp(0, low, high);
+}
+
+/* The least of them; half-way where floor and ceiling leave less than a skin each. */
+static double least_way(const span *free, const change *to)
+{
+    double way = free->low > free->high ? 0.5 * (free->low + free->high) : clamp(0, free->low, free->high);
+    return clamp(way, to->low, to->high);
 }
 
 static int fits(tahr__step *step, vec3 at, tahr_contact *contacts, uint32_t *count)
@@ -103,12 +112,19 @@ static int find_room(tahr__step *step, const change *to, vec3 *at)
 {
     tahr_contact contacts[CONTACTS];
     uint32_t count;
+    span free = {-INFINITY, INFINITY};
+    double shift = 0, next = 0;
     *at = to->at;
     int ok = fits(step, *at, contacts, &count);
-    if (!ok) {
-        double shift = clamp(clearing(step, contacts, count), to->low, to->high);
+    for (int tries = 0; tries < 2 && !ok; tries++) { /* away from what is in the way, and then from what is behind */
+        narrow(step, contacts, count, shift, &free);
+        next = least_way(&free, to);
+        if (next == shift) {
+            break;
+        }
+        shift = next;
         *at = add_scaled(to->at, step->state.up, shift);
-        ok = shift != 0 && fits(step, *at, contacts, &count);
+        ok = fits(step, *at, contacts, &count);
     }
     tahr_hit hit;
     memset(&hit, 0, sizeof hit);
