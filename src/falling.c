@@ -17,8 +17,8 @@ typedef struct arc {
     vec3 level;    /* velocity across the axis */
     double rise;   /* velocity along it */
     double gravity, terminal, hold;
-    int drifts;    /* 1: a drive comes on top of the velocity */
-    vec3 drift;    /* m/s, with drifts */
+    int drifts; /* 1: a drive comes on top of the velocity */
+    vec3 drift; /* m/s, with drifts */
 } arc;
 
 typedef struct fall {
