@@ -72,6 +72,7 @@ typedef struct tahr__limits {
     double walkable_hysteresis; /* the same for a floor that was walkable */
     double width;               /* m, half width of the shape: what perch and edge rules measure against */
     double around;              /* m, radius of the circle around the shape seen along its axis */
+    double speed;               /* m/s that a whole stick asks for on ground */
     double axis;                /* m, half of the segment that rounding makes a capsule, or half the height of a box */
     tahr__pull pull;            /* of config.gravity, in the plane */
     tahr__foot foot;            /* of the whole shape */
@@ -114,7 +115,9 @@ typedef struct tahr__step {
     tahr_report report;
     tahr_query_context context;
     tahr__limits own_limits; /* what limits points to while the shape is not the config's */
-    tahr_input own_input;    /* what input points to while it is held in a plane */
+    tahr_input own_input;    /* what input points to while it is held in a plane, */
+    const tahr_input *given; /* instead of the caller's, */
+    vec3 began;              /* and where the character was before */
     uint32_t ignore_body;    /* not there for this step's queries now, or TAHR_NO_BODY */
     double dt;               /* s of the whole step */
     double time;             /* s since the start of the step, at the begin of the slice */

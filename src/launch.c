@@ -5,6 +5,7 @@
 #include "modes.h"
 #include "plane.h"
 #include "report.h"
+#include "slide.h"
 #include "walking.h"
 
 /* m/s: the fastest that a state may hold (mover.h). What is launched again and again stays a valid state. */
@@ -99,6 +100,22 @@ void tahr__launch(tahr__step *step)
     if (is_driven(step) && step->state.mode != TAHR_MODE_HANGING) {
         take_drive(step);
     }
+}
+
+void tahr__drive_piece(tahr__step *step, tahr__path *w)
+{
+    vec3 drive = step_level(step, step->input->drive);
+    w->stop_time = -1; /* what it has of its own may stop, the character does not */
+    w->drifts = (uint32_t)is_drifting(step);
+    if (w->drifts) {
+        w->drift = drive;
+        w->wish = tahr__slide(w->walls, w->wall_count, add_scaled(w->wish, drive, w->duration));
+        return;
+    }
+    w->velocity = tahr__slide(w->walls, w->wall_count, drive);
+    w->law = drive_law(w->velocity);
+    w->wish = scale(w->velocity, w->duration);
+    step->state.velocity = w->velocity;
 }
 
 /* Newton, held within what is known: 24 rounds of halving alone are a ten-millionth of the duration. */

@@ -4,6 +4,7 @@
 #define TAHR_LAUNCH_H
 
 #include "core.h"
+#include "path.h"
 
 /* What the input adds to the velocity at the begin of a step: a launch, which leaves the ground; an impulse, which leaves
  * it if it points upward; a drive, which is the velocity for this step. No query. */
@@ -44,6 +45,10 @@ static inline tahr__law drive_law(vec3 drive)
     tahr__law law = {.wish = size > 0 ? scale(drive, 1.0 / size) : vec(0, 0, 0), .speed = size};
     return law;
 }
+
+/* Puts a piece of a walk, just begun, under the drive: at its velocity, as far as the walls leave it, or drifting with
+ * it. No query. */
+void tahr__drive_piece(tahr__step *step, tahr__path *w);
 
 /* As tahr__law_time, of a motion that drifts. */
 double tahr__drift_time(const tahr__law *law, vec3 v, vec3 drift, double duration, vec3 whole, double part);

@@ -81,7 +81,7 @@ void tahr_mover_destroy(tahr_mover *mover)
 }
 
 /* Everything that the step is expected to ask about: its motion, steps up, snaps and perches down, a few skins. */
-static void announce(tahr__step *step, double dt)
+static void announce(tahr__step *step, double dt, int stance)
 {
     const tahr_config *c = step->config;
     vec3 v = step->state.velocity;
@@ -91,20 +91,18 @@ static void announce(tahr__step *step, double dt)
     double drop = c->snap_distance + c->perch_extra + fall;
     vec3 up = step->state.up, p = step->state.position;
     vec3 away = vec(max_of(up.x, -up.x), max_of(up.y, -up.y), max_of(up.z, -up.z));
-    double around = step->limits->around + level, axis = step->limits->axis;
-    if (is_stance_open(step)) {
-        tahr__announce_stance(step, &around, &axis);
-    }
-    vec3 half = add_scaled(vec(around, around, around), away, axis + 0.5 * (rise + drop));
+    double around = step->limits->around + level;
+    vec3 half = add_scaled(vec(around, around, around), away, step->limits->axis + 0.5 * (rise + drop));
     vec3 middle = add_scaled(p, up, 0.5 * (rise - drop));
     tahr_prepare a = {.bounds = {sub(middle, half), add(middle, half)}, .position = p, .up = up, .mask = c->mask};
+    if (stance) {
+        tahr__announce_stance(step, &a.bounds);
+    }
     tahr__announce(step, &a);
 }
 
 static void run(tahr__step *step, double dt)
 {
-    const tahr_input *input = step->input;
-    const vec3 start = step->state.position;
     if (is_in_plane(step)) {
         tahr__plane_begin(step);
     }
@@ -114,9 +112,10 @@ static void run(tahr__step *step, double dt)
     if (step->input->flags & TAHR_INPUT_FACING) {
         tahr__face(step, dt);
     }
-    announce(step, dt);
+    int stance = is_stance_open(step);
+    announce(step, dt, stance);
     tahr__follow_base(step, dt);
-    if (is_stance_open(step)) {
+    if (stance) {
         tahr__take_stance(step);
     }
     if (step->input->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING)) {
@@ -133,7 +132,7 @@ static void run(tahr__step *step, double dt)
         step->report.time_lost += left;
     }
     if (is_in_plane(step)) {
-        tahr__plane_end(step, input, start);
+        tahr__plane_end(step);
     }
     tahr__take_base(step);
     tahr__find_overlaps(step);

@@ -8,7 +8,6 @@
 #include "query.h"
 #include "report.h"
 #include "slide.h"
-#include "stance.h"
 #include "step_up.h"
 
 /* The velocity asked for, and how it is approached. Along walls what they leave of it is asked for: pushing slantwise into
@@ -16,13 +15,9 @@
 static inline void set_law(tahr__path *w, const tahr__step *step)
 {
     const tahr_config *c = step->config;
-    if (is_driven(step)) {
-        w->law = drive_law(tahr__slide(w->walls, w->wall_count, step_level(step, step->input->drive)));
-        return;
-    }
     vec3 wish = step_level(step, step->input->move);
     double size = length(wish);
-    double asked = walking_speed(step) * min_of(size, 1);
+    double asked = step->limits->speed * min_of(size, 1);
     double kept = 1; /* cosine to the wall: of the speed and of the acceleration */
     if (w->wall_count > 0 && size > 0) {
         wish = tahr__bend(w->walls, w->wall_count, wish);
@@ -56,19 +51,17 @@ void tahr__path_carry_floor(tahr__path *w, const tahr__step *step)
 static inline void begin_piece(tahr__step *step, tahr__path *w, vec3 velocity, double duration)
 {
     set_law(w, step);
-    w->velocity = is_driven(step) ? scale(w->law.wish, w->law.speed) : tahr__slide(w->walls, w->wall_count, velocity);
+    w->velocity = tahr__slide(w->walls, w->wall_count, velocity);
     w->duration = duration;
     tahr__motion m = tahr__law_advance(&w->law, w->velocity, duration);
     w->wish = m.displacement;
     w->left = w->left_before = 1;
     w->stop_time = m.stop_time >= 0 ? w->began + m.stop_time : -1;
-    if (is_drifting(step)) {
-        w->drift = step_level(step, step->input->drive);
-        w->wish = tahr__slide(w->walls, w->wall_count, add_scaled(w->wish, w->drift, duration));
-        w->stop_time = -1; /* its own velocity may stop, the character does not */
-    }
     w->from = step->state.position;
     step->state.velocity = m.velocity;
+    if (step->input->flags & TAHR_INPUT_DRIVE) {
+        tahr__drive_piece(step, w);
+    }
 }
 
 /* The plane arrays are left as they are: only what is counted is read. */
@@ -79,7 +72,7 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     w->turns = 0;
     w->careful = 0;
     w->ease = 0;
-    w->drifts = (uint32_t)is_drifting(step);
+    w->drifts = 0;
     tahr__path_carry_floor(w, step);
     w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
     begin_piece(step, w, step_level(step, step->state.velocity), duration);

@@ -30,6 +30,8 @@ void tahr__plane_begin(tahr__step *step)
 {
     const tahr__limits *l = step->limits;
     tahr_input *flat = &step->own_input;
+    step->given = step->input;
+    step->began = step->state.position;
     *flat = *step->input;
     flat->move = along_plane(l, flat->move);
     flat->launch = along_plane(l, flat->launch);
@@ -39,15 +41,15 @@ void tahr__plane_begin(tahr__step *step)
     step->state.velocity = along_plane(l, step->state.velocity);
 }
 
-void tahr__plane_end(tahr__step *step, const tahr_input *input, vec3 start)
+void tahr__plane_end(tahr__step *step)
 {
     tahr_state *s = &step->state;
     const vec3 n = step->limits->plane;
-    vec3 at = add_scaled(s->position, n, -dot(n, sub(s->position, start)));
+    vec3 at = add_scaled(s->position, n, -dot(n, sub(s->position, step->began)));
     if (vec_equal(s->floor_position, s->position)) {
         s->floor_position = at;
     }
     s->position = at;
     s->velocity = along_plane(step->limits, s->velocity);
-    step->input = input;
+    step->input = step->given;
 }

@@ -27,9 +27,8 @@ static inline int may_rise(const tahr__step *step)
  * forbids nothing, for a surface that faces out of the plane, which nothing in it can meet or leave. */
 int tahr__plane_surface(const tahr__step *step, vec3 *normal, double *offset);
 
-/* Holds the input and the velocity in the plane, for the step; and at its end the place and the velocity, in the plane
- * through `start`. No query. */
+/* Holds the input and the velocity in the plane, for the step; and at its end the place and the velocity. No query. */
 void tahr__plane_begin(tahr__step *step);
-void tahr__plane_end(tahr__step *step, const tahr_input *input, vec3 start);
+void tahr__plane_end(tahr__step *step);
 
 #endif

@@ -187,11 +187,13 @@ void tahr__take_stance(tahr__step *step)
     s->flags = (s->flags & ~(uint32_t)TAHR_STATE_CROUCHED) | (crouched ? (uint32_t)TAHR_STATE_CROUCHED : 0u);
 }
 
-void tahr__announce_stance(const tahr__step *step, double *around, double *axis)
+/* It may be shifted as far as it grows, and reach as far again. */
+void tahr__announce_stance(const tahr__step *step, tahr_bounds *bounds)
 {
     const tahr_shape *now = &step->limits->shape;
     tahr_shape shape = wanted(step);
     double taller = shape.half_height - now->half_height, wider = shape.radius - now->radius;
-    *around += max_of(wider, 0);
-    *axis += 2 * max_of(taller, -taller) + max_of(wider, 0);
+    double reach = 2 * max_of(taller, -taller) + 2 * max_of(wider, 0);
+    bounds->min = sub(bounds->min, vec(reach, reach, reach));
+    bounds->max = add(bounds->max, vec(reach, reach, reach));
 }

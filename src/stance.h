@@ -13,26 +13,19 @@ void tahr__use_shape(tahr__step *step, double radius, double half_height);
  * growing gives way to a floor or a ceiling. Frozen and hanging characters keep their shape. 0 to 3 contact queries. */
 void tahr__take_stance(tahr__step *step);
 
-/* Widens what is announced by what a change of the shape may reach: the radius of the circle around it, and the half
- * length of its axis. No query. */
-void tahr__announce_stance(const tahr__step *step, double *around, double *axis);
+/* Widens what is announced by what a change of the shape may reach. No query. */
+void tahr__announce_stance(const tahr__step *step, tahr_bounds *bounds);
 
 /* May this step have another shape than config.shape, or want one? */
 static inline int is_stance_open(const tahr__step *step)
 {
     uint32_t asked = step->input->crouch | (step->input->flags & TAHR_INPUT_SHAPE);
-    return (asked | (step->state.flags & TAHR_STATE_CROUCHED)) || step->limits == &step->own_limits;
+    return asked || step->limits == &step->own_limits;
 }
 
 static inline int is_crouched(const tahr__step *step)
 {
     return (step->state.flags & TAHR_STATE_CROUCHED) != 0;
-}
-
-/* m/s that a whole stick asks for on ground. */
-static inline double walking_speed(const tahr__step *step)
-{
-    return is_crouched(step) ? step->config->crouched_speed : step->config->max_speed;
 }
 
 /* Does it fall off ledges, or stop at them? */

@@ -338,6 +338,29 @@ static void crouching_never_makes_it_taller_and_never_less_than_round(void **unu
     }
 }
 
+/* Pulled back from contacts instead of keeping a skin: the clearance under the foot may be used up to stand up. */
+static void standing_up_uses_the_gap_under_the_foot_where_no_skin_is_kept(void **unused)
+{
+    (void)unused;
+    for (int pulled_back = 0; pulled_back < 2; pulled_back++) {
+        fake_world w;
+        rig r;
+        tahr_config c = rig_config();
+        c.separation = pulled_back ? TAHR_SEPARATION_PULL_BACK : TAHR_SEPARATION_MARGIN;
+        fake_world_flat(&w);
+        rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
+        r.input.crouch = 1;
+        rig_steps(&r, 2, 1.0 / 60);
+        fake_add_plane(&w, fake_vec(0, 0, -1), -(2 * STANDING + 0.008)); /* a gap of 10 to 15 mm does not fit */
+        r.input.crouch = 0;
+        rig_step(&r, 1.0 / 60);
+        assert_int_equal((r.report.flags & TAHR_REPORT_SHAPE_REFUSED) == 0, pulled_back);
+        assert_near(r.state.half_height, pulled_back ? STANDING : CROUCHED, 0);
+        assert_true(room_around(&r, &w) > 1e-5 - 1e-9);
+        rig_close(&r);
+    }
+}
+
 static void sizes_that_no_such_shape_has_are_refused(void **unused)
 {
     const struct {
@@ -426,6 +449,7 @@ int main(void)
                                        cmocka_unit_test(a_wider_foot_stands_higher_on_a_slope),
                                        cmocka_unit_test(crouched_characters_stop_at_ledges_if_told_so),
                                        cmocka_unit_test(crouching_never_makes_it_taller_and_never_less_than_round),
+                                       cmocka_unit_test(standing_up_uses_the_gap_under_the_foot_where_no_skin_is_kept),
                                        cmocka_unit_test(sizes_that_no_such_shape_has_are_refused),
                                        cmocka_unit_test(spheres_and_frozen_characters_do_not_crouch)};
     return cmocka_run_group_tests(tests, NULL, NULL);
