@@ -5,6 +5,7 @@
 #include "floor.h"
 #include "launch.h"
 #include "move.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 #include "slide.h"
@@ -203,7 +204,8 @@ static int add_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
     uint32_t count = dot(hit->normal, step->state.up) < 0 && w->ramp_count > 1 ? w->ramp_count : 1;
     for (uint32_t i = 0; i < count; i++) {
         tahr__plane wall = tahr__plane_of(step, hit);
-        if (!tahr__level_wall(step, w->ramp_count ? w->ramps[i] : step->state.up, &wall)) {
+        if (!tahr__level_wall(step, w->ramp_count ? w->ramps[i] : step->state.up, &wall) ||
+            (is_in_plane(step) && !tahr__plane_surface(step, &wall.normal, &wall.offset))) {
             return 0;
         }
         wall.body ^= i << 24; /* a key of its own for every ramp */

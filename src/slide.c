@@ -53,5 +53,5 @@ int tahr__level_wall(const tahr__step *step, vec3 floor_normal, tahr__plane *wal
         return 0;
     }
     wall->normal = unit(level);
-    return !is_in_plane(step) || tahr__plane_surface(step, &wall->normal, &wall->offset);
+    return 1;
 }
