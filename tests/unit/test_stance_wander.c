@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "dice.h"
+#include "native_world.h"
 #include "rig.h"
 
 /* A room of 12 m x 12 m, 4 m high, with blocks to step and climb on, and slabs to crawl under. */
@@ -92,8 +92,31 @@ static void random_shapes_never_overlap_and_repeat_their_bits(void **unused)
     }
 }
 
+/* What a change of the shape asks lies in the box that was announced: nothing is gathered twice. */
+static void growing_stays_inside_of_what_was_announced(void **unused)
+{
+    (void)unused;
+    for (int air = 0; air < 2; air++) {
+        static native_grid grid;
+        tahr_body_desc floor = native_grid_body(&grid, 20, 1, NULL);
+        rig r;
+        rig_open_bodies(&r, &floor, 1, NULL, fake_vec(10, 10, 0.95));
+        rig_settle(&r);
+        r.state.mode = air ? TAHR_MODE_FALLING : r.state.mode;
+        r.input.flags = TAHR_INPUT_SHAPE;
+        r.input.radius = 2.5;
+        r.input.half_height = 4;
+        rig_step(&r, 1.0 / 60);
+        assert_near(r.state.half_height, 4, 0);
+        assert_true(r.report.contact_queries > 0);
+        assert_int_equal(r.report.escapes, 0);
+        rig_close(&r);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(random_shapes_never_overlap_and_repeat_their_bits)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(random_shapes_never_overlap_and_repeat_their_bits),
+                                       cmocka_unit_test(growing_stays_inside_of_what_was_announced)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
