@@ -98,7 +98,7 @@ static void growing_stays_inside_of_what_was_announced(void **unused)
     (void)unused;
     for (int air = 0; air < 2; air++) {
         static native_grid grid;
-        tahr_body_desc floor = native_grid_body(&grid, 20, 1, NULL);
+        tahr_body_desc floor = native_grid_body(&grid, 2, 20, NULL); /* 8 triangles: all gathered */
         rig r;
         rig_open_bodies(&r, &floor, 1, NULL, fake_vec(10, 10, 0.95));
         rig_settle(&r);
