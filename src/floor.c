@@ -10,6 +10,7 @@
 #include "floor_distance.h"
 #include "foot.h"
 #include "perch.h"
+#include "plane.h"
 #include "report.h"
 
 /* Faces this close to vertical are never a floor, whatever an override says. */
@@ -315,7 +316,7 @@ static double adjust_whole(tahr__step *step)
     const tahr_floor *floor = &step->state.floor;
     double target = c->floor_target * c->skin;
     double gap = floor->distance;
-    if (!floor_is_walkable(floor) || floor_is_in_band(step)) {
+    if (!floor_is_walkable(floor) || floor_is_in_band(step) || !may_rise(step)) {
         return 0;
     }
     vec3 before = step->state.position;

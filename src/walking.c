@@ -13,6 +13,7 @@
 #include "path.h"
 #include "report.h"
 #include "scope.h"
+#include "stance.h"
 
 void tahr__leave_floor(tahr__step *step)
 {
@@ -113,7 +114,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
         if (w->turns > 0 && !w->careful) {
             return WALK_AGAIN;
         }
-        if (!step->config->walk_off_ledges) {
+        if (!may_walk_off(step)) {
             tahr__stay_on_ledge(step, w);
             return FLOOR;
         }
