@@ -148,8 +148,7 @@ static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied,
     tahr__decide(step, TAHR_RULE_FLOOR, ok, &hit, floor->distance, range, "floor distance");
 }
 
-/* May the body that holds the character move without a change of the world's revision being all there is to see of it?
- * What the core knows nothing of may, if anything of its world does. */
+/* The field's dynamic base. Of a body that the core was not told of it is enough that bodies of its world move. */
 static int may_move(const tahr_world *world, uint32_t body)
 {
     if (world->bodies && body < world->body_count) {
