@@ -91,6 +91,12 @@ typedef struct tahr__sleep {
     tahr_event events[TAHR__SLEEP_EVENTS];
 } tahr__sleep;
 
+/* The function of TAHR_MODE_CUSTOM, or none. */
+typedef struct tahr__custom {
+    tahr_custom_mode_fn run;
+    void *user;
+} tahr__custom;
+
 struct tahr_mover {
     tahr_world *world;
     tahr_config config;
@@ -98,16 +104,21 @@ struct tahr_mover {
     void *cache;
     size_t cache_size;
     uint32_t busy;
+    tahr__custom custom;
     tahr__sleep sleep;
 };
 
+/* Public as the opaque tahr_step of a custom mode. */
+typedef tahr_step tahr__step;
+
 /* One step in progress: working copies of what it writes, so that an error leaves the caller's untouched. */
-typedef struct tahr__step {
+struct tahr__step {
     const tahr_config *config;
     const tahr__limits *limits;
     tahr_world *world;
     const tahr_input *input;
     const tahr__pull *pull;
+    const tahr__custom *custom;
     tahr_state state;
     tahr_report report;
     tahr_query_context context;
@@ -119,7 +130,7 @@ typedef struct tahr__step {
     double push_left;        /* m of depenetration still allowed */
     uint32_t queries;        /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
     tahr_status error;       /* sticky: after it every query answers "blocked here" */
-} tahr__step;
+};
 
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */
 typedef struct tahr__next {

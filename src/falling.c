@@ -8,6 +8,7 @@
 #include "query.h"
 #include "report.h"
 #include "slide.h"
+#include "swimming.h"
 
 /* A contact-free arc from the character's position. */
 typedef struct arc {
@@ -170,6 +171,24 @@ static void use_time(tahr__step *step, fall *f, double t)
     }
 }
 
+static vec3 place_on_arc(const void *self, double t)
+{
+    vec3 v;
+    return arc_at(self, t, &v);
+}
+
+/* s of the chord until a fluid carries. */
+static double until_fluid(tahr__step *step, const arc *a, double duration)
+{
+    const tahr__way way = {a, place_on_arc};
+    vec3 v, to = arc_at(a, duration, &v);
+    double line = tahr__swim_line(step->config), m = tahr__fluid(step, add(step->state.position, to)).immersion;
+    if (m < line || (m < 1 && dot(v, step->state.up) > 0)) {
+        return duration;
+    }
+    return tahr__passing_time(step, &way, duration, m, line, 1);
+}
+
 /* One chord. Returns 1 if something was hit. */
 static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
 {
@@ -182,6 +201,11 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         duration = apex;
     } else if (f->left > duration) { /* equal chords rather than a short last one */
         duration = f->left / (double)(int)(f->left / duration + 1);
+    }
+    if (step_has_fluids(step)) {
+        double dry = until_fluid(step, &a, duration);
+        reaches_apex = reaches_apex && dry == duration;
+        duration = dry;
     }
     vec3 chord = slide_in_air(step, f, arc_at(&a, duration, &v));
     vec3 start = step->state.position;
@@ -228,6 +252,11 @@ tahr__next tahr__fall(tahr__step *step, double time)
     while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         tahr__planes_forget(step, f.planes, &f.plane_count);
+        if (step_has_fluids(step) && tahr__is_carried(step, step->state.position, step->state.velocity)) {
+            tahr__next swim = {TAHR_MODE_SWIMMING, f.left};
+            tahr__begin_swimming(step);
+            return swim;
+        }
         if (!fall_chord(step, &f, &hit)) {
             if (hit.blocking) {
                 break; /* unknown or crushed: the rest of the time is lost */

@@ -4,6 +4,7 @@
 
 #include "modes.h"
 #include "report.h"
+#include "swimming.h"
 #include "walking.h"
 
 /* A jump starts when the button goes down on ground. */
@@ -17,6 +18,10 @@ void tahr__begin_jump(tahr__step *step)
         return;
     }
     s->flags |= TAHR_STATE_JUMP_HELD;
+    if (!held && s->mode == TAHR_MODE_SWIMMING) {
+        tahr__jump_from_water(step);
+        return;
+    }
     if (held || s->mode != TAHR_MODE_WALKING) {
         return;
     }
