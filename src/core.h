@@ -119,6 +119,8 @@ typedef struct tahr__step {
     double ahead;             /* s from there to what is being worked on: events happen then */
     double push_left;         /* m of depenetration still allowed */
     uint32_t queries;         /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
+    uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
+    uint32_t apexes;          /* of them cut short at an apex */
     tahr_status error;        /* sticky: after it every query answers "blocked here" */
 } tahr__step;
 
