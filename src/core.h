@@ -141,6 +141,12 @@ static inline vec3 step_level(const tahr__step *step, vec3 v)
     return reject(v, step->state.up);
 }
 
+/* TAHR_BODY_* of a body that the core described, else 0. */
+static inline uint32_t world_body_flags(const tahr_world *world, uint32_t body)
+{
+    return body < world->body_count && world->bodies ? world->bodies[body].flags : 0;
+}
+
 /* The part that config.plane lets through. */
 static inline vec3 step_constrained(const tahr__step *step, vec3 v)
 {
