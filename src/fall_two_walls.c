@@ -26,6 +26,7 @@ typedef struct fall {
     vec3 free;    /* velocity at its end without air control */
     vec3 control; /* m/s2: the rest of it */
     int controls; /* somebody steers */
+    double apex;  /* s into the slice at which the rise ends; < 0: not in it */
     tahr__swept swept;
 } fall;
 
@@ -105,17 +106,23 @@ static void begin_slice(tahr__step *step, fall *f)
     vec3 after = advance(step, f, &law, f->h, &f->motion);
     f->free = f->controls ? advance(step, f, &idle, f->h, &unused) : after;
     f->control = scale(sub(after, f->free), 1.0 / f->h);
-    double apex = apex_time(step, f, after);
-    int cuts = step->config->apex_substep && step->apexes < MOST_APEXES && apex >= SHORT_SLICE && apex < f->h;
+    f->apex = apex_time(step, f, after);
+    int cuts =
+        step->config->apex_substep && step->apexes < MOST_APEXES && f->apex >= SHORT_SLICE && f->apex < f->h;
     if (cuts) {
-        end_at_apex(step, f, &law, apex, &after);
+        end_at_apex(step, f, &law, f->apex, &after);
         f->free = add_scaled(after, f->control, -f->h);
     }
     s->velocity = after;
-    if (apex >= 0) {
-        step->ahead = apex;
+}
+
+/* The rise has ended by itself, not at a ceiling. */
+static void tell_apex(tahr__step *step, const fall *f)
+{
+    if (f->apex >= 0 && f->apex <= f->h - f->rest) {
+        step->ahead = f->apex;
         tahr__event(step, TAHR_EVENT_APEX, NULL, 0);
-        s->flags &= ~(uint32_t)TAHR_STATE_JUMPING;
+        step->state.flags &= ~(uint32_t)TAHR_STATE_JUMPING;
     }
 }
 
@@ -256,7 +263,10 @@ static int fall_slice(tahr__step *step, fall *f)
     int answer = GOES_ON;
     begin_slice(step, f);
     f->rest = f->h;
-    if (move_on(step, f, f->motion)) {
+    int met = move_on(step, f, f->motion);
+    tell_apex(step, f);
+    step->ahead = f->h - f->rest;
+    if (met) {
         answer = f->swept.hit.unknown ? ENDS : meet(step, f);
     }
     step->state.jump_hold = max_of(step->state.jump_hold - f->h, 0);
