@@ -16,7 +16,20 @@ typedef struct before {
     tahr_state state;
     tahr_report report;
     double time, push_left;
+    uint32_t just_teleported, iterations, apexes; /* STEPPED */
 } before;
+
+static before before_of(const tahr__step *step)
+{
+    before b = {.state = step->state,
+                .report = step->report,
+                .time = step->time,
+                .push_left = step->push_left,
+                .just_teleported = step->just_teleported,
+                .iterations = step->iterations,
+                .apexes = step->apexes};
+    return b;
+}
 
 static void go_back(tahr__step *step, const before *b)
 {
@@ -34,6 +47,9 @@ static void go_back(tahr__step *step, const before *b)
     step->report.flags |= now.flags & (TAHR_REPORT_UNKNOWN | TAHR_REPORT_QUERY_CAP);
     step->time = b->time;
     step->push_left = b->push_left;
+    step->just_teleported = b->just_teleported;
+    step->iterations = b->iterations;
+    step->apexes = b->apexes;
     step->ahead = 0;
 }
 
@@ -47,7 +63,7 @@ static tahr__next swim_on(tahr__step *step, double left)
 /* Walks again, and only as far as the line. deep: the immersion where the whole walk ends. */
 static tahr__next walk_to_line(tahr__step *step, double time, double line, double deep)
 {
-    const before begin = {step->state, step->report, step->time, step->push_left};
+    const before begin = before_of(step);
     double shallow = tahr__fluid(step, step->state.position).immersion;
     double from = 0, to = time, t = 0;
     tahr__next next;
@@ -76,7 +92,7 @@ static tahr__next walk_to_line(tahr__step *step, double time, double line, doubl
 
 tahr__next tahr__wade(tahr__step *step, double time)
 {
-    const before begin = {step->state, step->report, step->time, step->push_left};
+    const before begin = before_of(step);
     double line = tahr__swim_line(step->config);
     tahr__next next = tahr__walk(step, time);
     if (next.mode != TAHR_MODE_WALKING || (step->report.flags & TAHR_REPORT_CACHED_FLOOR)) {
