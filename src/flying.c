@@ -5,6 +5,7 @@
 #include "glide.h"
 #include "move.h"
 #include "report.h"
+#include "stepped.h"
 
 /* m/s: a drag alone never ends. A deceleration of the drag at this speed does, at the same time at every frame rate. */
 static const double HOVERS = 1e-3;
@@ -45,30 +46,56 @@ static double time_of_part(const tahr__law *law, vec3 v, double piece, vec3 whol
                                                                             : tahr__law_time(law, v, piece, whole, part);
 }
 
+/* STEPPED: one velocity for all of it. */
+static tahr__motion stepped(const tahr__step *step, const tahr__law *law, vec3 v, double t)
+{
+    tahr__law push = *law;
+    push.acceleration *= min_of(length(step->input->move), 1); /* half a stick is half the acceleration too */
+    push.braking = 0;
+    push.turn_friction = 0.5 * law->drag; /* half of the friction turns, all of it brakes, the air takes its half too */
+    vec3 then = tahr__calc_velocity(step->config, &push, 0.5 * law->drag, v, t);
+    tahr__motion m = {scale(then, t), then, -1};
+    return m;
+}
+
+/* One piece of the slice. Returns 0 if nothing can go on from where it ended. */
+static int fly_piece(tahr__step *step, tahr__glide *g)
+{
+    int steps = step->config->integrator == TAHR_INTEGRATOR_STEPPED;
+    tahr_hit hit;
+    vec3 v = tahr__glide_bend(g, step->state.velocity);
+    tahr__law law = law_of(step, g);
+    double piece = tahr__glide_piece(step, g, bending(&law, v)), used = piece;
+    tahr__motion m = steps ? stepped(step, &law, v, piece) : tahr__law_advance(&law, v, piece);
+    vec3 way = tahr__glide_bend(g, m.displacement);
+    step->state.velocity = m.velocity;
+    if (length_squared(way) == 0) {
+        tahr__glide_use(step, g, piece);
+        return 1;
+    }
+    if (step->config->slide_solver == TAHR_SLIDE_TWO_WALLS) {
+        tahr__glide_two_walls(step, g, way, piece, &hit);
+        return !hit.unknown && !hit.start_overlap;
+    }
+    tahr__move(step, way, &hit);
+    if (hit.blocking) {
+        used = steps ? piece * hit.fraction : time_of_part(&law, v, piece, way, hit.fraction);
+        step->state.velocity = steps ? m.velocity : tahr__law_advance(&law, v, used).velocity;
+    } else if (m.stop_time >= 0) {
+        step->ahead = m.stop_time;
+        tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);
+        step->ahead = 0;
+    }
+    tahr__glide_use(step, g, used);
+    return !hit.blocking || tahr__glide_meet(step, g, &hit, scale(way, 1 - hit.fraction));
+}
+
 tahr__next tahr__fly(tahr__step *step, double time)
 {
     tahr__glide g;
-    tahr_hit hit;
     tahr__next next = {TAHR_MODE_FLYING, 0};
     tahr__glide_begin(step, &g, time);
-    while (tahr__glide_goes_on(step, &g)) {
-        vec3 v = tahr__glide_bend(&g, step->state.velocity);
-        tahr__law law = law_of(step, &g);
-        double piece = tahr__glide_piece(step, &g, bending(&law, v));
-        tahr__motion m = tahr__law_advance(&law, v, piece);
-        vec3 way = tahr__glide_bend(&g, m.displacement);
-        if (length_squared(way) == 0) {
-            step->state.velocity = m.velocity;
-            tahr__glide_use(step, &g, piece);
-            continue;
-        }
-        tahr__move(step, way, &hit);
-        double used = hit.blocking ? time_of_part(&law, v, piece, way, hit.fraction) : piece;
-        step->state.velocity = used < piece ? tahr__law_advance(&law, v, used).velocity : m.velocity;
-        tahr__glide_use(step, &g, used);
-        if (hit.blocking && !tahr__glide_meet(step, &g, &hit, scale(way, 1 - hit.fraction))) {
-            break;
-        }
+    while (tahr__glide_goes_on(step, &g) && fly_piece(step, &g)) {
     }
     tahr__glide_end(step, &g);
     return next;

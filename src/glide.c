@@ -77,8 +77,10 @@ static void stand_on_nothing(tahr__step *step)
     tahr__keep_floor(step, &here);
 }
 
-static int take_step(tahr__step *step, const tahr_hit *hit, vec3 rest)
+static int take_step(tahr__step *step, const tahr__swept *swept, vec3 rest)
 {
+    const tahr_hit *hit = &swept->hit;
+    int found;
     vec3 wish = step->input->move, up = step->state.up;
     double steep = dot(hit->normal, up), size = length(wish), lean = dot(wish, up);
     vec3 level = step_level(step, rest);
@@ -87,7 +89,7 @@ static int take_step(tahr__step *step, const tahr_hit *hit, vec3 rest)
         return 0;
     }
     stand_on_nothing(step);
-    if (tahr__step_up(step, level, hit) > 0) {
+    if (tahr__step_up_at(step, level, swept, &found)) {
         return 1;
     }
     tahr__glide_forget_floor(step);
@@ -99,8 +101,9 @@ int tahr__glide_meet(tahr__step *step, tahr__glide *g, const tahr_hit *hit, vec3
     if (hit->unknown || hit->start_overlap) {
         return 0;
     }
+    const tahr__swept swept = {.hit = *hit, .location = step->state.position, .motion = rest};
     g->hits++;
-    if (take_step(step, hit, rest)) {
+    if (take_step(step, &swept, rest)) {
         g->plane_count = 0; /* what stood beside the foot below need not stand here */
         return 1;
     }
@@ -110,6 +113,28 @@ int tahr__glide_meet(tahr__step *step, tahr__glide *g, const tahr_hit *hit, vec3
     step->state.velocity = tahr__glide_bend(g, step->state.velocity);
     step->report.slides++;
     return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(hit->normal, step->state.up), 0, "slides along");
+}
+
+void tahr__glide_two_walls(tahr__step *step, tahr__glide *g, vec3 motion, double time, tahr_hit *hit)
+{
+    tahr__swept swept;
+    vec3 from = step->state.position;
+    tahr__safe_move(step, motion, &swept);
+    *hit = swept.hit;
+    if (hit->blocking && !hit->start_overlap && !hit->unknown) {
+        double rest = 1 - hit->fraction;
+        step->ahead = time * hit->fraction;
+        if (!take_step(step, &swept, scale(motion, rest))) {
+            tahr__handle_impact(step, hit);
+            tahr__slide_along_surface(step, motion, rest, hit->normal, &swept);
+            step->report.slides++;
+        }
+        step->ahead = 0;
+    }
+    if (hit->blocking && time > 0) {
+        step->state.velocity = scale(sub(step->state.position, from), 1 / time);
+    }
+    tahr__glide_use(step, g, time);
 }
 
 void tahr__glide_end(tahr__step *step, tahr__glide *g)

@@ -40,6 +40,11 @@ void tahr__glide_use(tahr__step *step, tahr__glide *glide, double time);
  * on. Returns 0 if nothing can go on from here (an overlap, or an answer that is none). 1 to 6 sweeps with a step up. */
 int tahr__glide_meet(tahr__step *step, tahr__glide *glide, const tahr_hit *hit, vec3 rest);
 
+/* config.slide_solver TWO_WALLS: the whole piece of `time` seconds at once, over, or along one surface and a second one. The
+ * velocity of one that was blocked is what was covered. [out] hit: what was met first. 1 to 4 sweeps, 3 to 8 queries with a
+ * step up, and what overlaps ask. */
+void tahr__glide_two_walls(tahr__step *step, tahr__glide *glide, vec3 motion, double time, tahr_hit *hit);
+
 /* The end of a slice: what could not be used is lost. STEPPED: the velocity is what was really covered. */
 void tahr__glide_end(tahr__step *step, tahr__glide *glide);
 

@@ -13,6 +13,7 @@
 #include "modes.h"
 #include "move.h"
 #include "report.h"
+#include "stepped.h"
 #include "stroke.h"
 #include "walking.h"
 
@@ -103,16 +104,27 @@ static double drift_time(const tahr__stroke *s, vec3 v)
     return tahr__log1p(speed / RESTS - 1) / s->rate;
 }
 
-typedef struct path {
-    const tahr__stroke *stroke;
+/* One piece of the slice: a stroke, or with STEPPED a constant velocity. */
+typedef struct piece {
+    const tahr__stroke *stroke; /* NULL: stepped */
     vec3 velocity;
-} path;
+    double time; /* s */
+} piece;
 
-static vec3 path_at(const void *self, double t)
+/* [out] velocity there. */
+static vec3 along_piece(const piece *p, double t, vec3 *velocity)
 {
-    const path *p = self;
+    if (p->stroke) {
+        return tahr__stroke_at(p->stroke, p->velocity, t, velocity);
+    }
+    *velocity = p->velocity;
+    return scale(p->velocity, t);
+}
+
+static vec3 piece_at(const void *self, double t)
+{
     vec3 v;
-    return tahr__stroke_at(p->stroke, p->velocity, t, &v);
+    return along_piece(self, t, &v);
 }
 
 double tahr__passing_time(tahr__step *step, const tahr__way *way, double duration, double end, double line, int deeper)
@@ -156,23 +168,57 @@ static double bending(const tahr__stroke *s, vec3 v)
     return s->rate * length(sub(s->target, add_scaled(v, s->up, -along))) + (rise < 0 ? -rise : rise);
 }
 
-/* s of the next piece, cut where the water begins or ends to carry. [out] ahead: the water at its end, if it is not cut
- * (returns 0 in *known if it is). */
-static double cut_piece(tahr__step *step, const tahr__glide *g, const tahr__stroke *s, double immersion,
-                        tahr_fluid *ahead, int *known)
+/* How far a stroke goes before the water begins or ends to carry it all, or its closed form ends. */
+static double stroke_time(const tahr__step *step, const tahr__glide *g, const tahr__stroke *s, double immersion)
 {
-    const path p = {s, step->state.velocity};
-    const tahr__way way = {&p, path_at};
+    const vec3 v = step->state.velocity;
     double leave = LEAVES * tahr__swim_line(step->config), height = height_of(step);
-    double t = min_of(tahr__glide_piece(step, g, bending(s, p.velocity)), tahr__stroke_longest(s));
-    t = min_of(t, drift_time(s, p.velocity));
+    double t = min_of(tahr__glide_piece(step, g, bending(s, v)), tahr__stroke_longest(s));
+    t = min_of(t, drift_time(s, v));
     if (immersion < 1) {
-        t = tahr__stroke_leaves(s, p.velocity, t, -(1 - immersion) * height - BEYOND, (immersion - leave) * height + BEYOND);
+        t = tahr__stroke_leaves(s, v, t, -(1 - immersion) * height - BEYOND, (immersion - leave) * height + BEYOND);
     }
-    *ahead = tahr__fluid(step, add(step->state.position, path_at(&p, t)));
-    double line = immersion < 1 ? leave : 1;
-    *known = ahead->immersion >= line - 2 * BEYOND / height;
-    return *known ? t : tahr__passing_time(step, &way, t, ahead->immersion, line, 0);
+    return t;
+}
+
+/* Cuts a piece at the line where the water begins not to carry all of it, or no longer carries. [out] ahead: the water at
+ * its end. Returns 1 if that is still so after it, 0 if the piece was cut. */
+static int cut_piece(tahr__step *step, piece *p, double immersion, tahr_fluid *ahead)
+{
+    const tahr__way way = {p, piece_at};
+    double line = immersion < 1 || !p->stroke ? LEAVES * tahr__swim_line(step->config) : 1;
+    *ahead = tahr__fluid(step, add(step->state.position, piece_at(p, p->time)));
+    if (ahead->immersion >= line - 2 * BEYOND / height_of(step)) {
+        return 1;
+    }
+    p->time = tahr__passing_time(step, &way, p->time, ahead->immersion, line, 0);
+    return 0;
+}
+
+/* config.integrator STEPPED. Out of the water no faster up than a third of the speed, except by what is still immersed; in
+ * the shallows hardly any thrust upward (0.1 cm/s2); half of the friction turns, all of it brakes, and the fluid itself
+ * takes its half too. */
+static vec3 stepped_velocity(const tahr__step *step, const tahr_fluid *water, double t)
+{
+    const tahr_config *c = step->config;
+    const double third = 0.33, shallow = 0.65, thrust = 1e-3;
+    vec3 up = step->state.up, v = sub(step->state.velocity, water->velocity);
+    double m = water->immersion, carried = c->buoyancy * m, rise = dot(v, up);
+    if (rise > third * c->swim_speed && carried > 0) {
+        v = add_scaled(v, up, max_of(third * c->swim_speed, rise * m * m) - rise);
+    }
+    vec3 push = scale(wish_of(step), c->swim_speed > 0 ? c->acceleration / c->swim_speed : 0);
+    if (m < shallow && dot(push, up) > thrust) {
+        push = add_scaled(push, up, thrust - dot(push, up));
+    }
+    double friction = 0.5 * friction_of(step, water) * m;
+    tahr__law law = {.wish = unit(push),
+                     .speed = length(wish_of(step)),
+                     .acceleration = length(push),
+                     .turn_friction = friction,
+                     .drag = 2 * friction};
+    v = tahr__calc_velocity(c, &law, friction, v, t);
+    return add(add_scaled(v, step->pull->gravity, (1 - carried) * t), water->velocity);
 }
 
 /* It swims on, but stands on what it met if that is a floor and the water no longer carries. */
@@ -186,7 +232,7 @@ static int finds_feet(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
     if (!tahr__decide(step, TAHR_RULE_FLUID, m < line, hit, m, line, "finds its feet in the shallows")) {
         return 0;
     }
-    tahr__find_floor(step, step->config->snap_distance, hit, floor);
+    tahr__find_floor(step, step->config->snap_distance, NULL, floor);
     return floor_is_walkable(floor) && floor->distance <= step->config->floor_max * step->config->skin;
 }
 
@@ -200,35 +246,59 @@ static tahr__next wade_out(tahr__step *step, const tahr_hit *hit, const tahr_flo
     return next;
 }
 
+/* Moves along the piece. Returns 0 if nothing can go on from where it ended. [out] hit */
+static int move_piece(tahr__step *step, tahr__glide *g, const piece *p, tahr_hit *hit)
+{
+    vec3 then;
+    vec3 way = tahr__glide_bend(g, along_piece(p, p->time, &then));
+    if (step->config->slide_solver == TAHR_SLIDE_TWO_WALLS) {
+        step->state.velocity = then;
+        tahr__glide_two_walls(step, g, way, p->time, hit);
+        return !hit->unknown && !hit->start_overlap;
+    }
+    double used = p->time;
+    tahr__move(step, way, hit);
+    if (hit->blocking) {
+        used = p->stroke ? tahr__stroke_time(p->stroke, p->velocity, p->time, way, hit->fraction) : used * hit->fraction;
+        along_piece(p, used, &then);
+    }
+    step->state.velocity = then;
+    tahr__glide_use(step, g, used);
+    return !hit->unknown && !hit->start_overlap;
+}
+
 /* One piece of the slice, from where the water is known. Returns 0 where the slice ends early: *next says how. */
 static int swim_piece(tahr__step *step, tahr__glide *g, tahr_fluid *water, int *known, tahr__next *next)
 {
     tahr_hit hit;
     tahr_floor floor;
-    vec3 then;
     step->state.velocity = tahr__glide_bend(g, step->state.velocity);
-    const vec3 v = step->state.velocity;
     const tahr__stroke s = stroke_of(step, water, tahr__glide_bend(g, wish_of(step)));
     if (rests(step, &s)) {
         step->state.velocity = vec(0, 0, 0);
         tahr__glide_use(step, g, g->left);
         return 0;
     }
-    double piece = cut_piece(step, g, &s, water->immersion, water, known), used = piece;
-    vec3 way = tahr__glide_bend(g, tahr__stroke_at(&s, v, piece, &then));
-    tahr__move(step, way, &hit);
-    if (hit.blocking) {
-        used = tahr__stroke_time(&s, v, piece, way, hit.fraction);
-        tahr__stroke_at(&s, v, used, &then);
+    piece p = {&s, step->state.velocity, g->left};
+    if (step->config->integrator == TAHR_INTEGRATOR_STEPPED) {
+        p.stroke = NULL;
+        p.velocity = stepped_velocity(step, water, g->left);
+    } else {
+        p.time = stroke_time(step, g, &s, water->immersion);
     }
-    step->state.velocity = then;
-    tahr__glide_use(step, g, used);
+    *known = cut_piece(step, &p, water->immersion, water);
+    vec3 rest = piece_at(&p, p.time);
+    int goes_on = move_piece(step, g, &p, &hit);
     *known = *known && !hit.blocking && g->plane_count == 0;
-    if (hit.blocking && !hit.start_overlap && !hit.unknown && finds_feet(step, &hit, &floor)) {
+    if (!hit.blocking || !goes_on) {
+        return !hit.blocking;
+    }
+    if (finds_feet(step, &hit, &floor)) {
         *next = wade_out(step, &hit, &floor, g->left);
         return 0;
     }
-    return !hit.blocking || tahr__glide_meet(step, g, &hit, scale(way, 1 - hit.fraction));
+    return step->config->slide_solver == TAHR_SLIDE_TWO_WALLS ||
+           tahr__glide_meet(step, g, &hit, scale(rest, 1 - hit.fraction));
 }
 
 tahr__next tahr__swim(tahr__step *step, double time)
