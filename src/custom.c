@@ -123,7 +123,7 @@ tahr_status tahr_step_slide(tahr_step *step, const tahr_vec3 *motion, tahr_step_
         done.last = hit;
         done.hits++;
         rest = scale(rest, hit.start_overlap ? 1 : 1 - hit.fraction);
-        if (!tahr__glide_meet(step, &g, &hit, vec(0, 0, 0))) {
+        if (!tahr__glide_meet(step, &g, &hit)) {
             break;
         }
         rest = tahr__glide_bend(&g, rest);

@@ -74,7 +74,10 @@ static int fly_piece(tahr__step *step, tahr__glide *g)
         return 1;
     }
     if (step->config->slide_solver == TAHR_SLIDE_TWO_WALLS) {
-        tahr__glide_two_walls(step, g, way, piece, &hit);
+        const tahr__glide_motion whole = {way, piece, NULL};
+        if (tahr__glide_two_walls(step, g, &whole, &hit)) {
+            tahr__glide_forget_floor(step);
+        }
         return !hit.unknown && !hit.start_overlap;
     }
     tahr__move(step, way, &hit);
@@ -87,7 +90,14 @@ static int fly_piece(tahr__step *step, tahr__glide *g)
         step->ahead = 0;
     }
     tahr__glide_use(step, g, used);
-    return !hit.blocking || tahr__glide_meet(step, g, &hit, scale(way, 1 - hit.fraction));
+    if (!hit.blocking || hit.start_overlap || hit.unknown) {
+        return !hit.blocking;
+    }
+    if (tahr__glide_step_up(step, g, &hit, scale(way, 1 - hit.fraction), NULL)) {
+        tahr__glide_forget_floor(step);
+        return 1;
+    }
+    return tahr__glide_meet(step, g, &hit);
 }
 
 tahr__next tahr__fly(tahr__step *step, double time)

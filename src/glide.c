@@ -77,36 +77,57 @@ static void stand_on_nothing(tahr__step *step)
     tahr__keep_floor(step, &here);
 }
 
-static int take_step(tahr__step *step, const tahr__swept *swept, vec3 rest)
+/* What a step that is not kept must forget. */
+typedef struct before {
+    tahr_state state;
+    uint32_t event_count, events_lost, slides, just_teleported;
+    double step_offset;
+} before;
+
+static void go_back(tahr__step *step, const before *b)
 {
-    const tahr_hit *hit = &swept->hit;
-    int found;
+    step->state = b->state;
+    step->report.event_count = b->event_count;
+    step->report.events_lost = b->events_lost;
+    step->report.slides = b->slides;
+    step->report.step_offset = b->step_offset;
+    step->just_teleported = b->just_teleported;
+}
+
+static int is_front(const tahr__step *step, const tahr_hit *hit, vec3 level)
+{
     vec3 wish = step->input->move, up = step->state.up;
     double steep = dot(hit->normal, up), size = length(wish), lean = dot(wish, up);
+    return steep <= FRONT && steep >= -FRONT && lean >= SINKING * size && lean <= RISING * size &&
+           length_squared(level) > 0 && dot(level, hit->normal) < 0;
+}
+
+int tahr__glide_step_up(tahr__step *step, tahr__glide *g, const tahr_hit *hit, vec3 rest, int (*keeps)(tahr__step *))
+{
+    const tahr_report *r = &step->report;
+    const tahr__swept swept = {.hit = *hit, .location = step->state.position, .motion = rest};
     vec3 level = step_level(step, rest);
-    if (steep > FRONT || steep < -FRONT || lean < SINKING * size || lean > RISING * size ||
-        length_squared(level) == 0 || dot(level, hit->normal) >= 0) {
+    int found;
+    if (!is_front(step, hit, level)) {
         return 0;
     }
+    const before b = {step->state, r->event_count, r->events_lost, r->slides, step->just_teleported, r->step_offset};
     stand_on_nothing(step);
-    if (tahr__step_up_at(step, level, swept, &found)) {
+    if (tahr__step_up_at(step, level, &swept, &found) && (!keeps || keeps(step))) {
+        g->plane_count = 0; /* what stood beside the foot below need not stand here */
+        g->hits++;
         return 1;
     }
-    tahr__glide_forget_floor(step);
+    go_back(step, &b);
     return 0;
 }
 
-int tahr__glide_meet(tahr__step *step, tahr__glide *g, const tahr_hit *hit, vec3 rest)
+int tahr__glide_meet(tahr__step *step, tahr__glide *g, const tahr_hit *hit)
 {
     if (hit->unknown || hit->start_overlap) {
         return 0;
     }
-    const tahr__swept swept = {.hit = *hit, .location = step->state.position, .motion = rest};
     g->hits++;
-    if (take_step(step, &swept, rest)) {
-        g->plane_count = 0; /* what stood beside the foot below need not stand here */
-        return 1;
-    }
     tahr__plane plane = tahr__plane_of(step, hit);
     tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(step->state.velocity, hit->normal), 0));
     tahr__planes_add(g->planes, &g->plane_count, &plane);
@@ -115,26 +136,29 @@ int tahr__glide_meet(tahr__step *step, tahr__glide *g, const tahr_hit *hit, vec3
     return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(hit->normal, step->state.up), 0, "slides along");
 }
 
-void tahr__glide_two_walls(tahr__step *step, tahr__glide *g, vec3 motion, double time, tahr_hit *hit)
+int tahr__glide_two_walls(tahr__step *step, tahr__glide *g, const tahr__glide_motion *m, tahr_hit *hit)
 {
     tahr__swept swept;
     vec3 from = step->state.position;
-    tahr__safe_move(step, motion, &swept);
+    int up = 0;
+    tahr__safe_move(step, m->way, &swept);
     *hit = swept.hit;
     if (hit->blocking && !hit->start_overlap && !hit->unknown) {
         double rest = 1 - hit->fraction;
-        step->ahead = time * hit->fraction;
-        if (!take_step(step, &swept, scale(motion, rest))) {
+        step->ahead = m->time * hit->fraction;
+        up = tahr__glide_step_up(step, g, hit, scale(m->way, rest), m->keeps);
+        if (!up) {
             tahr__handle_impact(step, hit);
-            tahr__slide_along_surface(step, motion, rest, hit->normal, &swept);
+            tahr__slide_along_surface(step, m->way, rest, hit->normal, &swept);
             step->report.slides++;
         }
         step->ahead = 0;
     }
-    if (hit->blocking && time > 0) {
-        step->state.velocity = scale(sub(step->state.position, from), 1 / time);
+    if (hit->blocking && m->time > 0) {
+        step->state.velocity = scale(sub(step->state.position, from), 1 / m->time);
     }
-    tahr__glide_use(step, g, time);
+    tahr__glide_use(step, g, m->time);
+    return up;
 }
 
 void tahr__glide_end(tahr__step *step, tahr__glide *g)

@@ -36,14 +36,24 @@ static inline vec3 tahr__glide_bend(const tahr__glide *glide, vec3 v)
 /* Counts the time of a piece. */
 void tahr__glide_use(tahr__step *step, tahr__glide *glide, double time);
 
-/* Something was met: over it if it is low (rest: what is left of the motion; level: also 0 tries), else along it from here
- * on. Returns 0 if nothing can go on from here (an overlap, or an answer that is none). 1 to 6 sweeps with a step up. */
-int tahr__glide_meet(tahr__step *step, tahr__glide *glide, const tahr_hit *hit, vec3 rest);
+/* Something was met: along it from here on. Returns 0 if nothing can go on from here (an overlap, or an answer that is
+ * none). No query. */
+int tahr__glide_meet(tahr__step *step, tahr__glide *glide, const tahr_hit *hit);
+
+/* Over what was met, if that is as low as a step from the foot on, and the motion level enough. rest: what is left of it.
+ * Returns 1 if it stands on it now, on the state's floor, with `keeps` or without an opinion of it; 0 with everything as
+ * it was. 3 to 12 queries where the front is steep, else none. */
+int tahr__glide_step_up(tahr__step *step, tahr__glide *glide, const tahr_hit *hit, vec3 rest, int (*keeps)(tahr__step *));
 
 /* config.slide_solver TWO_WALLS: the whole piece of `time` seconds at once, over, or along one surface and a second one. The
- * velocity of one that was blocked is what was covered. [out] hit: what was met first. 1 to 4 sweeps, 3 to 8 queries with a
- * step up, and what overlaps ask. */
-void tahr__glide_two_walls(tahr__step *step, tahr__glide *glide, vec3 motion, double time, tahr_hit *hit);
+ * velocity of one that was blocked is what was covered. keeps as above. [out] hit: what was met first. Returns 1 if it
+ * stepped up. 1 to 4 sweeps, up to 12 queries for a step, and what overlaps ask. */
+typedef struct tahr__glide_motion {
+    vec3 way;
+    double time; /* s */
+    int (*keeps)(tahr__step *step);
+} tahr__glide_motion;
+int tahr__glide_two_walls(tahr__step *step, tahr__glide *glide, const tahr__glide_motion *motion, tahr_hit *hit);
 
 /* The end of a slice: what could not be used is lost. STEPPED: the velocity is what was really covered. */
 void tahr__glide_end(tahr__step *step, tahr__glide *glide);

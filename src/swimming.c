@@ -221,40 +221,45 @@ static vec3 stepped_velocity(const tahr__step *step, const tahr_fluid *water, do
     return add(add_scaled(v, step->pull->gravity, (1 - carried) * t), water->velocity);
 }
 
-/* It swims on, but stands on what it met if that is a floor and the water no longer carries. */
-static int finds_feet(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
+static int stands_here(tahr__step *step)
 {
-    double line = STANDS * tahr__swim_line(step->config);
-    if (dot(hit->normal, step->state.up) < 1e-3) { /* a wall */
-        return 0;
-    }
-    double m = tahr__fluid(step, step->state.position).immersion;
-    if (!tahr__decide(step, TAHR_RULE_FLUID, m < line, hit, m, line, "finds its feet in the shallows")) {
-        return 0;
-    }
-    tahr__find_floor(step, step->config->snap_distance, NULL, floor);
-    return floor_is_walkable(floor) && floor->distance <= step->config->floor_max * step->config->skin;
+    double m = tahr__standing_immersion(step), line = STANDS * tahr__swim_line(step->config);
+    return tahr__decide(step, TAHR_RULE_FLUID, m < line, NULL, m, line, "finds its feet in the shallows");
 }
 
-static tahr__next wade_out(tahr__step *step, const tahr_hit *hit, const tahr_floor *floor, double left)
+/* On what it met, if that is a floor and the water no longer carries. */
+static int finds_feet(tahr__step *step, const tahr_hit *hit)
 {
-    tahr__next next = {TAHR_MODE_WALKING, left};
+    tahr_floor floor;
+    if (dot(hit->normal, step->state.up) < 1e-3 || !stands_here(step)) { /* 1e-3: a wall */
+        return 0;
+    }
+    tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+    if (!floor_is_walkable(&floor) || floor.distance > step->config->floor_max * step->config->skin) {
+        return 0;
+    }
+    tahr__keep_floor(step, &floor);
+    return 1;
+}
+
+static int wade_out(tahr__step *step, const tahr_hit *hit, double left, tahr__next *next)
+{
     tahr__event(step, TAHR_EVENT_LANDED, hit, max_of(-dot(step->state.velocity, step->state.up), 0));
     step->state.velocity = step_level(step, step->state.velocity);
-    tahr__keep_floor(step, floor);
     step->state.flags |= TAHR_STATE_FLOOR_MOVED; /* standing looks again, from where it is then */
-    return next;
+    *next = (tahr__next){TAHR_MODE_WALKING, left};
+    return 0;
 }
 
-/* Moves along the piece. Returns 0 if nothing can go on from where it ended. [out] hit */
+/* Moves along the piece. Returns 1 if it stepped up on something. [out] hit */
 static int move_piece(tahr__step *step, tahr__glide *g, const piece *p, tahr_hit *hit)
 {
     vec3 then;
     vec3 way = tahr__glide_bend(g, along_piece(p, p->time, &then));
     if (step->config->slide_solver == TAHR_SLIDE_TWO_WALLS) {
+        const tahr__glide_motion whole = {way, p->time, stands_here};
         step->state.velocity = then;
-        tahr__glide_two_walls(step, g, way, p->time, hit);
-        return !hit->unknown && !hit->start_overlap;
+        return tahr__glide_two_walls(step, g, &whole, hit);
     }
     double used = p->time;
     tahr__move(step, way, hit);
@@ -264,14 +269,14 @@ static int move_piece(tahr__step *step, tahr__glide *g, const piece *p, tahr_hit
     }
     step->state.velocity = then;
     tahr__glide_use(step, g, used);
-    return !hit->unknown && !hit->start_overlap;
+    return hit->blocking && !hit->unknown && !hit->start_overlap &&
+           tahr__glide_step_up(step, g, hit, scale(way, 1 - hit->fraction), stands_here);
 }
 
 /* One piece of the slice, from where the water is known. Returns 0 where the slice ends early: *next says how. */
 static int swim_piece(tahr__step *step, tahr__glide *g, tahr_fluid *water, int *known, tahr__next *next)
 {
     tahr_hit hit;
-    tahr_floor floor;
     step->state.velocity = tahr__glide_bend(g, step->state.velocity);
     const tahr__stroke s = stroke_of(step, water, tahr__glide_bend(g, wish_of(step)));
     if (rests(step, &s)) {
@@ -287,18 +292,15 @@ static int swim_piece(tahr__step *step, tahr__glide *g, tahr_fluid *water, int *
         p.time = stroke_time(step, g, &s, water->immersion);
     }
     *known = cut_piece(step, &p, water->immersion, water);
-    vec3 rest = piece_at(&p, p.time);
-    int goes_on = move_piece(step, g, &p, &hit);
+    int up = move_piece(step, g, &p, &hit);
     *known = *known && !hit.blocking && g->plane_count == 0;
-    if (!hit.blocking || !goes_on) {
+    if (!hit.blocking || hit.unknown || hit.start_overlap) {
         return !hit.blocking;
     }
-    if (finds_feet(step, &hit, &floor)) {
-        *next = wade_out(step, &hit, &floor, g->left);
-        return 0;
+    if (up || finds_feet(step, &hit)) {
+        return wade_out(step, &hit, g->left, next);
     }
-    return step->config->slide_solver == TAHR_SLIDE_TWO_WALLS ||
-           tahr__glide_meet(step, g, &hit, scale(rest, 1 - hit.fraction));
+    return step->config->slide_solver == TAHR_SLIDE_TWO_WALLS || tahr__glide_meet(step, g, &hit);
 }
 
 tahr__next tahr__swim(tahr__step *step, double time)

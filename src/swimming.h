@@ -16,6 +16,9 @@ tahr__next tahr__swim(tahr__step *step, double time);
  * ends in deep water the walk is gone up to 6 times more to find that place. */
 tahr__next tahr__wade(tahr__step *step, double time);
 
+/* Immersion of one that stands: where its foot is, or on the ledge whose edge it is on. One fluid query. */
+double tahr__standing_immersion(tahr__step *step);
+
 /* Is a falling character carried here? Not while it rises, unless wholly immersed. One fluid query. */
 int tahr__is_carried(tahr__step *step, vec3 position, vec3 velocity);
 

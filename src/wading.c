@@ -2,6 +2,7 @@
  * wading.c: one slice of walking in a world with fluids. */
 #include "swimming.h"
 
+#include "floor.h"
 #include "report.h"
 #include "walking.h"
 
@@ -53,6 +54,19 @@ static void go_back(tahr__step *step, const before *b)
     step->ahead = 0;
 }
 
+/* On the edge of a ledge the foot still hangs below it. */
+double tahr__standing_immersion(tahr__step *step)
+{
+    const tahr_floor *floor = &step->state.floor;
+    vec3 up = step->state.up, n = floor->surface_normal;
+    double m = tahr__fluid(step, step->state.position).immersion;
+    if (m <= 0 || !floor_is_walkable(floor) || dot(n, up) < 0.1) {
+        return m;
+    }
+    double lift = dot(n, sub(floor->point, step_foot(step))) / dot(n, up);
+    return m - max_of(lift, 0) / (2 * step->limits->shape.half_height);
+}
+
 static tahr__next swim_on(tahr__step *step, double left)
 {
     tahr__next next = {TAHR_MODE_SWIMMING, left};
@@ -64,7 +78,7 @@ static tahr__next swim_on(tahr__step *step, double left)
 static tahr__next walk_to_line(tahr__step *step, double time, double line, double deep)
 {
     const before begin = before_of(step);
-    double shallow = tahr__fluid(step, step->state.position).immersion;
+    double shallow = tahr__standing_immersion(step);
     double from = 0, to = time, t = 0;
     tahr__next next;
     for (int i = 0; i < TRIES && shallow < line; i++) {
@@ -75,7 +89,7 @@ static tahr__next walk_to_line(tahr__step *step, double time, double line, doubl
             next.time_left += time - t;
             return next;
         }
-        double m = tahr__fluid(step, step->state.position).immersion;
+        double m = tahr__standing_immersion(step);
         if (step->error < 0 || (m - line < ON_THE_LINE && line - m < ON_THE_LINE)) {
             break;
         }
@@ -98,7 +112,7 @@ tahr__next tahr__wade(tahr__step *step, double time)
     if (next.mode != TAHR_MODE_WALKING || (step->report.flags & TAHR_REPORT_CACHED_FLOOR)) {
         return next; /* what stands where it stood is where it was */
     }
-    double m = tahr__fluid(step, step->state.position).immersion;
+    double m = tahr__standing_immersion(step);
     if (m < line || step->error < 0 || (step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         return next;
     }
