@@ -29,11 +29,12 @@ static tahr__law law_of(const tahr__step *step, const tahr__glide *g)
     return law;
 }
 
-/* The most that the velocity changes by, in a second: bounds how far a chord lies off the path. */
+/* m/s2 that bend the path: nothing does while it flies straight along the wish, or brakes. */
 static double bending(const tahr__law *law, vec3 v)
 {
     vec3 across = reject(v, law->wish);
-    return law->speed > 0 ? law->acceleration + law->turn_friction * length(across) : 0;
+    int straight = length_squared(across) <= 1e-12 * length_squared(v);
+    return law->speed > 0 && !straight ? law->acceleration + law->turn_friction * length(across) : 0;
 }
 
 /* Of a piece, when a part of it was covered. */

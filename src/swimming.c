@@ -161,11 +161,13 @@ double tahr__passing_time(tahr__step *step, const tahr__way *way, double duratio
     return high;
 }
 
-/* m/s2 at the begin of a piece. */
+/* m/s2 that bend the path at the begin of a piece: what is not along it. */
 static double bending(const tahr__stroke *s, vec3 v)
 {
-    double along = dot(v, s->up), rise = s->push - s->drag * along;
-    return s->rate * length(sub(s->target, add_scaled(v, s->up, -along))) + (rise < 0 ? -rise : rise);
+    double along = dot(v, s->up);
+    vec3 level = scale(sub(s->target, add_scaled(v, s->up, -along)), s->rate);
+    vec3 a = add_scaled(level, s->up, s->push - s->drag * along);
+    return length_squared(v) > 0 ? length(reject(a, unit(v))) : 0;
 }
 
 /* How far a stroke goes before the water begins or ends to carry it all, or its closed form ends. */
