@@ -30,12 +30,14 @@ typedef struct entry {
 
 /* Indexed by TAHR_MODE_*. */
 static const entry modes[TAHR_MODE_CUSTOM + 1] = {
-    {"none", rest},       {"walking", walk}, {"falling", tahr__fall},       {"swimming", tahr__swim},
+    {"none", rest},        {"walking", walk}, {"falling", tahr__fall},      {"swimming", tahr__swim},
     {"flying", tahr__fly}, {"hanging", rest}, {"custom", tahr__run_custom},
 };
 
-/* clang-format off: one line each, for the diagram */
-static const struct transition { uint32_t from, to; const char *why; } transitions[] = {
+static const struct transition {
+    uint32_t from, to;
+    const char *why;
+} transitions[] = {
     {TAHR_MODE_WALKING, TAHR_MODE_FALLING, "the floor ended, a jump, a launch"},
     {TAHR_MODE_WALKING, TAHR_MODE_SWIMMING, "deep enough to swim"},
     {TAHR_MODE_FALLING, TAHR_MODE_WALKING, "landed on a floor that holds"},
@@ -51,7 +53,6 @@ static const struct transition { uint32_t from, to; const char *why; } transitio
     {TAHR_MODE_CUSTOM, TAHR_MODE_SWIMMING, "your function"},
     {TAHR_MODE_CUSTOM, TAHR_MODE_FLYING, "your function"},
 };
-/* clang-format on */
 
 const char *tahr_mode_name(uint32_t mode)
 {

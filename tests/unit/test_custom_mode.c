@@ -139,10 +139,14 @@ static void an_answer_that_is_none_ends_the_step_and_leaves_the_state(void **unu
         tahr_custom_next answer;
         tahr_status status;
         const char *field;
-    } lies[] = {{{TAHR_MODE_CUSTOM, 0, 1.001}, 0, "time_left"},     {{TAHR_MODE_CUSTOM, 0, -0.1}, 0, "time_left"},
-                {{TAHR_MODE_CUSTOM, 0, NAN}, 0, "time_left"},       {{TAHR_MODE_CUSTOM, 0, INFINITY}, 0, "time_left"},
-                {{TAHR_MODE_HANGING, 0, 0}, 0, "mode"},             {{99, 0, 0}, 0, "mode"},
-                {{TAHR_MODE_FALLING, 3, 0}, 0, "reserved"},         {{TAHR_MODE_FALLING, 0, 0}, TAHR_E_MEMORY, "status"},
+    } lies[] = {{{TAHR_MODE_CUSTOM, 0, 1.001}, 0, "time_left"},
+                {{TAHR_MODE_CUSTOM, 0, -0.1}, 0, "time_left"},
+                {{TAHR_MODE_CUSTOM, 0, NAN}, 0, "time_left"},
+                {{TAHR_MODE_CUSTOM, 0, INFINITY}, 0, "time_left"},
+                {{TAHR_MODE_HANGING, 0, 0}, 0, "mode"},
+                {{99, 0, 0}, 0, "mode"},
+                {{TAHR_MODE_FALLING, 3, 0}, 0, "reserved"},
+                {{TAHR_MODE_FALLING, 0, 0}, TAHR_E_MEMORY, "status"},
                 {{TAHR_MODE_FALLING, 0, 0}, TAHR_E_NULL, "status"}};
     (void)unused;
     for (size_t i = 0; i < sizeof lies / sizeof lies[0]; i++) {

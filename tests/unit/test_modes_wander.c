@@ -35,10 +35,10 @@ static tahr_body_desc body(uint32_t type, tahr_vec3 at, tahr_vec3 half, uint32_t
 /* A closed hall of 24 m x 24 m x 9 m: a pool with steps and a shore, a leaning column of water, a ball of it. */
 static void build(tahr_body_desc b[BODIES])
 {
-    b[0] = body(TAHR_BODY_BOX, fake_vec(0, 0, -4.5), fake_vec(13, 13, 0.5), 0); /* bottom at -4 */
-    b[1] = body(TAHR_BODY_BOX, fake_vec(-8, 0, -2), fake_vec(5, 13, 2), 0);     /* land, top at 0 */
+    b[0] = body(TAHR_BODY_BOX, fake_vec(0, 0, -4.5), fake_vec(13, 13, 0.5), 0);   /* bottom at -4 */
+    b[1] = body(TAHR_BODY_BOX, fake_vec(-8, 0, -2), fake_vec(5, 13, 2), 0);       /* land, top at 0 */
     b[2] = body(TAHR_BODY_BOX, fake_vec(-2.5, 0, -2.4), fake_vec(0.5, 13, 2), 0); /* a step under water, top at -0.4 */
-    b[3] = body(TAHR_BODY_BOX, fake_vec(4, 6, -3.2), fake_vec(6, 5, 0.5), 0);   /* a shore */
+    b[3] = body(TAHR_BODY_BOX, fake_vec(4, 6, -3.2), fake_vec(6, 5, 0.5), 0);     /* a shore */
     b[3].pose.orientation = (tahr_quat){0, -sin(0.15), 0, cos(0.15)};
     b[4] = body(TAHR_BODY_BOX, fake_vec(5, 0, -2.1), fake_vec(8, 12, 2), TAHR_BODY_FLUID); /* surface at -0.1 */
     b[4].surface_velocity = fake_vec(0.2, -0.1, 0);
@@ -58,7 +58,7 @@ typedef struct wander {
     tahr_state state;
     tahr_input input;
     uint32_t seen[TAHR_MODE_CUSTOM + 1][TAHR_MODE_CUSTOM + 1];
-    uint32_t most; /* queries of a step */
+    uint32_t most;  /* queries of a step */
     double deepest; /* m */
 } wander;
 
