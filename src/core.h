@@ -99,6 +99,12 @@ typedef struct tahr__sleep {
     tahr_event events[TAHR__SLEEP_EVENTS];
 } tahr__sleep;
 
+/* The function of TAHR_MODE_CUSTOM, or none. */
+typedef struct tahr__custom {
+    tahr_custom_mode_fn run;
+    void *user;
+} tahr__custom;
+
 struct tahr_mover {
     tahr_world *world;
     tahr_config config;
@@ -107,16 +113,21 @@ struct tahr_mover {
     size_t cache_size;
     uint32_t busy;
     tahr_state blank; /* what a state remembers that has nothing to remember: from radius on */
+    tahr__custom custom;
     tahr__sleep sleep;
 };
 
+/* Public as the opaque tahr_step of a custom mode. */
+typedef tahr_step tahr__step;
+
 /* One step in progress: working copies of what it writes, so that an error leaves the caller's untouched. */
-typedef struct tahr__step {
+struct tahr__step {
     const tahr_config *config;
     const tahr__limits *limits;
     tahr_world *world;
     const tahr_input *input;
     const tahr__pull *pull;
+    const tahr__custom *custom;
     tahr_state state;
     tahr_report report;
     struct tahr__trail *trail; /* NULL in a world without sensors (trail.h) */
@@ -135,8 +146,10 @@ typedef struct tahr__step {
     double ahead;             /* s from there to what is being worked on: events happen then */
     double push_left;         /* m of depenetration still allowed */
     uint32_t queries;         /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
+    uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
+    uint32_t apexes;          /* of them cut short at an apex */
     tahr_status error;        /* sticky: after it every query answers "blocked here" */
-} tahr__step;
+};
 
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */
 typedef struct tahr__next {
@@ -159,6 +172,12 @@ static inline vec3 step_foot(const tahr__step *step)
 static inline vec3 step_level(const tahr__step *step, vec3 v)
 {
     return reject(v, step->state.up);
+}
+
+/* TAHR_BODY_* of a body that the core described, else 0. */
+static inline uint32_t world_body_flags(const tahr_world *world, uint32_t body)
+{
+    return body < world->body_count && world->bodies ? world->bodies[body].flags : 0;
 }
 
 #endif

@@ -4,6 +4,7 @@
 #include "falling.h"
 
 #include "base_motion.h"
+#include "fall_two_walls.h"
 #include "floor.h"
 #include "launch.h"
 #include "move.h"
@@ -11,6 +12,8 @@
 #include "query.h"
 #include "report.h"
 #include "slide.h"
+#include "stepped.h"
+#include "swimming.h"
 
 /* A contact-free arc from the character's position. */
 typedef struct arc {
@@ -57,9 +60,13 @@ static arc arc_of(const tahr__step *step)
     a.law.speed = c->max_speed * min_of(size, 1);
     a.law.acceleration = c->acceleration * c->air_control;
     a.law.turn_friction = c->air_turn_friction;
+    if (c->integrator == TAHR_INTEGRATOR_STEPPED) { /* the slice began with its velocity across up */
+        a.law = tahr__constant_law();
+    }
     a.rise = dot(step->state.velocity, a.axis);
     a.level = add_scaled(step->state.velocity, a.axis, -a.rise);
-    a.hold = (step->state.flags & TAHR_STATE_JUMPING) && step->input->jump ? step->state.jump_hold : 0;
+    int holds = (step->state.flags & TAHR_STATE_JUMPING) && step->input->jump && !c->jump_hold_gravity;
+    a.hold = holds ? step->state.jump_hold : 0;
     a.drifts = is_drifting(step);
     if (a.drifts) {
         a.drift = drive_of(step);
@@ -199,6 +206,24 @@ static void use_time(tahr__step *step, fall *f, double t)
     }
 }
 
+static vec3 place_on_arc(const void *self, double t)
+{
+    vec3 v;
+    return arc_at(self, t, &v);
+}
+
+/* s of the chord until a fluid carries. */
+static double until_fluid(tahr__step *step, const arc *a, double duration)
+{
+    const tahr__way way = {a, place_on_arc};
+    vec3 v, to = arc_at(a, duration, &v);
+    if (a->rise > 0) { /* not before its apex, where a chord ends */
+        return duration;
+    }
+    double line = tahr__swim_line(step->config), m = tahr__fluid(step, add(step->state.position, to)).immersion;
+    return m < line ? duration : tahr__passing_time(step, &way, duration, m, line, 1);
+}
+
 /* One chord. Returns 1 if something was hit. */
 static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
 {
@@ -211,6 +236,11 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         duration = apex;
     } else if (f->left > duration) { /* equal chords rather than a short last one */
         duration = f->left / (double)(int)(f->left / duration + 1);
+    }
+    if (step_has_fluids(step)) {
+        double dry = until_fluid(step, &a, duration);
+        reaches_apex = reaches_apex && dry == duration;
+        duration = dry;
     }
     vec3 chord = slide_in_air(step, f, arc_at(&a, duration, &v));
     vec3 start = step->state.position, began = step->state.velocity;
@@ -246,7 +276,7 @@ static int lands_in_wedge(tahr__step *step, tahr_floor *floor)
     return floor_is_walkable(floor);
 }
 
-tahr__next tahr__fall(tahr__step *step, double time)
+static tahr__next fall_slice(tahr__step *step, double time)
 {
     fall f; /* of its planes only what is counted is read */
     tahr_floor floor;
@@ -258,6 +288,11 @@ tahr__next tahr__fall(tahr__step *step, double time)
     while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         tahr__planes_forget(step, f.planes, &f.plane_count);
+        if (step_has_fluids(step) && tahr__is_carried(step, step->state.position, step->state.velocity)) {
+            tahr__next swim = {TAHR_MODE_SWIMMING, f.left};
+            tahr__begin_swimming(step);
+            return swim;
+        }
         if (!fall_chord(step, &f, &hit)) {
             if (hit.blocking) {
                 break; /* unknown or crushed: the rest of the time is lost */
@@ -282,4 +317,33 @@ tahr__next tahr__fall(tahr__step *step, double time)
     }
     tahr__next next = {TAHR_MODE_FALLING, 0};
     return next;
+}
+
+/* Slices that each keep one velocity across up; the rise and the fall are closed forms all the same. */
+static tahr__next fall_in_steps(tahr__step *step, double time)
+{
+    tahr__next next = {TAHR_MODE_FALLING, time};
+    while (next.mode == TAHR_MODE_FALLING && next.time_left >= TAHR__LEAST_TIME && step->error >= 0) {
+        double h = tahr__begin_iteration(step, next.time_left);
+        if (h == 0) {
+            return (tahr__next){TAHR_MODE_FALLING, 0};
+        }
+        double left = next.time_left - h;
+        vec3 level = step_level(step, step->state.velocity);
+        tahr__law law = tahr__falling_law(step);
+        vec3 gained = sub(tahr__calc_velocity(step->config, &law, 0, level, h), level);
+        step->state.velocity = add(step->state.velocity, gained);
+        next = fall_slice(step, h);
+        next.time_left += left;
+    }
+    next.time_left = next.time_left < TAHR__LEAST_TIME ? 0 : next.time_left;
+    return next;
+}
+
+tahr__next tahr__fall(tahr__step *step, double time)
+{
+    if (step->config->slide_solver == TAHR_SLIDE_TWO_WALLS) {
+        return tahr__fall_two_walls(step, time);
+    }
+    return step->config->integrator == TAHR_INTEGRATOR_EXACT ? fall_slice(step, time) : fall_in_steps(step, time);
 }

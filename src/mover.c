@@ -14,6 +14,7 @@
 #include "plane.h"
 #include "query.h"
 #include "report.h"
+#include "request.h"
 #include "sleep.h"
 #include "stance.h"
 #include "trail.h"
@@ -121,6 +122,7 @@ static void run(tahr__step *step, double dt)
         tahr__take_stance(step);
     }
     if (step->input->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING)) {
+        tahr__ask_mode(step);
         tahr__launch(step);
     }
     tahr__begin_jump(step);
@@ -260,6 +262,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     tahr__trail trail;
     step.config = &mover->config;
     step.limits = &mover->limits;
+    step.custom = &mover->custom;
     step.world = mover->world;
     if (state->half_height != mover->config.shape.half_height || state->radius != mover->config.shape.radius) {
         tahr__use_shape(&step, state->radius, state->half_height);
@@ -277,6 +280,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.ahead = 0;
     step.push_left = mover->config.max_depenetration;
     step.queries = 0;
+    step.iterations = step.apexes = 0;
     step.ignore_body = TAHR_NO_BODY;
     step.just_teleported = 0;
     step.dt = dt;

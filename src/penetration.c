@@ -20,11 +20,6 @@ static double fit_inflation(const tahr_config *c)
     return c->pull_back;
 }
 
-static uint32_t body_flags(const tahr_world *world, uint32_t body)
-{
-    return body < world->body_count && world->bodies ? world->bodies[body].flags : 0;
-}
-
 vec3 tahr__penetration_adjustment(const tahr__step *step, const tahr_hit *hit)
 {
     const tahr_config *c = step->config;
@@ -33,7 +28,7 @@ vec3 tahr__penetration_adjustment(const tahr__step *step, const tahr_hit *hit)
     }
     double depth = hit->depth > 0 ? min_of(hit->depth, 1e6) : extra_push(c); /* m: no body is larger */
     vec3 push = along_plane(step->limits, scale(hit->normal, depth + extra_push(c)));
-    int character = (body_flags(step->world, hit->body) & TAHR_BODY_CHARACTER) != 0;
+    int character = (world_body_flags(step->world, hit->body) & TAHR_BODY_CHARACTER) != 0;
     double most = character ? c->max_depenetration_character : c->max_depenetration;
     double size = length(push);
     return size > most ? scale(push, most / size) : push;

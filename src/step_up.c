@@ -105,10 +105,29 @@ static int land(tahr__step *step, attempt *a)
     return 1;
 }
 
+static int by_contact(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
+{
+    tahr__swept here = {.hit = *obstacle, .location = step->state.position};
+    int found_floor;
+    return tahr__step_up_by_contact(step, motion, &here, &found_floor);
+}
+
+int tahr__step_up_at(tahr__step *step, vec3 motion, const tahr__swept *obstacle, int *found_floor)
+{
+    if (step->config->step_rule == TAHR_STEP_BY_CONTACT) {
+        return tahr__step_up_by_contact(step, motion, obstacle, found_floor);
+    }
+    *found_floor = tahr__step_up(step, motion, &obstacle->hit) > 0;
+    return *found_floor;
+}
+
 double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
 {
     const tahr_config *c = step->config;
     tahr__scope scope;
+    if (c->step_rule == TAHR_STEP_BY_CONTACT) {
+        return by_contact(step, motion, obstacle);
+    }
     tahr_floor floor;
     attempt a = {.up = step->state.up, .lift = c->step_height};
     if (c->step_height <= 0 || !may_rise(step) || !floor_is_walkable(&step->state.floor) ||
