@@ -34,7 +34,7 @@ enum {
     TAHR__HAS_SENSORS = 1 << 0,
     TAHR__HAS_FLUIDS = 1 << 1,
     TAHR__HAS_MOVING_SENSORS = 1 << 3, /* or some that may: nothing is known of a user's own */
-    TAHR__HAS_BASES = 1 << 2 /* bodies that move, drive a conveyor, or can be pushed */
+    TAHR__HAS_BASES = 1 << 2           /* bodies that move, drive a conveyor, or can be pushed */
 };
 
 struct tahr_world {

@@ -184,7 +184,8 @@ static void resolve(tahr__step *step, const tahr__leg *leg)
         return;
     }
     ask(step, leg, 1, &back);
-    int moved = first && step->state.touched_count > 0 && (step->world->has & TAHR__HAS_MOVING_SENSORS) && !trail->current;
+    int moved =
+        first && step->state.touched_count > 0 && (step->world->has & TAHR__HAS_MOVING_SENSORS) && !trail->current;
     on.count = 0;
     if (moved || is_news(step, &back)) {
         ask(step, leg, 0, &on);

@@ -40,7 +40,7 @@ typedef struct tahr__trail {
     uint32_t asked;    /* sweeps for sensors */
     uint32_t current;  /* at the start of the step neither the character nor the world had moved since the last one */
     uint32_t swept, clear;
-    double slice; /* s from the start of the step at which the slice began */
+    double slice;                  /* s from the start of the step at which the slice began */
     vec3 sweep_from, sweep_motion; /* of the last sweep of the whole shape, if swept */
     vec3 at;                       /* where the last leg ends */
     vec3 up;                       /* at the start of the step, like the rest */

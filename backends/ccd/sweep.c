@@ -189,8 +189,8 @@ tahr_status tahr__ccd_sweep(void *self, tahr_query_context *context, const tahr_
                              .mask = query->mask,
                              .ignore_body = query->ignore_body,
                              .leaves_out = query->flags & TAHR_SWEEP_SENSORS ? TAHR__CCD_SOLIDS
-                                           : capacity == 1                  ? TAHR__CCD_SENSORS
-                                                                            : 0u};
+                                           : capacity == 1                   ? TAHR__CCD_SENSORS
+                                                                             : 0u};
     search s;
     tahr__ccd_walk walk;
     tahr__ccd_piece piece;
