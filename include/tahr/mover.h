@@ -146,7 +146,7 @@ enum {
     TAHR_EVENT_DEPENETRATED = 9, /* value: length of the push, m */
     TAHR_EVENT_CRUSHED = 10,     /* value: depth that is left, m */
     TAHR_EVENT_STUCK = 11,
-    TAHR_EVENT_MODE = 12,          /* value: the new mode */
+    TAHR_EVENT_MODE = 12, /* value: the new mode */
     /* Of a sensor, a fluid too; both in one step: passed through. At the time and the place at which the shape met or left
      * it; what came, went or is not met any more without a motion of the character's: at the start of the step. What does
      * not fit into state.touched begins when there is room for it. */
