@@ -72,6 +72,56 @@ static void a_swinging_door_sweeps_a_character_along(void **unused)
     }
 }
 
+static void a_rod_that_spins_short_of_a_character_does_not_touch_it(void **unused)
+{
+    rig r;
+    tahr_body_desc bodies[2] = {stage_ground(), stage_box(fake_vec(0, 0, 1), fake_vec(2, 0.02, 1))};
+    (void)unused;
+    rig_open_bodies(&r, bodies, 2, NULL, fake_vec(1.5, -1.95, 1)); /* 2.460 m from the axis: 0.1 m clear of the tips */
+    rig_settle(&r);
+    tahr_vec3 at = r.state.position;
+    for (int n = 1; n <= 40; n++) { /* 34 degrees a step: the chord of its way, seen from the rod, is 0.107 m further in */
+        stage_step(&r, 1, (tahr_pose){{0, 0, 1}, stage_yaw(0.6 * n)}, 0.1);
+        assert_true(stage_distance(at, r.state.position) < 1e-9);
+    }
+    rig_close(&r);
+}
+
+static void a_motion_pushes_once_however_many_steps_see_it(void **unused)
+{
+    rig r;
+    tahr_body_desc bodies[2] = {stage_ground(), stage_box(fake_vec(0, 0, 1), fake_vec(0.3, 0.5, 1))};
+    (void)unused;
+    rig_open_bodies(&r, bodies, 2, NULL, fake_vec(0.1, 1.2, 1));
+    rig_settle(&r);
+    r.input.move = fake_vec(0, -1, 0);
+    stage_step(&r, 1, (tahr_pose){{1.5, 0, 1}, LEVEL}, 1.0 / 60);
+    rig_steps(&r, 60, 1.0 / 60); /* walks over the place where the box was */
+    assert_true(r.state.position.y < -3);
+    assert_near(r.state.position.x, 0.1, 0);
+    rig_close(&r);
+}
+
+/* Between two walls, 0.1 m into each, and under a press, 0.15 m into it: the least of all depths would be 0.1 m down in the
+ * floor, which is 5 cm below. */
+static void a_crushed_character_is_not_pressed_into_the_floor(void **unused)
+{
+    rig r;
+    tahr_body_desc bodies[4] = {stage_ground(), stage_box(fake_vec(9, 0, 1), fake_vec(1, 1, 1)),
+                                stage_box(fake_vec(12, 0, 1), fake_vec(1, 1, 1)),
+                                stage_box(fake_vec(15, 0, 1), fake_vec(1, 1, 1))};
+    const tahr_body_pose poses[3] = {{1, TAHR_POSE_TELEPORT, {{1.25, 0, 1}, LEVEL}},
+                                     {2, TAHR_POSE_TELEPORT, {{-1.25, 0, 1}, LEVEL}},
+                                     {3, TAHR_POSE_TELEPORT, {{0, 0, 2.7}, LEVEL}}};
+    (void)unused;
+    rig_open_bodies(&r, bodies, 4, NULL, fake_vec(0, 0, 0.95));
+    assert_int_equal(tahr_world_move(r.world, poses, 3, 1e-3), TAHR_OK);
+    rig_step(&r, 1e-3);
+    assert_true(r.report.flags & TAHR_REPORT_CRUSHED);
+    assert_true(r.state.position.z >= 0.9 - 1e-6);
+    rig_close(&r);
+}
+
 static void a_rising_floor_takes_a_character_up_and_a_press_crushes_it_under_the_ceiling(void **unused)
 {
     rig r;
@@ -225,7 +275,8 @@ static void begin_storm(storm *s, int boxes, uint64_t seed)
 {
     s->random.state = seed;
     s->boxes = boxes;
-    s->bodies[0] = stage_ground();
+    s->bodies[0] = stage_box(fake_vec(0, 0, -0.02), fake_vec(2e4, 2e4, 0.02)); /* thin: nothing may be pressed through */
+    s->bodies[0].flags = 0;
     for (int b = 0; b < boxes; b++) {
         s->bodies[b + 1] = stage_box(fake_vec(20 + 3 * b, 0, 5), dice_vec(&s->random, 0.2, 1));
         s->velocity[b] = fake_vec(0, 0, 0);
@@ -456,6 +507,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_wall_pushes_a_character_at_any_speed),
         cmocka_unit_test(a_swinging_door_sweeps_a_character_along),
+        cmocka_unit_test(a_rod_that_spins_short_of_a_character_does_not_touch_it),
+        cmocka_unit_test(a_motion_pushes_once_however_many_steps_see_it),
+        cmocka_unit_test(a_crushed_character_is_not_pressed_into_the_floor),
         cmocka_unit_test(a_rising_floor_takes_a_character_up_and_a_press_crushes_it_under_the_ceiling),
         cmocka_unit_test(closing_walls_crush_only_when_they_leave_no_room),
         cmocka_unit_test(a_press_from_above_squeezes_out_who_is_near_its_edge),
