@@ -20,7 +20,7 @@ typedef struct tahr__memory {
 typedef struct tahr__body_note {
     uint64_t pose_hash;   /* its share of the revision */
     uint64_t motion_hash; /* and of world->motion; 0: at rest */
-    double reach;       /* m, radius around its position that holds all of it */
+    double reach;         /* m, radius around its position that holds all of it */
     double fluid_friction;
     tahr_vec3 surface_velocity; /* local */
     tahr_pose pose, before;     /* before: where the motion of the last placement began */
@@ -50,8 +50,8 @@ struct tahr_world {
     uint32_t moves;       /* calls of tahr_world_move, from 1 */
     uint32_t *moved;
     tahr__memory memory;
-    uint64_t revision;      /* never 0; a pure function of the poses of all bodies and of the touches */
-    uint64_t motion;        /* the same of their motions; 0: all at rest */
+    uint64_t revision; /* never 0; a pure function of the poses of all bodies and of the touches */
+    uint64_t motion;   /* the same of their motions; 0: all at rest */
     uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a motion */
     tahr__body_note *bodies;
 };

@@ -12,7 +12,8 @@ int tahr__sleeps_on(const tahr_mover *mover, const tahr_input *input, double dt,
 {
     const tahr__sleep *s = &mover->sleep;
     uint32_t capacity = report && report->events ? report->event_capacity : 0;
-    if (!s->noted || dt != s->dt || tahr_world_revision(mover->world) != s->revision || capacity != s->report.event_capacity) {
+    if (!s->noted || dt != s->dt || tahr_world_revision(mover->world) != s->revision ||
+        capacity != s->report.event_capacity) {
         return 0;
     }
     if (report && report->decisions) {
