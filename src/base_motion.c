@@ -29,6 +29,9 @@ double tahr__go_along(tahr__step *step, vec3 motion)
             break;
         }
         tahr__move(step, left, &hit);
+        if (!hit.blocking && count == 0) {
+            step->state.position = goal; /* PULL_BACK skips what is too short to sweep: a slow base would slip away */
+        }
         if (!hit.blocking || hit.unknown || hit.start_overlap) {
             break;
         }

@@ -13,9 +13,12 @@
 #include "query.h"
 #include "report.h"
 
-/* Of the skin: a shape fits where it keeps this to everything, what backends round away and not more. A skin of room over
- * the head would refuse to stand up where the character can stand and walk. */
-static const double ROOM = 1e-3;
+/* Of the skin: what a shape keeps to everything fits, but for what backends round away. With a margin that is the skin, which
+ * it will keep from then on; taken back from a contact it may be next to nothing. */
+static double room_of(const tahr_config *c)
+{
+    return (c->separation == TAHR_SEPARATION_MARGIN ? 0.999 : 1e-3) * c->skin;
+}
 
 /* Surfaces steeper than this (cosine to up) cannot be given way to by going up or down. */
 static const double SIDEWAYS = 0.1;
@@ -63,7 +66,7 @@ static change plan(const tahr__step *step, const tahr_shape *shape)
     change to = {.shape = *shape, .at = step->state.position, .grows = taller > 0 || wider > 0};
     to.on_ground = step->state.mode == TAHR_MODE_WALKING;
     if (to.on_ground) {
-        double least = c->separation == TAHR_SEPARATION_MARGIN ? c->skin : ROOM * c->skin;
+        double least = c->separation == TAHR_SEPARATION_MARGIN ? c->skin : room_of(c);
         double gap = floor_is_current(step) && floor_is_walkable(&step->state.floor) ? step->state.floor.distance : 0;
         to.at = add_scaled(to.at, step->state.up, taller);
         to.low = -max_of(gap - least, 0);
@@ -102,7 +105,7 @@ static double least_way(const span *free, const change *to)
 
 static int fits(tahr__step *step, vec3 at, tahr_contact *contacts, uint32_t *count)
 {
-    double room = ROOM * step->config->skin;
+    double room = room_of(step->config);
     *count = tahr__contacts(step, at, room, contacts, CONTACTS);
     return *count == 0 || contacts[0].distance >= room;
 }
@@ -135,7 +138,7 @@ static int find_room(tahr__step *step, const change *to, vec3 *at)
         hit.normal = contacts[0].normal;
         hit.point = contacts[0].point;
     }
-    return tahr__decide(step, TAHR_RULE_SHAPE, ok, &hit, ok ? 0 : contacts[0].distance, ROOM * step->config->skin,
+    return tahr__decide(step, TAHR_RULE_SHAPE, ok, &hit, ok ? 0 : contacts[0].distance, room_of(step->config),
                         "room for a larger shape");
 }
 
