@@ -151,7 +151,7 @@ static inline uint32_t world_body_flags(const tahr_world *world, uint32_t body)
 static inline vec3 step_constrained(const tahr__step *step, vec3 v)
 {
     vec3 n = step->config->plane;
-    return length_squared(n) > 0 ? reject(v, n) : v;
+    return length_squared(n) > 0 ? reject(v, unit(n)) : v; /* a config's is a unit to nine digits */
 }
 
 #endif

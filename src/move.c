@@ -58,6 +58,8 @@ static void skip(tahr__swept *swept)
     swept->location = swept->start;
 }
 
+/* The field picks of several overlaps the one whose face opposes the motion most; the seam's answer is the deepest of
+ * those that count. */
 int tahr__move_updated(tahr__step *step, vec3 motion, uint32_t flags, tahr__swept *swept)
 {
     const tahr_config *c = step->config;
@@ -97,6 +99,7 @@ static int safe_move(tahr__step *step, vec3 motion, tahr__swept *swept, int *ove
     }
     if (step->config->depenetration == TAHR_DEPENETRATION_JOINT) {
         tahr__depenetrate(step);
+        step->just_teleported |= !vec_equal(step->state.position, swept->start);
     } else if (!tahr__resolve_penetration(step, tahr__penetration_adjustment(step, &swept->hit), swept)) {
         return moved;
     }
@@ -163,11 +166,10 @@ static int joint_push(const tahr_contact *contacts, uint32_t count, double skin,
 }
 
 /* Moves along a push that frees: only what is not overlapped yet can stop it. */
-static void push_out(tahr__step *step, vec3 push)
+static void push_out(tahr__step *step, vec3 push, double skin)
 {
     tahr_hit hit;
-    tahr__sweep(step, &step->limits->shape, step->state.position, push, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP,
-                &hit);
+    tahr__sweep(step, &step->limits->shape, step->state.position, push, skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
     advance(step, push, &hit);
     if (hit.start_overlap &&
         hit.blocking) { /* a curved neighbour looks deeper for a moment: the push is still the joint one */
@@ -196,10 +198,16 @@ static void emit(tahr__step *step, vec3 start, double residual, const tahr_conta
                  "depth left after the joint push");
 }
 
+/* How far from everything a push ends. */
+static double clear_of(const tahr_config *c)
+{
+    return c->separation == TAHR_SEPARATION_MARGIN ? c->skin : 1.25 * c->pull_back;
+}
+
 int tahr__depenetrate(tahr__step *step)
 {
     tahr_contact contacts[CONTACTS];
-    double skin = step->config->skin;
+    double skin = clear_of(step->config);
     vec3 start = step->state.position;
     uint32_t count = tahr__contacts(step, step->state.position, skin, contacts, CONTACTS);
     tahr_contact first;
@@ -218,7 +226,7 @@ int tahr__depenetrate(tahr__step *step)
             size = step->push_left;
         }
         if (frees) {
-            push_out(step, push);
+            push_out(step, push, skin);
         } else {
             step->state.position = add(step->state.position, push);
         }

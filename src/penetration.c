@@ -24,7 +24,7 @@ vec3 tahr__penetration_adjustment(const tahr__step *step, const tahr_hit *hit)
     if (!hit->start_overlap) {
         return vec(0, 0, 0);
     }
-    double depth = hit->depth > 0 ? hit->depth : extra_push(c);
+    double depth = hit->depth > 0 ? min_of(hit->depth, 1e6) : extra_push(c); /* m: no body is larger */
     vec3 push = step_constrained(step, scale(hit->normal, depth + extra_push(c)));
     int character = (world_body_flags(step->world, hit->body) & TAHR_BODY_CHARACTER) != 0;
     double most = character ? c->max_depenetration_character : c->max_depenetration;
