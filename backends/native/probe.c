@@ -202,9 +202,16 @@ static int advance(flight *f, double limit)
         double next = f->t + rest / -rate;
         if (next > limit) return 0;
         f->t = next;
-        tahr_vec3 before = w->normal;
+        tahr__witness before = *w;
         measure(query, f->prim, v_mad(query->start, query->motion, f->t), w);
-        if (w->distance < BLURRED) w->normal = before;
+        if (w->distance < BLURRED) {
+            w->normal = before.normal;
+            /* A box that touches may find no point to name, nor a feature of the triangle. */
+            if (query->core.axis_count == 3) {
+                w->point = before.point;
+                w->feature = before.feature;
+            }
+        }
         query->context->narrow_iterations++;
     }
     return -1;
