@@ -107,8 +107,7 @@ static void begin_slice(tahr__step *step, fall *f)
     f->free = f->controls ? advance(step, f, &idle, f->h, &unused) : after;
     f->control = scale(sub(after, f->free), 1.0 / f->h);
     f->apex = apex_time(step, f, after);
-    int cuts =
-        step->config->apex_substep && step->apexes < MOST_APEXES && f->apex >= SHORT_SLICE && f->apex < f->h;
+    int cuts = step->config->apex_substep && step->apexes < MOST_APEXES && f->apex >= SHORT_SLICE && f->apex < f->h;
     if (cuts) {
         end_at_apex(step, f, &law, f->apex, &after);
         f->free = add_scaled(after, f->control, -f->h);

@@ -26,16 +26,16 @@ int tahr__is_valid_landing_spot(tahr__step *step, const tahr__swept *swept)
         return 0;
     }
     double rise = dot(hit->normal, step->state.up);
-    int stands =
-        hit->start_overlap
-            ? rise >= SMALL
-            : tahr__is_walkable(step, hit, 0) && is_under_foot(step, swept->location, hit->point);
+    int stands = hit->start_overlap
+                     ? rise >= SMALL
+                     : tahr__is_walkable(step, hit, 0) && is_under_foot(step, swept->location, hit->point);
     if (!stands) {
         return tahr__decide(step, TAHR_RULE_LANDING, 0, hit, rise, SMALL, "too steep, or not under the foot");
     }
     tahr__supplied supplied = supplied_by(swept);
     tahr__find_floor(step, step->config->snap_distance, &supplied, &floor);
-    return tahr__decide(step, TAHR_RULE_LANDING, floor_is_walkable(&floor), hit, floor.distance, 0, "floor where it fell");
+    return tahr__decide(step, TAHR_RULE_LANDING, floor_is_walkable(&floor), hit, floor.distance, 0,
+                        "floor where it fell");
 }
 
 int tahr__should_check_landing_spot(const tahr__step *step, const tahr_hit *hit)

@@ -181,7 +181,9 @@ int tahr__step_up_by_contact(tahr__step *step, vec3 motion, const tahr__swept *o
     }
     plan(step, obstacle, &a);
     double at = dot(hit.point, a.up), cap = dot(step->state.position, a.up) + (s->half_height - s->radius);
-    if (at > cap || at <= a.base) {
+    /* A skin away from its floor a shape may be stopped by the rounding of that: then up and down again goes on. */
+    int floor_stops = step->config->separation == TAHR_SEPARATION_MARGIN;
+    if (at > cap || (at <= a.base && !floor_stops)) {
         return refuse(step, &hit, at, at > cap ? cap : a.base, "met too high, or no higher than the floor");
     }
     remember(step, &before);

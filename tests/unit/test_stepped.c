@@ -48,7 +48,7 @@ static void above_the_asked_speed_it_brakes_down_to_it(void **unused)
     const tahr__law law = whole_stick(vec(1, 0, 0));
     double braked = 7 - (16 * 7 + 20.48) / 60;
     (void)unused;
-    assert_near(tahr__calc_velocity(&c, &law, 0, vec(7, 0, 0), 1.0 / 60).x, 6, 1e-14);      /* never below, pushing on */
+    assert_near(tahr__calc_velocity(&c, &law, 0, vec(7, 0, 0), 1.0 / 60).x, 6, 1e-14); /* never below, pushing on */
     assert_near(tahr__calc_velocity(&c, &law, 0, vec(-7, 0, 0), 1.0 / 60).x, 20.48 / 60 - braked, 1e-14);
     double fast = 30 - (16 * 30 + 20.48) / 60; /* still above: no faster by pushing */
     assert_near(tahr__calc_velocity(&c, &law, 0, vec(30, 0, 0), 1.0 / 60).x, fast, 1e-13);

@@ -36,9 +36,9 @@ static uint32_t make_course(tahr_body_desc bodies[COURSE])
     bodies[n++].pose.orientation = (tahr_quat){0, 0, 0.5, sqrt(0.75)};
     bodies[n++] = native_box(fake_vec(3.5, -4.8, 1), fake_vec(1.5, 0.3, 2));
     bodies[n++] = native_box(fake_vec(0, -1.5, 0.2), fake_vec(0.4, 0.4, 0.2)); /* a block just low enough to step on */
-    bodies[n++] = native_box(fake_vec(0, 2, 0.35), fake_vec(0.5, 0.5, 0.35)); /* one too high */
-    bodies[n++] = native_box(fake_vec(-1, -6, 2.6), fake_vec(1, 1, 0.5)); /* a ceiling low enough to bump into */
-    bodies[n] = native_box(fake_vec(0, 5.5, 1.2), fake_vec(1, 1, 0.1));   /* a leaning slab */
+    bodies[n++] = native_box(fake_vec(0, 2, 0.35), fake_vec(0.5, 0.5, 0.35));  /* one too high */
+    bodies[n++] = native_box(fake_vec(-1, -6, 2.6), fake_vec(1, 1, 0.5));      /* a ceiling low enough to bump into */
+    bodies[n] = native_box(fake_vec(0, 5.5, 1.2), fake_vec(1, 1, 0.1));        /* a leaning slab */
     bodies[n++].pose.orientation = (tahr_quat){0.3826834323650898, 0, 0, 0.9238795325112867};
     assert_true(n <= COURSE);
     return n;
@@ -55,7 +55,8 @@ static void choose(wanderer *w, rig *r)
     if (r->time < w->until) {
         return;
     }
-    double x = oracle_uniform(&w->dice, -7, 7) - r->state.position.x, y = oracle_uniform(&w->dice, -7, 7) - r->state.position.y;
+    double x = oracle_uniform(&w->dice, -7, 7) - r->state.position.x,
+           y = oracle_uniform(&w->dice, -7, 7) - r->state.position.y;
     double size = oracle_uniform(&w->dice, -0.3, 1.5), far = hypot(x, y) + 1e-9;
     size = size < 0 ? 0 : (size > 1 ? 1 : size);
     r->input.move = fake_vec(size * x / far, size * y / far, 0);
@@ -166,10 +167,10 @@ static void check_journeys(const tahr_config *config, const char *what, double a
 {
     for (int i = 0; i < 4; i++) {
         journey all = {0};
-        for (uint64_t seed = 1; seed <= 6; seed++) {
+        for (uint64_t seed = 1; seed <= 4; seed++) {
             journey j = wander(config, what, rates[i], seed, allowed);
             all.deepest = fmax(all.deepest, j.deepest);
-            all.way += j.way / 6;
+            all.way += j.way / 4;
             all.highest = fmax(all.highest, j.highest);
             all.walked += j.walked;
             all.fell += j.fell;
@@ -178,11 +179,10 @@ static void check_journeys(const tahr_config *config, const char *what, double a
             all.landings += j.landings;
             all.capped += j.capped;
         }
-        print_message("%-34s %4g Hz: %5.1f m in 20 s, %.1e m deep, %d hits, %d steps up, %d landings, %d capped\n", what, rates[i],
-                      all.way, all.deepest, all.hits, all.steps, all.landings,
-                      all.capped);
+        print_message("%-34s %4g Hz: %5.1f m in 20 s, %.1e m deep, %d hits, %d steps up, %d landings, %d capped\n",
+                      what, rates[i], all.way, all.deepest, all.hits, all.steps, all.landings, all.capped);
         assert_true(all.way > 20 && all.walked > all.fell && all.fell > 0); /* it goes on, on the ground and in the air */
-        assert_true(all.highest > 1.5 && all.hits > 50 && all.steps > 0 && all.landings > 20);
+        assert_true(all.highest > 1.5 && all.hits > 50 && all.landings > 15);
         assert_true(all.capped <= capped);
     }
 }
@@ -200,26 +200,76 @@ static void unreal_characters_stay_in_the_yard_and_out_of_walls(void **unused)
     check_journeys(&c, "unreal, other switches", 1e-4, 0);
 }
 
+/* Up 8 steps of 17 cm by 30 cm at 6 m/s: 3.2 m of level way, from before the first to behind the last. */
+static void check_stairs(const tahr_config *config, const char *what, double hz)
+{
+    enum { STEPS = 8 };
+    tahr_body_desc bodies[STEPS + 1];
+    rig r;
+    double begin = -1, end = -1;
+    bodies[STEPS] = native_box(fake_vec(0, 0, -1), fake_vec(20, 20, 1));
+    for (int i = 0; i < STEPS; i++) {
+        bodies[i] = native_box(fake_vec(7 + 0.3 * i, 0, 0.085 * (i + 1)), fake_vec(5, 2, 0.085 * (i + 1)));
+    }
+    rig_open_bodies(&r, bodies, STEPS + 1, config, fake_vec(0, 0, 1));
+    rig_settle(&r);
+    double ground = r.state.position.z;
+    r.time = 0;
+    r.state.velocity = fake_vec(6, 0, 0);
+    r.input.move = fake_vec(1, 0, 0);
+    while (end < 0 && r.time < 2) {
+        double x = r.state.position.x;
+        rig_step(&r, 1 / hz);
+        double step = r.state.position.x - x, past = r.state.position.x;
+        begin = begin < 0 && past >= 1.4 ? r.time - (past - 1.4) / (step * hz) : begin;
+        end = past >= 4.6 ? r.time - (past - 4.6) / (step * hz) : end;
+    }
+    double time = end - begin, top = r.state.position.z - ground;
+    rig_close(&r);
+    if (!(end > 0 && fabs(time * 6 / 3.2 - 1) < 0.02 && fabs(top - 8 * 0.17) < 0.02)) {
+        fail_msg("%s at %g Hz: %g s up the stairs, %g m high", what, hz, time, top);
+    }
+}
+
 /* On top of either preset: the other settings are as it has them. */
-static void check_mixed(int32_t preset, uint32_t mix, const char *name)
+static void name_mix(int32_t preset, uint32_t mix, tahr_config *config, char what[64])
 {
     tahr_config c;
-    char what[64];
     assert_int_equal(tahr_config_init(&c, sizeof c, preset), TAHR_OK);
     c.integrator = mix & 1 ? TAHR_INTEGRATOR_STEPPED : TAHR_INTEGRATOR_EXACT;
     c.slide_solver = mix & 2 ? TAHR_SLIDE_TWO_WALLS : TAHR_SLIDE_JOINT;
     c.step_rule = mix & 4 ? TAHR_STEP_BY_CONTACT : TAHR_STEP_BY_TREAD;
-    snprintf(what, sizeof what, "%s %s %s %s", name, mix & 1 ? "stepped" : "exact", mix & 2 ? "two walls" : "joint",
-             mix & 4 ? "contact" : "tread");
-    check_journeys(&c, what, 1e-4, 99);
+    snprintf(what, 64, "%s %s %s %s", tahr_preset_name(preset), mix & 1 ? "stepped" : "exact",
+             mix & 2 ? "two walls" : "joint", mix & 4 ? "contact" : "tread");
+    *config = c;
 }
 
 static void every_integrator_runs_with_every_solver_and_step_rule(void **unused)
 {
     (void)unused;
-    for (uint32_t mix = 0; mix < 8; mix++) {
-        check_mixed(TAHR_PRESET_PRECISE, mix, "precise");
-        check_mixed(TAHR_PRESET_UNREAL, mix, "unreal");
+    for (int32_t preset = TAHR_PRESET_PRECISE; preset <= TAHR_PRESET_UNREAL; preset++) {
+        for (uint32_t mix = 0; mix < 8; mix++) {
+            tahr_config c;
+            char what[64];
+            name_mix(preset, mix, &c, what);
+            check_journeys(&c, what, 1e-4, 99);
+        }
+    }
+}
+
+static void all_of_them_climb_stairs_at_full_speed(void **unused)
+{
+    static const double hz[] = {10, 30, 60, 120, 240, 1000};
+    (void)unused;
+    for (int32_t preset = TAHR_PRESET_PRECISE; preset <= TAHR_PRESET_UNREAL; preset++) {
+        for (uint32_t mix = 0; mix < 8; mix++) {
+            tahr_config c;
+            char what[64];
+            name_mix(preset, mix, &c, what);
+            for (int i = 0; i < 6; i++) {
+                check_stairs(&c, what, hz[i]);
+            }
+        }
     }
 }
 
@@ -227,6 +277,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(unreal_characters_stay_in_the_yard_and_out_of_walls),
+        cmocka_unit_test(all_of_them_climb_stairs_at_full_speed),
         cmocka_unit_test(every_integrator_runs_with_every_solver_and_step_rule),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
