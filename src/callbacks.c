@@ -126,6 +126,12 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
     return status;
 }
 
+static tahr_status body_motion(void *self, uint32_t body, tahr_body_motion *motion)
+{
+    const tahr_callbacks *user = self;
+    return user->body ? user->body(user->user, body, motion) : TAHR_E_NOT_FOUND;
+}
+
 const tahr_backend tahr__callbacks_backend = {
     .struct_size = sizeof(tahr_backend),
     .abi_major = TAHR_ABI_MAJOR,
@@ -137,4 +143,5 @@ const tahr_backend tahr__callbacks_backend = {
     .sweep = sweep,
     .contacts = contacts,
     .ray = ray,
+    .body_motion = body_motion,
 };

@@ -18,15 +18,16 @@ typedef struct tahr__memory {
 
 /* What the core remembers of a body. */
 typedef struct tahr__body_note {
-    uint64_t pose_hash; /* its share of the revision */
-    double reach;       /* m, radius around its position that holds all of it */
+    uint64_t pose_hash;   /* its share of the revision */
+    uint64_t motion_hash; /* and of world->motion; 0: at rest */
+    double reach;         /* m, radius around its position that holds all of it */
     double fluid_friction;
     tahr_vec3 surface_velocity; /* local */
     tahr_pose pose, before;     /* before: where the motion of the last placement began */
     double dt;                  /* s of that motion; 0: at rest */
     double mass;
-    uint32_t flags;      /* TAHR_BODY_* */
-    uint32_t teleported; /* by the last placement */
+    uint32_t flags;  /* TAHR_BODY_* */
+    uint32_t jumped; /* world->moves at the time it was put where it is without a motion; 0: never */
 } tahr__body_note;
 
 /* What a world may hold, so that a step does not look for what is not there. */
@@ -45,10 +46,13 @@ struct tahr_world {
     uint32_t complaints; /* of the backend in it */
     uint32_t body_count;
     uint32_t has;         /* TAHR__HAS_* */
-    uint32_t moved_count; /* bodies in motion since the last placement: the first of moved */
+    uint32_t moved_count; /* bodies in motion: the first of moved, by id */
+    uint32_t moves;       /* calls of tahr_world_move, from 1 */
     uint32_t *moved;
     tahr__memory memory;
     uint64_t revision; /* never 0; a pure function of the poses of all bodies and of the touches */
+    uint64_t motion;   /* the same of their motions; 0: all at rest */
+    uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a motion */
     tahr__body_note *bodies;
 };
 
@@ -98,6 +102,7 @@ struct tahr_mover {
     void *cache;
     size_t cache_size;
     uint32_t busy;
+    tahr_state blank; /* what a state remembers that has nothing to remember: from radius on */
     tahr__sleep sleep;
 };
 
@@ -114,6 +119,9 @@ typedef struct tahr__step {
     tahr__limits own_limits;  /* what limits points to while the shape is not the config's */
     uint32_t ignore_body;     /* not there for this step's queries now, or TAHR_NO_BODY */
     uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */
+    uint32_t frame_body;      /* what state.velocity is relative to in this step, or TAHR_NO_BODY (base_motion.c) */
+    uint32_t frame_is_base;   /* 1: it stood on it; 0: it meets it in the air */
+    vec3 frame_velocity;      /* m/s, of that body at the foot */
     double dt;                /* s of the whole step */
     double time;              /* s since the start of the step, at the begin of the slice */
     double ahead;             /* s from there to what is being worked on: events happen then */
@@ -129,6 +137,12 @@ typedef struct tahr__next {
     uint32_t mode;
     double time_left; /* s */
 } tahr__next;
+
+/* Has anything in the world ever been moved? Then characters may be squeezed. */
+static inline int step_squeezes(const tahr__step *step)
+{
+    return step->world->moves > 1;
+}
 
 static inline vec3 step_foot(const tahr__step *step)
 {

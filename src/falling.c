@@ -3,6 +3,7 @@
  * arc. */
 #include "falling.h"
 
+#include "base_motion.h"
 #include "fall_two_walls.h"
 #include "floor.h"
 #include "move.h"
@@ -134,6 +135,7 @@ static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
 
 static tahr__next land(tahr__step *step, const tahr_hit *hit, const tahr_floor *floor, double left)
 {
+    tahr__land_on(step, floor->body);
     double speed = -dot(step->state.velocity, step->state.up);
     tahr__event(step, TAHR_EVENT_LANDED, hit, max_of(speed, 0));
     step->state.velocity = step_level(step, step->state.velocity);

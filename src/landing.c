@@ -2,6 +2,7 @@
  * landing.c: what a fall may end on. For config.slide_solver JOINT see falling.c. */
 #include "landing.h"
 
+#include "base_motion.h"
 #include "floor_distance.h"
 #include "modes.h"
 #include "report.h"
@@ -59,6 +60,7 @@ void tahr__process_landed(tahr__step *step, const tahr_hit *hit)
 {
     tahr_floor floor;
     tahr_state *s = &step->state;
+    tahr__land_on(step, hit->body);
     tahr__event(step, TAHR_EVENT_LANDED, hit, max_of(-dot(s->velocity, s->up), 0));
     s->velocity = step_level(step, s->velocity);
     s->flags &= ~(uint32_t)TAHR_STATE_JUMPING;

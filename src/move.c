@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "push.h"
 #include "query.h"
 #include "report.h"
 
@@ -209,7 +210,10 @@ int tahr__depenetrate(tahr__step *step)
     tahr_contact contacts[CONTACTS];
     double skin = clear_of(step->config);
     vec3 start = step->state.position;
-    uint32_t count = tahr__contacts(step, step->state.position, skin, contacts, CONTACTS);
+    /* A floor is up to 1.5 skin away: pressed from above the character may not be pushed into it, only to be pushed back. */
+    int squeezes = step_squeezes(step);
+    double near = squeezes ? 1.5 * skin : skin;
+    uint32_t count = tahr__contacts(step, step->state.position, near, contacts, CONTACTS);
     tahr_contact first;
     memset(&first, 0, sizeof first);
     first.body = TAHR_NO_BODY;
@@ -220,6 +224,11 @@ int tahr__depenetrate(tahr__step *step)
     for (int round = 0; round < TAHR__DEPENETRATION_ROUNDS && depth > TOUCHING && step->push_left > 0; round++) {
         vec3 push, before = step->state.position;
         int frees = joint_push(contacts, count, skin, &push);
+        double fixed = 0;
+        if (squeezes) {
+            fixed = tahr__fixed_depth(step, contacts, count);
+            push = frees ? push : tahr__spare_the_fixed(step, contacts, count, push);
+        }
         double size = length(push);
         if (size > step->push_left) {
             push = scale(push, step->push_left / size);
@@ -230,9 +239,10 @@ int tahr__depenetrate(tahr__step *step)
         } else {
             step->state.position = add(step->state.position, push);
         }
-        count = tahr__contacts(step, step->state.position, skin, contacts, CONTACTS);
+        count = tahr__contacts(step, step->state.position, near, contacts, CONTACTS);
         double now = deepest(contacts, count);
-        if (now >= depth) { /* no better: stay where it was least bad */
+        int enters = squeezes && tahr__fixed_depth(step, contacts, count) > fixed + TOUCHING;
+        if (now >= depth || enters) { /* no better: stay where it was least bad */
             step->state.position = before;
             break;
         }

@@ -63,6 +63,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->cache = cache;
+    tahr_state_init(&mover->blank, &mover->config, &(vec3){0, 0, 0});
     mover->cache_size = cache_size;
     *out = mover;
     return TAHR_OK;

@@ -352,6 +352,45 @@ void tahr__announce(tahr__step *step, const tahr_prepare *announcement)
     }
 }
 
+static const char *bad_motion(const tahr_body_motion *m)
+{
+    tahr_quat q = m->pose.orientation;
+    double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    if (!(length(m->pose.position) <= 2e7)) {
+        return "pose.position";
+    }
+    if (!(q2 > 1 - 1e-6 && q2 < 1 + 1e-6)) {
+        return "pose.orientation";
+    }
+    if (!vec_is_finite(m->velocity) || !vec_is_finite(m->surface_velocity)) {
+        return vec_is_finite(m->velocity) ? "surface_velocity" : "velocity";
+    }
+    if (!vec_is_finite(m->angular_velocity)) {
+        return "angular_velocity";
+    }
+    return m->mass >= 0 && is_finite(m->mass) ? NULL : "mass";
+}
+
+tahr_status tahr__ask_motion(const tahr_world *world, uint32_t body, tahr_body_motion *motion)
+{
+    const tahr_backend *backend = world->backend;
+    memset(motion, 0, sizeof *motion);
+    motion->pose.orientation.w = 1;
+    if (!backend->body_motion || body == TAHR_NO_BODY) {
+        return TAHR_E_NOT_FOUND;
+    }
+    tahr_status status = backend->body_motion(world->self, body, motion);
+    if (status < 0) {
+        return status == TAHR_E_NOT_FOUND ? status : bad_answer(world, "body_motion", "status");
+    }
+    const char *bad = bad_motion(motion);
+    if (bad) {
+        return bad_answer(world, "body_motion", bad);
+    }
+    motion->pose.orientation = quat_unit(motion->pose.orientation);
+    return TAHR_OK;
+}
+
 uint32_t tahr__shape_capability(uint32_t type)
 {
     return type == TAHR_SHAPE_SPHERE ? TAHR_CAP_SPHERE : (type == TAHR_SHAPE_BOX ? TAHR_CAP_BOX : TAHR_CAP_CAPSULE);
@@ -409,7 +448,7 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     if (!bad && !(vec_is_finite(query->motion) && length(query->motion) <= 1e6)) {
         bad = "motion";
     }
-    if (!bad && (query->flags & ~(uint32_t)TAHR_SWEEP_LEAVE_OVERLAP || query->reserved)) {
+    if (!bad && (query->flags & ~(uint32_t)(TAHR_SWEEP_LEAVE_OVERLAP | TAHR_SWEEP_ONLY_BODY) || query->reserved)) {
         bad = query->reserved ? "reserved" : "flags";
     }
     if (bad || capacity == 0) {

@@ -24,6 +24,10 @@ void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit);
 /* The TAHR_CAP_* that a character of this shape needs. */
 uint32_t tahr__shape_capability(uint32_t type);
 
+/* How a body moves that the core has no note of. Checked. TAHR_OK, TAHR_E_NOT_FOUND, TAHR_E_BACKEND (and the log says
+ * what). No query. */
+tahr_status tahr__ask_motion(const tahr_world *world, uint32_t body, tahr_body_motion *motion);
+
 /* Tells the backend where this step is expected to ask. No query. */
 void tahr__announce(tahr__step *step, const tahr_prepare *announcement);
 

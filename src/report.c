@@ -2,6 +2,8 @@
  * report.c: writing events and decisions into the caller's arrays; what does not fit is counted. */
 #include "report.h"
 
+#include "push.h"
+
 void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double value)
 {
     tahr_report *r = &step->report;
@@ -23,11 +25,17 @@ void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double va
     if (hit) {
         event.normal = hit->normal;
     }
+    if (type == TAHR_EVENT_PUSHED) {
+        event.position = hit->point;
+    }
     /* A world whose answers contradict each other may let a floor end before something that was met on it. */
     if (r->event_count > 0) {
         event.time = max_of(event.time, r->events[r->event_count - 1].time);
     }
     r->events[r->event_count++] = event;
+    if (type == TAHR_EVENT_HIT && step->world->has & TAHR__HAS_BASES) {
+        tahr__report_push(step, hit, value);
+    }
 }
 
 int tahr__trace(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value, double limit,

@@ -51,6 +51,7 @@ typedef struct tahr__ccd_probe {
     tahr_vec3 origin, motion;
     double motion_length;
     uint32_t mask, ignore_body;
+    int only_body; /* 1: nothing is there but ignore_body */
 } tahr__ccd_probe;
 
 /* The nearest points of the shape and a piece. */

@@ -187,7 +187,8 @@ tahr_status tahr__ccd_sweep(void *self, tahr_query_context *context, const tahr_
                              .origin = query->position,
                              .motion = query->motion,
                              .mask = query->mask,
-                             .ignore_body = query->ignore_body};
+                             .ignore_body = query->ignore_body,
+                             .only_body = (query->flags & TAHR_SWEEP_ONLY_BODY) != 0};
     search s;
     tahr__ccd_walk walk;
     tahr__ccd_piece piece;

@@ -114,6 +114,21 @@ typedef struct tahr__query {
     uint32_t sensors; /* 0: sensor bodies are not looked at */
 } tahr__query;
 
+/* Is this body there for the query? */
+static inline int tahr__is_asked(const tahr__query *query, uint32_t body, uint32_t mask)
+{
+    int only = (query->flags & TAHR_SWEEP_ONLY_BODY) != 0;
+    return (mask & query->mask) && (body == query->ignore_body) == only;
+}
+
+/* Is nothing asked about but one movable body? Then no static one need be looked at. */
+static inline int tahr__asks_movable_only(const tahr__query *query)
+{
+    const tahr__native *world = query->world;
+    return query->flags & TAHR_SWEEP_ONLY_BODY && query->ignore_body < world->body_count &&
+           world->bodies[query->ignore_body].flags & TAHR_BODY_MOVABLE;
+}
+
 /* Visits every primitive that may be within reach of box. The visitor may shrink box (and set narrowed) on the way. */
 typedef struct tahr__search {
     const tahr__query *query;

@@ -221,7 +221,7 @@ static uint32_t ask_recent(sweep_state *s, const tahr__prim *prims, tahr__lanes_
     return count;
 }
 
-static void search(sweep_state *s)
+static void search_fixed(sweep_state *s)
 {
     const tahr__query *query = s->search.query;
     if (tahr__cache_holds(&s->search)) {
@@ -238,6 +238,12 @@ static void search(sweep_state *s)
     } else {
         tahr__tree_search(&s->search, &query->world->fixed);
     }
+}
+
+static void search(sweep_state *s)
+{
+    const tahr__query *query = s->search.query;
+    if (!tahr__asks_movable_only(query)) search_fixed(s);
     s->stopper = NULL;
     if (query->world->movable.count == 0) return;
     narrow(s);

@@ -59,9 +59,10 @@ enum {
 /* The body that carries the character. */
 typedef struct tahr_base {
     uint32_t body; /* or TAHR_NO_BODY */
-    uint32_t reserved;
+    uint32_t seen; /* low half of the world's revision in the last step while bodies move, else 0 */
     tahr_pose pose;     /* of the body, as the last step saw it */
-    tahr_vec3 velocity; /* m/s, world: of the body at the foot; after it was left, what of it the character still has */
+    tahr_vec3 velocity; /* m/s, world: of the body at the foot, or what it was until it stopped (config.lift_momentum);
+                         * after it was left, what of it the character still has */
 } tahr_base;
 
 enum { TAHR_MAX_TOUCHED = 8 };
@@ -71,7 +72,7 @@ enum { TAHR_MAX_TOUCHED = 8 };
  * orientation and mode between steps; the floor is looked for again wherever position is not floor_position. */
 typedef struct tahr_state {
     tahr_vec3 position;    /* m, world, centre of the shape */
-    tahr_vec3 velocity;    /* m/s, world */
+    tahr_vec3 velocity;    /* m/s, along the world's axes; on a base (base.body) relative to it */
     tahr_quat orientation; /* its z axis is up (keep it so when you write it); yaw follows input.facing */
     tahr_vec3 up;
     uint32_t mode;  /* TAHR_MODE_* */
@@ -324,7 +325,9 @@ TAHR_API void tahr_mover_destroy(tahr_mover *mover);
  * state not finite or out of range; the log names the field), TAHR_E_BACKEND, TAHR_E_REENTRANT.
  * Allocates nothing. Pure: the result depends on world, config, input, dt and state only. Different movers may step on
  * different threads at once. Queries: at most TAHR_MAX_QUERIES_PER_STEP; on flat ground 2 sweeps moving, 1 standing, 0
- * standing on a cached floor or asleep. Since 0.1. */
+ * standing on a cached floor or asleep; on a base that moves 1 more (3 where it tilts); for
+ * every body that moves near the
+ * character 1 or 2, and 12 more while it pushes. Since 0.1. */
 TAHR_API tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report);
 

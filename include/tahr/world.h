@@ -173,12 +173,16 @@ TAHR_API void tahr_world_close(tahr_world *world);
 TAHR_API tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint32_t count);
 
 /* Moves movable bodies to new poses within dt seconds (> 0, up to 10), and advances the revision. All or nothing. Needs
- * exclusive access. In their next step characters are carried by what they stand on, by the exact difference of its
- * poses, and pushed by what moves into them; bodies that are not named come to rest. Statuses as for tahr_world_set, and
- * TAHR_E_ARGUMENT (dt). Since 0.1. */
+ * exclusive access. Call it once before the steps of a tick, with every body that moves in it: bodies that are not named,
+ * or are where they were, come to rest. In their next step characters are carried by what they stand on, by the exact
+ * difference of its poses, and pushed by what moves into them, straight and turning evenly (by less than half a turn). A
+ * body named twice goes to its last pose. poses[i].flags: TAHR_POSE_TELEPORT. For a rollback put the bodies back with
+ * tahr_world_set and move them again: all bits repeat. Statuses as for tahr_world_set, and TAHR_E_ARGUMENT (dt; flags
+ * unknown). Since 0.1. */
 TAHR_API tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *poses, uint32_t count, double dt);
 
-/* How a body moves now. [out] motion, untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND, TAHR_E_BACKEND
+/* How a body moves now: its speeds are those of the last tahr_world_move, on the way to this pose. World frame, SI units.
+ * [out] motion, untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND, TAHR_E_BACKEND
  * (an invalid answer of a callback). Allocates nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_world_body(tahr_world *world, uint32_t body, tahr_body_motion *motion);
 

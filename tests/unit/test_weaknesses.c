@@ -154,6 +154,13 @@ static double sinking(const tahr_config *config, double off)
     return height_at_edge(config, -100) - height_at_edge(config, off);
 }
 
+static double sinking_on_flat_base(const tahr_config *config, double off)
+{
+    tahr_config c = *config;
+    c.flat_base = c.preset == TAHR_PRESET_UNREAL;
+    return sinking(&c, off);
+}
+
 /* After the first frame that runs into the wall. No steps: trying one creeps on. */
 static double gap_at_wall(const tahr_config *config, double speed)
 {
@@ -268,6 +275,8 @@ static const line lines[] = {
      0.05,
      {4.406, FALLS, FALLS, FALLS},
      0.001},
+    {"6", "the same, unreal with flat_base", "cm beyond it", sinking_on_flat_base, 3, {17, 20.001, 30}, SAME(0),
+     1e-3, {4.406, FALLS, FALLS}, 0.001},
     {"21", "gap to a wall at 60 Hz", "cm/s", gap_at_wall, 2, {60, 3000}, {0.101, 1.05}, 5e-4, SAME(1.0), 1e-6},
     {"22", "ledge guard", "Hz", ledge_guard, 3, {60, 120, 240}, {10, 5, 2.5}, 1e-9, SAME(0.001), 1e-5},
 };
