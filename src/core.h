@@ -34,7 +34,8 @@ typedef struct tahr__body_note {
 enum {
     TAHR__HAS_SENSORS = 1 << 0,
     TAHR__HAS_FLUIDS = 1 << 1,
-    TAHR__HAS_BASES = 1 << 2 /* bodies that move, drive a conveyor, or can be pushed */
+    TAHR__HAS_MOVING_SENSORS = 1 << 3, /* or some that may: nothing is known of a user's own */
+    TAHR__HAS_BASES = 1 << 2           /* bodies that move, drive a conveyor, or can be pushed */
 };
 
 struct tahr_world {
@@ -115,6 +116,7 @@ typedef struct tahr__step {
     const tahr__pull *pull;
     tahr_state state;
     tahr_report report;
+    struct tahr__trail *trail; /* NULL in a world without sensors (trail.h) */
     tahr_query_context context;
     tahr__limits own_limits;  /* what limits points to while the shape is not the config's */
     uint32_t ignore_body;     /* not there for this step's queries now, or TAHR_NO_BODY */

@@ -4,6 +4,7 @@
 #include "fall_two_walls.h"
 
 #include "landing.h"
+#include "overlap.h"
 #include "report.h"
 #include "slide.h"
 #include "stepped.h"
@@ -293,6 +294,7 @@ tahr__next tahr__fall_two_walls(tahr__step *step, double time)
         answer = fall_slice(step, &f);
         step->time += begun - f.left;
         step->ahead = 0;
+        tahr__time_slice(step);
     }
     if (answer == ENDS) {
         step->report.time_lost += f.left;

@@ -7,6 +7,7 @@
 #include "fall_two_walls.h"
 #include "floor.h"
 #include "move.h"
+#include "overlap.h"
 #include "query.h"
 #include "report.h"
 #include "slide.h"
@@ -193,7 +194,7 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         duration = f->left / (double)(int)(f->left / duration + 1);
     }
     vec3 chord = slide_in_air(step, f, arc_at(&a, duration, &v));
-    vec3 start = step->state.position;
+    vec3 start = step->state.position, began = step->state.velocity;
     double used = duration;
     int pushed = tahr__move(step, chord, hit);
     int met = hit->blocking && !hit->start_overlap && !hit->unknown;
@@ -207,6 +208,7 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         arc_at(&a, used, &v);
     }
     step->state.velocity = slide_in_air(step, f, v);
+    tahr__time_fall(step, began, used, f->plane_count > 0 || pushed);
     use_time(step, f, used);
     if (reaches_apex && used == duration) {
         if (f->plane_count == 0) { /* exactly zero, so that the apex is met once */

@@ -4,6 +4,7 @@
 #include "modes.h"
 
 #include "falling.h"
+#include "overlap.h"
 #include "report.h"
 #include "walking.h"
 
@@ -44,6 +45,7 @@ double tahr__run_mode(tahr__step *step, double time)
     step->ahead = 0;
     tahr__next next = modes[step->state.mode].run(step, time);
     step->ahead = 0; /* a mode has moved step->time to where it ended */
+    tahr__time_slice(step);
     tahr__change_mode(step, next.mode);
     return next.time_left;
 }

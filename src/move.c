@@ -7,6 +7,7 @@
 #include "push.h"
 #include "query.h"
 #include "report.h"
+#include "trail.h"
 
 /* An overlap of less is rounding of the backend, not worth a push (robustness: native float 2e-6 m). */
 static const double TOUCHING = 1e-7;
@@ -74,6 +75,7 @@ int tahr__move_updated(tahr__step *step, vec3 motion, uint32_t flags, tahr__swep
         skip(swept);
         return 1;
     }
+    tahr__trail_go(step);
     tahr__sweep(step, &step->limits->shape, swept->start, motion, pulls ? 0 : c->skin, flags, hit);
     tahr__decide(step, TAHR_RULE_SWEEP, !hit->blocking, hit, hit->fraction, 1, outcome(hit));
     double contact = hit->start_overlap ? 0 : hit->fraction;
@@ -132,6 +134,7 @@ int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
         return move_otherwise(step, motion, hit);
     }
     double skin = c->skin;
+    tahr__trail_go(step);
     tahr__sweep(step, shape, step->state.position, motion, skin, 0, hit);
     int overlapped = hit->start_overlap != 0;
     if (overlapped) {

@@ -15,6 +15,7 @@
 #include "report.h"
 #include "sleep.h"
 #include "stance.h"
+#include "trail.h"
 #include "turning.h"
 
 /* Bytes of a state that a step works on. */
@@ -113,6 +114,7 @@ static void run(tahr__step *step, double dt)
         tahr__launch(step);
     }
     tahr__begin_jump(step);
+    tahr__time_slice(step);
     double left = dt;
     while (left > MIN_SLICE && step->error >= 0 && step->report.slices < MAX_SLICES &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
@@ -126,7 +128,9 @@ static void run(tahr__step *step, double dt)
         step->report.time_lost += left;
     }
     tahr__take_base(step);
-    tahr__find_overlaps(step);
+    if (step->trail) {
+        tahr__find_overlaps(step);
+    }
 }
 
 static vec3 clean(vec3 v)
@@ -243,6 +247,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     }
     tahr__step step;
     tahr__pull pull;
+    tahr__trail trail;
     step.config = &mover->config;
     step.limits = &mover->limits;
     step.world = mover->world;
@@ -267,6 +272,10 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.just_teleported = 0;
     step.dt = dt;
     step.error = TAHR_OK;
+    step.trail = NULL;
+    if (step.world->has & TAHR__HAS_SENSORS) {
+        tahr__trail_begin(&trail, &step);
+    }
     if (dt > 0) {
         mover->busy = 1;
         run(&step, dt);

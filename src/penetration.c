@@ -4,6 +4,7 @@
 #include "move.h"
 #include "query.h"
 #include "report.h"
+#include "trail.h"
 
 /* Added to the depth, and the depth itself where that is not known: 0.125 cm in the field (PenetrationPullbackDistance). */
 static double extra_push(const tahr_config *c)
@@ -91,6 +92,7 @@ int tahr__resolve_penetration(tahr__step *step, vec3 adjustment, const tahr__swe
     vec3 to = add(swept->start, push);
     int moved = fits(step, to);
     if (moved) {
+        tahr__trail_go(step);
         step->state.position = to;
     } else {
         moved = sweep_out(step, push, swept);

@@ -137,7 +137,8 @@ tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *poses, uint
         return TAHR_E_NULL;
     }
     if (!(dt > 0 && dt <= 10)) {
-        return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, "tahr_world_move", "dt", dt, "must be within 0 and 10 s");
+        return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, "tahr_world_move", "dt", dt,
+                                    "must be within 0 and 10 s");
     }
     tahr_status status = place(world, "tahr_world_move", poses, count, TAHR_POSE_TELEPORT);
     if (status < 0) {

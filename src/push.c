@@ -149,8 +149,7 @@ static void push(tahr__step *step, uint32_t body, vec3 from, double dt)
             return;
         }
     }
-    if (!is_near(step, note, from, length(sub(start, from))) ||
-        !meets(step, body, from, start, &m)) {
+    if (!is_near(step, note, from, length(sub(start, from))) || !meets(step, body, from, start, &m)) {
         return;
     }
     int freed = push_out(step, body, &m);

@@ -198,8 +198,9 @@ static uint32_t has_of(const tahr__body_note *note)
 {
     uint32_t sensor = note->flags & (TAHR_BODY_SENSOR | TAHR_BODY_FLUID);
     uint32_t base = note->flags & TAHR_BODY_MOVABLE || length_squared(note->surface_velocity) > 0 || note->mass > 0;
-    return (sensor ? TAHR__HAS_SENSORS : 0u) | (note->flags & TAHR_BODY_FLUID ? TAHR__HAS_FLUIDS : 0u) |
-           (base ? TAHR__HAS_BASES : 0u);
+    uint32_t moves = sensor && note->flags & TAHR_BODY_MOVABLE;
+    return (sensor ? TAHR__HAS_SENSORS : 0u) | (moves ? TAHR__HAS_MOVING_SENSORS : 0u) |
+           (note->flags & TAHR_BODY_FLUID ? TAHR__HAS_FLUIDS : 0u) | (base ? TAHR__HAS_BASES : 0u);
 }
 
 static tahr_status note_bodies(tahr_world *world, const tahr_world_desc *desc)
@@ -306,6 +307,7 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     memcpy(world->self, callbacks, sizeof *callbacks);
     world->backend = &tahr__callbacks_backend;
     world->has |= callbacks->body ? (uint32_t)TAHR__HAS_BASES : 0u;
+    world->has |= ((const tahr_callbacks *)world->self)->sensors ? TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS : 0u;
     *out = world;
     return TAHR_OK;
 }

@@ -98,6 +98,9 @@ typedef struct tahr__cache {
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
 } tahr__cache;
 
+/* Which bodies a query looks at: those that block, all, or sensors alone. */
+enum { TAHR__SENSORS_NONE = 0, TAHR__SENSORS_TOO = 1, TAHR__SENSORS_ONLY = 2 };
+
 typedef struct tahr__query {
     const tahr__native *world;
     tahr__cache *cache; /* or NULL */
@@ -111,7 +114,7 @@ typedef struct tahr__query {
     double radius, margin;
     double half; /* of an upright segment, 0 for a point */
     uint32_t mask, ignore_body, flags;
-    uint32_t sensors; /* 0: sensor bodies are not looked at */
+    uint32_t sensors; /* TAHR__SENSORS_* */
 } tahr__query;
 
 /* Is this body there for the query? */

@@ -45,8 +45,9 @@ typedef struct tahr_shape {
 } tahr_shape;
 
 /* Sweep flags. LEAVE_OVERLAP: a surface that is overlapped at the start blocks only a motion that goes deeper in.
- * ONLY_BODY: the other way round: nothing is there but ignore_body (asked only of bodies that tahr_world_move moves). */
-enum { TAHR_SWEEP_LEAVE_OVERLAP = 1, TAHR_SWEEP_ONLY_BODY = 2 };
+ * ONLY_BODY: the other way round: nothing is there but ignore_body (asked only of bodies that tahr_world_move moves).
+ * SENSORS: only sensors are there, and nothing blocks; a motion of zero asks what the shape is inside of. */
+enum { TAHR_SWEEP_LEAVE_OVERLAP = 1, TAHR_SWEEP_ONLY_BODY = 2, TAHR_SWEEP_SENSORS = 4 };
 
 /* "How far can this shape go along this motion before the distance to something falls to margin?"
  * The margin is a distance between surfaces along their normal (metres, >= 0), not extra motion. With d0 the signed
@@ -65,6 +66,9 @@ typedef struct tahr_sweep {
     uint32_t reserved;
 } tahr_sweep;
 
+/* Contact query flags. SOLID: sensors are not there. */
+enum { TAHR_CONTACTS_SOLID = 1 };
+
 /* "What is within margin of this shape here?" */
 typedef struct tahr_contact_query {
     tahr_shape shape;
@@ -74,7 +78,7 @@ typedef struct tahr_contact_query {
     double margin; /* m, >= 0; 0 = overlap and penetration only */
     uint32_t mask;
     uint32_t ignore_body;
-    uint32_t flags; /* 0 */
+    uint32_t flags; /* TAHR_CONTACTS_* */
     uint32_t reserved;
 } tahr_contact_query;
 

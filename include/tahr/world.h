@@ -16,7 +16,7 @@ struct tahr_backend;
 enum { TAHR_BODY_MESH = 1, TAHR_BODY_BOX = 2, TAHR_BODY_SPHERE = 3, TAHR_BODY_CAPSULE = 4 };
 
 enum {
-    TAHR_BODY_SENSOR = 1 << 0,    /* reported, never blocks */
+    TAHR_BODY_SENSOR = 1 << 0,    /* reported, never blocks; a mesh is met at its surface, other bodies inside too */
     TAHR_BODY_TWO_SIDED = 1 << 1, /* mesh triangles block from behind too */
     TAHR_BODY_MOVABLE = 1 << 2,   /* will be placed again with tahr_world_set or _move; others never move */
     TAHR_BODY_FLUID = 1 << 3,     /* a volume to swim in: a sensor too; boxes, spheres, capsules */
@@ -112,9 +112,12 @@ typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *qu
  * hit; only surface_normal is derived. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_ray_fn)(void *user, const tahr_ray *query, tahr_hit *hit);
 
-/* [in] query, [out] hits (capacity of them, zeroed) and *count: the sensors that a motion passes or ends in, ordered by
- * (fraction, body, feature), each with fraction, body and feature. The motion is one that was found free. Statuses and
- * threads as for tahr_sweep_fn. */
+/* [in] query, [out] hits (capacity of them, zeroed) and *count (0 before the call, at most capacity): the sensors that a
+ * motion passes, ends in or begins in, one record each, ordered by (fraction, body), with body, feature, surface and
+ * fraction, at which the distance falls to query->margin; those that the shape overlaps at the start (distance < 0) with
+ * start_overlap and fraction 0. A motion of zero asks for those alone. What stays zero is derived: normal from the motion (the
+ * true one makes the times of events in a fall exact), surface_normal from normal, point from the position.
+ * Return TAHR_TRUNCATED if there are more. Other statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_sensors_fn)(void *user, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
                                        uint32_t *count);
 /* [in] body, one that your hits name, [out] motion (at rest at the origin before the call). Return TAHR_E_NOT_FOUND for a
