@@ -3,6 +3,7 @@
 #include "jump.h"
 
 #include "modes.h"
+#include "plane.h"
 #include "report.h"
 #include "walking.h"
 
@@ -28,7 +29,7 @@ void tahr__begin_jump(tahr__step *step)
         return;
     }
     s->flags |= TAHR_STATE_JUMP_HELD;
-    if (held || s->mode != TAHR_MODE_WALKING) {
+    if (held || s->mode != TAHR_MODE_WALKING || !may_rise(step)) {
         hold_jump(step);
         return;
     }
