@@ -190,6 +190,13 @@ static tahr_status body_motion(void *self, uint32_t body, tahr_body_motion *moti
     return user->body ? user->body(user->user, body, motion) : TAHR_E_NOT_FOUND;
 }
 
+static tahr_status fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *answer)
+{
+    const tahr_callbacks *user = self;
+    (void)context;
+    return user->fluid ? user->fluid(user->user, query, answer) : TAHR_OK;
+}
+
 const tahr_backend tahr__callbacks_backend = {
     .struct_size = sizeof(tahr_backend),
     .abi_major = TAHR_ABI_MAJOR,
@@ -202,4 +209,5 @@ const tahr_backend tahr__callbacks_backend = {
     .contacts = contacts,
     .ray = ray,
     .body_motion = body_motion,
+    .fluid = fluid,
 };

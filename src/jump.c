@@ -5,6 +5,7 @@
 #include "modes.h"
 #include "plane.h"
 #include "report.h"
+#include "swimming.h"
 #include "walking.h"
 
 /* A jump that gravity slows down from the start is held up by starting it again in every step: how high it goes depends on
@@ -29,6 +30,10 @@ void tahr__begin_jump(tahr__step *step)
         return;
     }
     s->flags |= TAHR_STATE_JUMP_HELD;
+    if (!held && s->mode == TAHR_MODE_SWIMMING) {
+        tahr__jump_from_water(step);
+        return;
+    }
     if (held || s->mode != TAHR_MODE_WALKING || !may_rise(step)) {
         hold_jump(step);
         return;

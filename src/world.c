@@ -233,6 +233,10 @@ static tahr_status open_scene(tahr_world *world, const tahr_backend *backend, co
     if (status >= 0) {
         status = note_bodies(world, &scene);
     }
+    if (status >= 0 && (world->has & TAHR__HAS_FLUIDS) && !backend->fluid) {
+        status = tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_open", "backend.fluid",
+                                "is NULL, but a body is TAHR_BODY_FLUID");
+    }
     if (status >= 0) {
         tahr__enter_backend(world, "tahr_world_open");
         status = tahr__leave_backend(world, backend, backend->open(&world->host, &scene, &world->self));
@@ -273,6 +277,8 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
     }
     world->backend = backend;
     world->has |= backend->body_motion ? (uint32_t)TAHR__HAS_BASES : 0u;
+    /* A backend that brings its own scene may have fluids in it that nobody described. */
+    world->has |= backend->fluid && desc->body_count == 0 ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
     *out = world;
     return TAHR_OK;
 }
@@ -307,7 +313,8 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     memcpy(world->self, callbacks, sizeof *callbacks);
     world->backend = &tahr__callbacks_backend;
     world->has |= callbacks->body ? (uint32_t)TAHR__HAS_BASES : 0u;
-    world->has |= ((const tahr_callbacks *)world->self)->sensors ? TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS : 0u;
+    world->has |= callbacks->sensors ? TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS : 0u;
+    world->has |= callbacks->fluid ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
     *out = world;
     return TAHR_OK;
 }

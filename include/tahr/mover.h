@@ -102,7 +102,8 @@ typedef struct tahr_state {
 enum {
     TAHR_INPUT_GRAVITY = 1 << 0,
     TAHR_INPUT_FACING = 1 << 1,
-    TAHR_INPUT_MODE = 1 << 2,   /* change to input.mode at the start of this step */
+    TAHR_INPUT_MODE = 1 << 2,   /* change to input.mode at the start of this step: WALKING needs a floor within
+                                 * config.snap_distance, SWIMMING a fluid deep enough, CUSTOM a function */
     TAHR_INPUT_SHAPE = 1 << 3,  /* have radius and half_height in this step; growing waits until there is room */
     TAHR_INPUT_LAUNCH = 1 << 4, /* add launch to the velocity, and leave the ground or an edge; ends a held jump */
     TAHR_INPUT_LAUNCH_LEVEL = 1 << 5, /* with LAUNCH: the part across up replaces that of the velocity */
@@ -145,7 +146,7 @@ enum {
     TAHR_EVENT_DEPENETRATED = 9, /* value: length of the push, m */
     TAHR_EVENT_CRUSHED = 10,     /* value: depth that is left, m */
     TAHR_EVENT_STUCK = 11,
-    TAHR_EVENT_MODE = 12,          /* value: the new mode */
+    TAHR_EVENT_MODE = 12, /* value: the new mode */
     /* Of a sensor, a fluid too; both in one step: passed through. At the time and the place at which the shape met or left
      * it; what came, went or is not met any more without a motion of the character's: at the start of the step. What does
      * not fit into state.touched begins when there is room for it. */
@@ -156,7 +157,8 @@ enum {
     TAHR_EVENT_LAUNCHED = 17, /* by LAUNCH, or off the ground by IMPULSE; value: speed then, m/s */
     TAHR_EVENT_PUSHED = 18,   /* pushes a body that has a mass: at position, against normal; value: impulse, N s */
     TAHR_EVENT_WALL_JUMPED = 19,
-    TAHR_EVENT_GRABBED = 20 /* hangs on an edge */
+    TAHR_EVENT_GRABBED = 20, /* hangs on an edge */
+    TAHR_EVENT_CUSTOM = 21   /* of tahr_step_event; value: the caller's own */
 };
 
 /* Why the ground was left: value of LEFT_GROUND. */
