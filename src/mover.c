@@ -133,6 +133,9 @@ static void run(tahr__step *step, double dt)
         step->report.slices++;
         left = tahr__run_mode(step, left);
     }
+    if (step->iterations + step->apexes > step->report.slices) { /* a mode cut its slices into more */
+        step->report.slices = step->iterations + step->apexes;
+    }
     if (left > MIN_SLICE) {
         step->report.time_lost += left;
     }

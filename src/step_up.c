@@ -125,11 +125,11 @@ double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
 {
     const tahr_config *c = step->config;
     tahr__scope scope;
+    tahr_floor floor;
+    attempt a = {.up = step->state.up, .lift = c->step_height};
     if (c->step_rule == TAHR_STEP_BY_CONTACT) {
         return by_contact(step, motion, obstacle);
     }
-    tahr_floor floor;
-    attempt a = {.up = step->state.up, .lift = c->step_height};
     if (c->step_height <= 0 || !may_rise(step) || !floor_is_walkable(&step->state.floor) ||
         dot(obstacle->normal, a.up) < -0.1) { /* struck by the upper half: a ceiling or an overhang */
         return 0;

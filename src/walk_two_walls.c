@@ -7,20 +7,25 @@
 
 #include "floor.h"
 #include "floor_distance.h"
+#include "launch.h"
 #include "move_along_floor.h"
+#include "overlap.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
+#include "scope.h"
+#include "stance.h"
 #include "stepped.h"
 #include "walking.h"
 
 typedef struct walk {
-    double left, h; /* s after this slice, and of it */
-    vec3 from;      /* where the slice began, and on which floor */
-    tahr_floor floor;
-    vec3 delta;       /* level motion of the slice */
-    int zero;         /* there is none */
-    int tried_ledge;  /* once a step */
-    int checked_fall; /* whether the floor may be left was asked already, and denied */
+    double left, h;    /* s after this slice, and of it */
+    vec3 from;         /* where the slice began */
+    tahr__scope scope; /* of the slice, where it may have to be taken back */
+    vec3 delta;        /* level motion of the slice */
+    int zero;          /* there is none */
+    int tried_ledge;   /* once a step */
+    int checked_fall;  /* whether the floor may be left was asked already, and denied */
 } walk;
 
 enum { GOES_ON, ENDS, FALLS };
@@ -29,13 +34,6 @@ enum { GOES_ON, ENDS, FALLS };
 static double ledge_drop(const tahr_config *c)
 {
     return c->step_height + 40 * c->pull_back;
-}
-
-static int may_walk_off(const tahr__step *step)
-{
-    const tahr_config *c = step->config;
-    int crouched = (step->state.flags & TAHR_STATE_CROUCHED) != 0;
-    return c->walk_off_ledges && (!crouched || c->walk_off_ledges_crouched);
 }
 
 static void look_for_floor(tahr__step *step)
@@ -60,9 +58,15 @@ static void begin_slice(tahr__step *step, walk *w)
     const double tiny = tiny_length(step->config);
     tahr__law law = tahr__walking_law(step);
     vec3 before = tahr__level_velocity(step, s->velocity);
+    if (is_driven(step)) {
+        before = step_level(step, step->input->drive);
+        law = drive_law(before);
+    }
     step->just_teleported = 0;
     w->from = s->position;
-    w->floor = s->floor;
+    if (!may_walk_off(step)) {
+        tahr__scope_open(step, &w->scope);
+    }
     if (step->config->integrator == TAHR_INTEGRATOR_STEPPED) {
         s->velocity = tahr__calc_velocity(step->config, &law, 0, before, w->h);
         w->delta = scale(s->velocity, w->h);
@@ -74,6 +78,9 @@ static void begin_slice(tahr__step *step, walk *w)
     }
     if (length_squared(before) > 0 && length_squared(s->velocity) == 0) {
         tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);
+    }
+    if (is_drifting(step)) {
+        w->delta = add_scaled(w->delta, step_level(step, step->input->drive), w->h);
     }
     vec3 d = w->delta;
     w->zero = max_of(max_of(d.x, -d.x), max_of(max_of(d.y, -d.y), max_of(d.z, -d.z))) <= tiny;
@@ -110,12 +117,6 @@ static int check_fall(tahr__step *step, walk *w, int must)
     return falls ? start_falling(step, w) : GOES_ON;
 }
 
-static void go_back(tahr__step *step, const walk *w)
-{
-    step->state.position = w->from;
-    tahr__keep_floor(step, &w->floor);
-}
-
 /* CheckLedgeDirection */
 static int has_floor_beside(tahr__step *step, vec3 from, vec3 side)
 {
@@ -132,8 +133,8 @@ static int has_floor_beside(tahr__step *step, vec3 from, vec3 side)
 
 vec3 tahr__ledge_move(tahr__step *step, vec3 from, vec3 delta)
 {
-    vec3 right = cross(delta, step->state.up), left = scale(right, -1);
-    if (has_floor_beside(step, from, right)) {
+    vec3 right = along_plane(step->limits, cross(delta, step->state.up)), left = scale(right, -1);
+    if (length_squared(right) == 0 || has_floor_beside(step, from, right)) {
         return right;
     }
     return has_floor_beside(step, from, left) ? left : vec(0, 0, 0);
@@ -144,12 +145,13 @@ static int hold_at_ledge(tahr__step *step, walk *w)
 {
     vec3 beside = w->tried_ledge || w->zero ? vec(0, 0, 0) : tahr__ledge_move(step, w->from, w->delta);
     if (length_squared(beside) > 0) {
-        go_back(step, w);
+        double speed = length(step->state.velocity);
+        tahr__scope_revert(step, &w->scope);
         w->tried_ledge = 1;
         w->left += w->h;
         w->h = 0;
         step->iterations--;
-        step->state.velocity = scale(beside, length(step->state.velocity) / length(w->delta));
+        step->state.velocity = scale(beside, speed / length(w->delta));
         tahr__decide(step, TAHR_RULE_LEDGE, 1, NULL, length(beside), 0, "floor beside the ledge");
         return GOES_ON;
     }
@@ -157,7 +159,7 @@ static int hold_at_ledge(tahr__step *step, walk *w)
         return FALLS;
     }
     tahr__decide(step, TAHR_RULE_LEDGE, 0, NULL, length(w->delta), 0, "no floor beside the ledge");
-    go_back(step, w);
+    tahr__scope_revert(step, &w->scope);
     step->state.velocity = vec(0, 0, 0);
     return ENDS;
 }
@@ -211,9 +213,11 @@ static void take_velocity(tahr__step *step, const walk *w)
 {
     vec3 moved = sub(step->state.position, w->from);
     double way = length(step->config->keep_level_speed ? step_level(step, moved) : moved);
-    double missing = way - length(w->delta), tiny = tiny_length(step->config);
+    double asked = length(w->delta), missing = way - asked, tiny = tiny_length(step->config);
     int exact = step->config->integrator == TAHR_INTEGRATOR_EXACT;
-    if (!step->just_teleported && !(exact && missing * missing <= tiny * tiny)) {
+    if (is_drifting(step)) { /* only a part of that was the velocity's doing */
+        step->state.velocity = scale(step->state.velocity, asked > way ? way / asked : 1);
+    } else if (!step->just_teleported && !(exact && missing * missing <= tiny * tiny)) {
         step->state.velocity = scale(moved, 1.0 / w->h);
     }
     step->state.velocity = tahr__level_velocity(step, step->state.velocity);
@@ -260,6 +264,7 @@ tahr__next tahr__walk_two_walls(tahr__step *step, double time)
         answer = walk_slice(step, &w);
         step->time += answer == ENDS ? begun : begun - w.left;
         step->ahead = 0;
+        tahr__time_slice(step);
     }
     tahr__next next = {answer == FALLS ? TAHR_MODE_FALLING : TAHR_MODE_WALKING, answer == FALLS ? w.left : 0};
     return next;
