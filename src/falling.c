@@ -3,11 +3,15 @@
  * arc. */
 #include "falling.h"
 
+#include "corner.h"
 #include "floor.h"
+#include "hanging.h"
+#include "jump.h"
 #include "move.h"
 #include "query.h"
 #include "report.h"
 #include "slide.h"
+#include "wall.h"
 
 /* A contact-free arc from the character's position. */
 typedef struct arc {
@@ -22,6 +26,9 @@ typedef struct fall {
     double left; /* s */
     tahr__plane planes[TAHR__MAX_PLANES];
     uint32_t plane_count;
+    uint32_t look; /* 1: a wall was met whose edge has not been looked for */
+    uint32_t has_edge;
+    tahr_hit edge; /* the top of a wall that is pushed against */
 } fall;
 
 static arc arc_of(const tahr__step *step)
@@ -160,6 +167,63 @@ static vec3 slide_in_air(const tahr__step *step, const fall *f, vec3 motion)
     return tahr__slide(walls, count, motion);
 }
 
+/* The wall that the input pushes against, or NULL. */
+static const tahr__plane *pushed_wall(const tahr__step *step, const fall *f)
+{
+    for (uint32_t i = 0; i < f->plane_count; i++) {
+        if (tahr__is_wall(step, f->planes[i].normal) && pushes_into(step, f->planes[i].normal)) {
+            return &f->planes[i];
+        }
+    }
+    return NULL;
+}
+
+/* What the settings under "Feel" make of an arc. */
+static void bend_to_feel(const tahr__step *step, const fall *f, arc *a)
+{
+    const tahr_config *c = step->config;
+    if (step->limits->feel & TAHR__FEEL_GRAVITY) {
+        a->gravity *= tahr__gravity_factor(step, a->rise);
+    }
+    if (c->wall_slide_speed > 0 && pushed_wall(step, f)) {
+        a->terminal = min_of(a->terminal, c->wall_slide_speed);
+    }
+}
+
+/* s of the chord until the head is level with the edge that is fallen past; the whole chord if it does not come to that.
+ * Bisection: the arc is bent along walls, and 50 halvings of a chord are below rounding. */
+static double time_to_edge(const tahr__step *step, const fall *f, const arc *a, double duration, vec3 *chord)
+{
+    vec3 up = step->state.up, v;
+    double depth = tahr__edge_depth(step, &f->edge), low = 0, high = duration;
+    if (-dot(*chord, up) < depth) {
+        return duration;
+    }
+    for (int i = 0; i < 50; i++) {
+        double middle = 0.5 * (low + high);
+        *chord = slide_in_air(step, f, arc_at(a, middle, &v));
+        *(-dot(*chord, up) < depth ? &low : &high) = middle;
+    }
+    *chord = slide_in_air(step, f, arc_at(a, high, &v));
+    return high;
+}
+
+/* The wall that was touched at the begin of a chord is left where its end is no longer at one: to a tenth of a
+ * microsecond. */
+static void watch_wall(tahr__step *step, const fall *f, const arc *a, vec3 start, double used)
+{
+    double low = 0, high = used;
+    if (tahr__is_at_wall(step, step->state.position)) {
+        return;
+    }
+    while (step->config->wall_coyote_time > 0 && high - low > 1e-7) {
+        double middle = 0.5 * (low + high);
+        vec3 v, at = add(start, slide_in_air(step, f, arc_at(a, middle, &v)));
+        *(tahr__is_at_wall(step, at) ? &low : &high) = middle;
+    }
+    tahr__leave_wall(step, step->time + high);
+}
+
 static void use_time(tahr__step *step, fall *f, double t)
 {
     step->time += t;
@@ -174,6 +238,9 @@ static void use_time(tahr__step *step, fall *f, double t)
 static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
 {
     arc a = arc_of(step);
+    if (step->limits->feel) {
+        bend_to_feel(step, f, &a);
+    }
     double apex = apex_time(&a);
     double duration = min_of(f->left, chord_time(step, &a));
     int reaches_apex = apex > 0 && apex <= duration;
@@ -184,6 +251,10 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         duration = f->left / (double)(int)(f->left / duration + 1);
     }
     vec3 chord = slide_in_air(step, f, arc_at(&a, duration, &v));
+    if (f->has_edge && a.rise <= 0) {
+        duration = time_to_edge(step, f, &a, duration, &chord);
+        arc_at(&a, duration, &v);
+    }
     vec3 start = step->state.position;
     double used = duration;
     int pushed = tahr__move(step, chord, hit);
@@ -198,6 +269,9 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         arc_at(&a, used, &v);
     }
     step->state.velocity = slide_in_air(step, f, v);
+    if (step->state.flags & TAHR_STATE_WALL_TOUCHED && !(met && tahr__is_wall(step, hit->normal))) {
+        watch_wall(step, f, &a, start, used);
+    }
     use_time(step, f, used);
     if (reaches_apex && used == duration) {
         if (f->plane_count == 0) { /* exactly zero, so that the apex is met once */
@@ -207,6 +281,46 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         step->state.flags &= ~(uint32_t)TAHR_STATE_JUMPING;
     }
     return met;
+}
+
+/* Looks for the edge of a wall that is pushed against, once it falls, and hangs on it where the head is level with it or
+ * it is within reach above. Returns 1 if it hangs. */
+static int hangs(tahr__step *step, fall *f)
+{
+    const tahr_config *c = step->config;
+    double fall_speed = -dot(step->state.velocity, step->state.up);
+    const tahr__plane *wall = pushed_wall(step, f);
+    tahr__forget_edge(step);
+    if (fall_speed < -1e-9 * step->pull->size || !wall) {
+        return 0;
+    }
+    vec3 facing = tahr__facing_of(step, wall->normal);
+    if (f->look) {
+        double most = min_of(fall_speed + step->pull->size * max_of(c->fall_gravity, 1) * f->left, c->terminal_speed);
+        f->look = 0;
+        f->has_edge = (uint32_t)tahr__find_edge(step, facing, most * f->left + c->skin, &f->edge);
+    }
+    double depth = f->has_edge ? tahr__edge_depth(step, &f->edge) : 1;
+    if (depth > 1e-9) {
+        return 0;
+    }
+    f->has_edge = 0;
+    return depth >= -c->ledge_grab && tahr__grab_edge(step, facing, &f->edge);
+}
+
+/* A wall was met: a press that is remembered may jump off it, and its edge is to be looked for. */
+static void meet_wall(tahr__step *step, fall *f, const tahr_hit *hit)
+{
+    if (!tahr__is_wall(step, hit->normal)) {
+        return;
+    }
+    f->look = 1;
+    if (step->limits->feel & TAHR__FEEL_WALLS) {
+        tahr__touch_wall(step, hit);
+        if (press_is_remembered(step)) {
+            tahr__use_press(step);
+        }
+    }
 }
 
 /* Held by steep faces on all sides: that is a floor too. */
@@ -225,9 +339,13 @@ tahr__next tahr__fall(tahr__step *step, double time)
     uint32_t hits = 0;
     f.left = time;
     f.plane_count = 0;
+    f.look = f.has_edge = 0;
     while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         tahr__planes_forget(step, f.planes, &f.plane_count);
+        if (step->limits->feel & TAHR__FEEL_EDGES && hangs(step, &f)) {
+            return (tahr__next){TAHR_MODE_HANGING, f.left};
+        }
         if (!fall_chord(step, &f, &hit)) {
             if (hit.blocking) {
                 break; /* unknown or crushed: the rest of the time is lost */
@@ -237,6 +355,10 @@ tahr__next tahr__fall(tahr__step *step, double time)
         if (lands(step, &hit, &floor)) {
             return land(step, &hit, &floor, f.left);
         }
+        if (step->limits->feel & TAHR__FEEL_CORNERS && tahr__clear_corner(step, &hit)) {
+            hits++;
+            continue;
+        }
         tahr__plane plane = tahr__plane_of(step, &hit);
         double speed = max_of(-dot(step->state.velocity, hit.normal), 0);
         tahr__event(step, TAHR_EVENT_HIT, &hit, speed);
@@ -244,6 +366,9 @@ tahr__next tahr__fall(tahr__step *step, double time)
         step->state.velocity = slide_in_air(step, &f, step->state.velocity);
         step->report.slides++;
         hits++;
+        if (step->limits->feel) {
+            meet_wall(step, &f, &hit);
+        }
     }
     step->time += f.left;
     step->report.time_lost += f.left;

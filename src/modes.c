@@ -4,6 +4,8 @@
 #include "modes.h"
 
 #include "falling.h"
+#include "hanging.h"
+#include "jump.h"
 #include "report.h"
 #include "walking.h"
 
@@ -20,10 +22,11 @@ typedef struct entry {
 } entry;
 
 /* Indexed by TAHR_MODE_*. Transitions: walking -> falling when the floor ends or a jump starts; falling -> walking when
- * a floor is landed on; none stays. */
+ * a floor is landed on; falling -> hanging where an edge is grabbed, hanging -> falling when it is let go or jumped off,
+ * hanging -> walking when it is climbed; none stays. */
 static const entry modes[TAHR_MODE_CUSTOM + 1] = {
     {"none", rest},   {"walking", tahr__walk}, {"falling", tahr__fall}, {"swimming", rest},
-    {"flying", rest}, {"hanging", rest},       {"custom", rest},
+    {"flying", rest}, {"hanging", tahr__hang},       {"custom", rest},
 };
 
 const char *tahr_mode_name(uint32_t mode)
@@ -42,8 +45,12 @@ void tahr__change_mode(tahr__step *step, uint32_t mode)
 double tahr__run_mode(tahr__step *step, double time)
 {
     step->ahead = 0;
-    tahr__next next = modes[step->state.mode].run(step, time);
+    uint32_t mode = step->state.mode;
+    tahr__next next = modes[mode].run(step, time);
     step->ahead = 0; /* a mode has moved step->time to where it ended */
+    if (next.mode != mode) {
+        tahr__mode_ended(step, mode, next.mode);
+    }
     tahr__change_mode(step, next.mode);
     return next.time_left;
 }

@@ -116,11 +116,15 @@ static void run(tahr__step *step, double dt)
     while (left > MIN_SLICE && step->error >= 0 && step->report.slices < MAX_SLICES &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         step->report.slices++;
+        if (press_is_remembered(step)) {
+            tahr__use_press(step);
+        }
         left = tahr__run_mode(step, left);
     }
     if (left > MIN_SLICE) {
         step->report.time_lost += left;
     }
+    tahr__run_timers(step);
     tahr__take_base(step);
     tahr__find_overlaps(step);
 }
