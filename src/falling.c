@@ -26,7 +26,7 @@ typedef struct fall {
     double left; /* s */
     tahr__plane planes[TAHR__MAX_PLANES];
     uint32_t plane_count;
-    uint32_t look; /* 1: a wall was met whose edge has not been looked for */
+    uint32_t look; /* 1: the edge of the wall that is touched has not been looked for */
     uint32_t has_edge;
     tahr_hit edge; /* the top of a wall that is pushed against */
 } fall;
@@ -167,25 +167,14 @@ static vec3 slide_in_air(const tahr__step *step, const fall *f, vec3 motion)
     return tahr__slide(walls, count, motion);
 }
 
-/* The wall that the input pushes against, or NULL. */
-static const tahr__plane *pushed_wall(const tahr__step *step, const fall *f)
-{
-    for (uint32_t i = 0; i < f->plane_count; i++) {
-        if (tahr__is_wall(step, f->planes[i].normal) && pushes_into(step, f->planes[i].normal)) {
-            return &f->planes[i];
-        }
-    }
-    return NULL;
-}
-
 /* What the settings under "Feel" make of an arc. */
-static void bend_to_feel(const tahr__step *step, const fall *f, arc *a)
+static void bend_to_feel(const tahr__step *step, arc *a)
 {
     const tahr_config *c = step->config;
     if (step->limits->feel & TAHR__FEEL_GRAVITY) {
         a->gravity *= tahr__gravity_factor(step, a->rise);
     }
-    if (c->wall_slide_speed > 0 && pushed_wall(step, f)) {
+    if (c->wall_slide_speed > 0 && pushes_wall(step)) {
         a->terminal = min_of(a->terminal, c->wall_slide_speed);
     }
 }
@@ -239,7 +228,7 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
 {
     arc a = arc_of(step);
     if (step->limits->feel) {
-        bend_to_feel(step, f, &a);
+        bend_to_feel(step, &a);
     }
     double apex = apex_time(&a);
     double duration = min_of(f->left, chord_time(step, &a));
@@ -289,12 +278,11 @@ static int hangs(tahr__step *step, fall *f)
 {
     const tahr_config *c = step->config;
     double fall_speed = -dot(step->state.velocity, step->state.up);
-    const tahr__plane *wall = pushed_wall(step, f);
+    vec3 facing = step->state.wall_normal;
     tahr__forget_edge(step);
-    if (fall_speed < -1e-9 * step->pull->size || !wall) {
+    if (fall_speed < -1e-9 * step->pull->size || !pushes_wall(step)) {
         return 0;
     }
-    vec3 facing = tahr__facing_of(step, wall->normal);
     if (f->look) {
         double most = min_of(fall_speed + step->pull->size * max_of(c->fall_gravity, 1) * f->left, c->terminal_speed);
         f->look = 0;
@@ -339,7 +327,8 @@ tahr__next tahr__fall(tahr__step *step, double time)
     uint32_t hits = 0;
     f.left = time;
     f.plane_count = 0;
-    f.look = f.has_edge = 0;
+    f.look = 1;
+    f.has_edge = 0;
     while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         tahr__planes_forget(step, f.planes, &f.plane_count);

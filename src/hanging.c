@@ -19,6 +19,9 @@ static const double INSET = 0.1;
 /* Of the width: how far behind that place a climb ends, if nothing is in the way. */
 static const double ONTO = 0.5;
 
+/* Of skin: off the wall before rising along it, so that rounding (2e-6 m in single precision) meets no edge on the way. */
+static const double CLEAR = 1e-3;
+
 /* m, of a height on an arc that was solved for it. */
 static const double LEVEL = 1e-9;
 
@@ -99,6 +102,17 @@ static int level_with(tahr__step *step, const tahr_hit *edge)
     return 1;
 }
 
+/* What is touched may be half a skin farther away than what was met. */
+static void come_flush(tahr__step *step, vec3 facing)
+{
+    double skin = step->config->skin;
+    tahr_hit hit;
+    tahr__sweep(step, &step->limits->shape, step->state.position, scale(facing, -skin), skin, 0, &hit);
+    if (hit.blocking && !hit.start_overlap && !hit.unknown) {
+        step->state.position = add_scaled(step->state.position, facing, -skin * hit.fraction);
+    }
+}
+
 int tahr__grab_edge(tahr__step *step, vec3 facing, const tahr_hit *edge)
 {
     tahr_state *s = &step->state;
@@ -109,6 +123,7 @@ int tahr__grab_edge(tahr__step *step, vec3 facing, const tahr_hit *edge)
     if (!level_with(step, edge)) {
         return tahr__decide(step, TAHR_RULE_LEDGE_GRAB, 0, edge, height, step->config->ledge_grab, "no room");
     }
+    come_flush(step, facing);
     s->velocity = vec(0, 0, 0);
     s->flags &= ~(uint32_t)(TAHR_STATE_JUMPING | TAHR_STATE_EDGE_SPENT);
     s->jump_hold = 0;
@@ -183,7 +198,7 @@ static int way_onto(tahr__step *step, vec3 *position, tahr_hit *landing)
     const tahr_config *c = step->config;
     const tahr_shape *shape = &step->limits->shape;
     const tahr_floor *edge = &step->state.floor;
-    vec3 up = step->state.up, at = step->state.position;
+    vec3 up = step->state.up, at = add_scaled(step->state.position, edge->normal, CLEAR * c->skin);
     tahr_hit hit;
     double lift = 2 * shape->half_height + c->floor_max * c->skin;
     tahr__sweep(step, shape, at, scale(up, lift), c->skin, 0, &hit);

@@ -19,7 +19,7 @@ int tahr__find_edge(tahr__step *step, vec3 facing, double below, tahr_hit *edge)
 /* m, of the edge under the head. */
 double tahr__edge_depth(const tahr__step *step, const tahr_hit *edge);
 
-/* Hangs on the edge, which lies at most ledge_grab above the head. Returns 0 if that is refused. At most one sweep. */
+/* Hangs on the edge, which lies at most ledge_grab above the head. Returns 0 if that is refused. At most two sweeps. */
 int tahr__grab_edge(tahr__step *step, vec3 facing, const tahr_hit *edge);
 
 /* An edge that was let go is out of reach: it may be grabbed again. No query. */

@@ -21,7 +21,7 @@
  * what climbing does. */
 void tahr__begin_jump(tahr__step *step);
 
-/* Starts the jump that was asked for in the air, if it can start now. At most one contact query. */
+/* Starts the jump that was asked for in the air, on ground or where a wall was just met. At most one contact query. */
 void tahr__use_press(tahr__step *step);
 
 /* Is a press remembered now? */

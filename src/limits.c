@@ -19,7 +19,7 @@ static uint32_t feel_of(const tahr_config *c)
     int jumps = c->coyote_time > 0 || c->jump_buffer > 0 || c->air_jumps > 0 || c->jump_release_gravity != 1;
     uint32_t feel = jumps || walls || c->ledge_grab > 0 ? TAHR__FEEL_JUMPS : 0;
     feel |= c->jump_release_gravity != 1 || c->fall_gravity != 1 ? TAHR__FEEL_GRAVITY : 0;
-    feel |= walls ? TAHR__FEEL_WALLS : 0;
+    feel |= walls || c->ledge_grab > 0 ? TAHR__FEEL_WALLS : 0;
     feel |= c->ledge_grab > 0 ? TAHR__FEEL_EDGES : 0;
     return feel | (c->corner_correction > 0 ? TAHR__FEEL_CORNERS : 0);
 }

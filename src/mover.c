@@ -116,7 +116,7 @@ static void run(tahr__step *step, double dt)
     while (left > MIN_SLICE && step->error >= 0 && step->report.slices < MAX_SLICES &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         step->report.slices++;
-        if (press_is_remembered(step)) {
+        if (press_is_remembered(step) && step->state.mode == TAHR_MODE_WALKING) {
             tahr__use_press(step);
         }
         left = tahr__run_mode(step, left);

@@ -10,7 +10,7 @@
 /* sin 15 degrees: a wall leans no more than this, either way. */
 static const double LEAN = 0.25881904510252074;
 
-/* cos 30 degrees: walls that face alike. Two jumps off a round pillar are this far apart. */
+/* cos 30 degrees: walls that face alike. A round pillar that is slid around stays one. */
 static const double ALIKE = 0.8660254037844386;
 
 /* Of skin: up to here a wall is touched. What walks beside it keeps no less than 1 and stays within it without a push. */
@@ -50,10 +50,10 @@ void tahr__touch_wall(tahr__step *step, const tahr_hit *hit)
     vec3 facing = tahr__facing_of(step, hit->normal);
     s->flags |= TAHR_STATE_WALL_TOUCHED;
     s->wall_left = 0;
-    if (!is_spent(step, facing)) { /* the one jumped off stays what others are compared with */
+    if (!is_spent(step, facing)) {
         s->flags &= ~(uint32_t)TAHR_STATE_WALL_SPENT;
-        remember(step, facing, hit->body, hit->feature);
     }
+    remember(step, facing, hit->body, hit->feature);
 }
 
 /* The next wall among contacts from `i` on; count if there is none. */

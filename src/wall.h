@@ -20,6 +20,12 @@ static inline int pushes_into(const tahr__step *step, vec3 normal)
     return dot(step->input->move, normal) < -TAHR__PUSHING;
 }
 
+/* Is a wall touched that the input pushes against? Its facing is state.wall_normal. */
+static inline int pushes_wall(const tahr__step *step)
+{
+    return step->state.flags & TAHR_STATE_WALL_TOUCHED && pushes_into(step, step->state.wall_normal);
+}
+
 /* Level and of length 1. */
 vec3 tahr__facing_of(const tahr__step *step, vec3 normal);
 
