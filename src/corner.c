@@ -15,7 +15,7 @@ static const double CEILING = 1e-3;
 /* A contact with less of a level part lies on the ceiling's face: no side of it is nearer. */
 static const double FLAT = 1e-6;
 
-/* Of skin: farther than that against rounding of single precision beside the corner (2e-6 m at 1 m). */
+/* Of skin: so far below the ceiling and beside the corner, against rounding of single precision (2e-6 m at 1 m). */
 static const double CLEAR = 4e-4;
 
 /* How far up the widest part of the head lies above its top, so that it passes what the top has hit. */
@@ -30,11 +30,12 @@ static double way_aside(tahr__step *step, vec3 direction)
 {
     const tahr_shape *shape = &step->limits->shape;
     double skin = step->config->skin, most = step->config->corner_correction, none = 2 * most;
-    double height = head_height(step);
+    double height = head_height(step), clear = CLEAR * skin;
+    vec3 at = add_scaled(step->state.position, step->state.up, -clear);
     tahr_hit hit;
-    tahr__sweep(step, shape, step->state.position, scale(direction, most), skin, 0, &hit);
+    tahr__sweep(step, shape, at, scale(direction, most), skin, 0, &hit);
     double aside = hit.start_overlap ? 0 : hit.fraction * most;
-    vec3 at = add_scaled(step->state.position, direction, aside);
+    at = add_scaled(at, direction, aside);
     tahr__sweep(step, shape, at, scale(step->state.up, height), skin, 0, &hit);
     if (aside <= 0 || hit.blocking) {
         return none;
@@ -44,7 +45,7 @@ static double way_aside(tahr__step *step, vec3 direction)
     if (hit.start_overlap || hit.unknown) {
         return none;
     }
-    return min_of(aside * (1 - hit.fraction) + CLEAR * skin, aside);
+    return min_of(aside * (1 - hit.fraction) + clear, aside);
 }
 
 /* Directions worth a look: away from an edge that was hit; of boxes, along their sides. */
