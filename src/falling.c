@@ -281,6 +281,8 @@ static int hangs(tahr__step *step, fall *f)
     vec3 facing = step->state.wall_normal;
     tahr__forget_edge(step);
     if (fall_speed < -1e-9 * step->pull->size || !pushes_wall(step)) {
+        f->look = 1;
+        f->has_edge = 0;
         return 0;
     }
     if (f->look) {
