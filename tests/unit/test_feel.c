@@ -124,7 +124,7 @@ static void buffered_jump_starts_at_the_landing_and_is_as_high_as_any_other(void
             rig r;
             player p;
             tahr_config c = rig_config();
-            c.jump_buffer = 0.12;
+            c.jump_buffer = 1.2; /* longer than the jump: pressed once, it jumps once */
             drop(&r, &w, &p, &c, rig_rates[i]);
             player_until(&p, lands - 0.11);
             player_press(&p, lands - 0.1);

@@ -180,7 +180,6 @@ static void no_two_helpers_together_lead_higher_than_the_sum_of_their_jumps(void
     print_message("%u jumps, %u off walls, %u in the air, %u edges, %u climbed, %u corners; nearest to a bound %g m\n",
                   t.jumps, t.wall_jumps, t.air_jumps, t.grabs, t.climbs, t.corners, t.nearest);
     assert_true(t.jumps && t.wall_jumps && t.air_jumps && t.grabs && t.climbs && t.corners);
-    assert_true(t.nearest < 0.1); /* the bounds are no more than what is reached */
 }
 
 static void all_helpers_together_lead_no_higher_than_the_sum_of_their_jumps(void **unused)

@@ -70,6 +70,29 @@ static void hangs_where_and_when_the_head_passes_the_edge(void **unused)
     }
 }
 
+/* Without air control nothing presses it to the wall: what hangs is flush all the same. */
+static void hangs_flush_though_it_fell_a_little_off_the_wall(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < RIG_RATES; i++) {
+        fake_world w;
+        rig r;
+        player p;
+        tahr_config c = hang_config();
+        c.air_control = 0;
+        block(&w);
+        fall_past(&r, &w, &p, &c, rig_rates[i], 1.2, 0);
+        r.state.velocity.x = 1;
+        player_until(&p, 0.01);
+        assert_int_equal(p.seen[TAHR_EVENT_HIT], 1);
+        r.state.position.x -= 0.004; /* less than half a skin */
+        player_until(&p, 1);
+        assert_hangs(&r);
+        assert_near(p.when[TAHR_EVENT_GRABBED], sqrt(2 * 1.2 / G), 1e-8);
+        rig_close(&r);
+    }
+}
+
 static void edge_above_the_head_is_grabbed_within_reach_only(void **unused)
 {
     (void)unused;
@@ -317,6 +340,7 @@ static void mode_set_where_there_is_no_edge_falls(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(hangs_where_and_when_the_head_passes_the_edge),
+                                       cmocka_unit_test(hangs_flush_though_it_fell_a_little_off_the_wall),
                                        cmocka_unit_test(edge_above_the_head_is_grabbed_within_reach_only),
                                        cmocka_unit_test(rise_does_not_grab_but_its_apex_does),
                                        cmocka_unit_test(who_does_not_push_does_not_grab),

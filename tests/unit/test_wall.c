@@ -327,6 +327,50 @@ static void walls_that_face_alike_are_one_wall(void **unused)
     }
 }
 
+/* The script of a jump, a jump off the wall, one off the wall across, and what follows, in a world turned by q. */
+static tahr_state play_turned(tahr_quat q)
+{
+    fake_world w;
+    rig r;
+    player p;
+    tahr_config c = wall_config();
+    c.jump_buffer = c.wall_coyote_time = 0.1;
+    c.fall_gravity = 1.5;
+    c.ledge_grab = 0.3;
+    c.corner_correction = 0.1;
+    c.gravity = fake_turn(q, c.gravity);
+    wall_world(&w);
+    fake_add_plane(&w, fake_vec(1, 0, 0), -2);
+    w.frame = q;
+    rig_open(&r, &w, &c, fake_turn(q, fake_vec(-FLUSH, 0, 2)));
+    player_begin(&p, &r, 60);
+    player_until(&p, 1);
+    r.input.move = fake_turn(q, fake_vec(1, 0.2, 0));
+    for (int i = 0; i < 4; i++) {
+        player_press(&p, p.time + 0.1);
+        player_release(&p, p.time + 0.25);
+    }
+    assert_true(p.seen[TAHR_EVENT_WALL_JUMPED] >= 2 && p.seen[TAHR_EVENT_JUMPED] == 1);
+    rig_close(&r);
+    return r.state;
+}
+
+static void all_turns_with_gravity(void **unused)
+{
+    const tahr_quat turns[] = {{0.5, 0.5, 0.5, 0.5}, {1, 0, 0, 0}, {0.6, 0, 0, 0.8}, {0.48, 0.36, 0, 0.8}};
+    tahr_state truth = play_turned((tahr_quat){0, 0, 0, 1});
+    (void)unused;
+    for (int i = 0; i < 4; i++) {
+        tahr_state s = play_turned(turns[i]);
+        tahr_vec3 at = fake_turn_back(turns[i], s.position), n = fake_turn_back(turns[i], s.wall_normal);
+        assert_near(at.x, truth.position.x, 1e-7);
+        assert_near(at.y, truth.position.y, 1e-7);
+        assert_near(at.z, truth.position.z, 1e-7);
+        assert_near(n.x, truth.wall_normal.x, 1e-9);
+        assert_int_equal(s.flags, truth.flags);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -340,6 +384,7 @@ int main(void)
         cmocka_unit_test(wall_coyote_counts_from_where_the_wall_was_left),
         cmocka_unit_test(wall_coyote_counts_from_where_the_wall_ended),
         cmocka_unit_test(what_leans_more_than_fifteen_degrees_is_no_wall),
-        cmocka_unit_test(walls_that_face_alike_are_one_wall)};
+        cmocka_unit_test(walls_that_face_alike_are_one_wall),
+        cmocka_unit_test(all_turns_with_gravity)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
