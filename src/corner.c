@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * corner.c: a jump that grazes the corner of a ceiling goes past it.
  *
- * How far aside is not searched for: from a place that is past the corner the shape is swept back toward the column that
- * it rose in, and stops a skin beside what was in the way. The answer does not depend on how fast it rises, and so not on
- * the frame rate. */
+ * How far aside is not searched for: from a place that is past the corner the shape is swept back toward the column
+ * that it rose in, and stops a skin beside what was in the way. The answer does not depend on how fast it rises, and
+ * so not on the frame rate. */
 #include "corner.h"
 
 #include "query.h"

@@ -167,20 +167,8 @@ static vec3 slide_in_air(const tahr__step *step, const fall *f, vec3 motion)
     return tahr__slide(walls, count, motion);
 }
 
-/* What the settings under "Feel" make of an arc. */
-static void bend_to_feel(const tahr__step *step, arc *a)
-{
-    const tahr_config *c = step->config;
-    if (step->limits->feel & TAHR__FEEL_GRAVITY) {
-        a->gravity *= tahr__gravity_factor(step, a->rise);
-    }
-    if (c->wall_slide_speed > 0 && pushes_wall(step)) {
-        a->terminal = min_of(a->terminal, c->wall_slide_speed);
-    }
-}
-
-/* s of the chord until the head is level with the edge that is fallen past; the whole chord if it does not come to that.
- * Bisection: the arc is bent along walls, and 50 halvings of a chord are below rounding. */
+/* s of the chord until the head is level with the edge that is fallen past; the whole chord if it does not come to
+ * that. Bisection: the arc is bent along walls, and 50 halvings of a chord are below rounding. */
 static double time_to_edge(const tahr__step *step, const fall *f, const arc *a, double duration, vec3 *chord)
 {
     vec3 up = step->state.up, v;
@@ -228,7 +216,8 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
 {
     arc a = arc_of(step);
     if (step->limits->feel) {
-        bend_to_feel(step, &a);
+        a.gravity *= tahr__gravity_factor(step, a.rise);
+        a.terminal = fastest_fall(step);
     }
     double apex = apex_time(&a);
     double duration = min_of(f->left, chord_time(step, &a));
@@ -272,8 +261,8 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     return met;
 }
 
-/* Looks for the edge of a wall that is pushed against, once it falls, and hangs on it where the head is level with it or
- * it is within reach above. Returns 1 if it hangs. */
+/* Looks for the edge of a wall that is pushed against, once it falls, and hangs on it where the head is level with
+ * it or it is within reach above. Returns 1 if it hangs. */
 static int hangs(tahr__step *step, fall *f)
 {
     const tahr_config *c = step->config;
@@ -296,21 +285,6 @@ static int hangs(tahr__step *step, fall *f)
     }
     f->has_edge = 0;
     return depth >= -c->ledge_grab && tahr__grab_edge(step, facing, &f->edge);
-}
-
-/* A wall was met: a press that is remembered may jump off it, and its edge is to be looked for. */
-static void meet_wall(tahr__step *step, fall *f, const tahr_hit *hit)
-{
-    if (!tahr__is_wall(step, hit->normal)) {
-        return;
-    }
-    f->look = 1;
-    if (step->limits->feel & TAHR__FEEL_WALLS) {
-        tahr__touch_wall(step, hit);
-        if (press_is_remembered(step)) {
-            tahr__use_press(step);
-        }
-    }
 }
 
 /* Held by steep faces on all sides: that is a floor too. */
@@ -357,8 +331,8 @@ tahr__next tahr__fall(tahr__step *step, double time)
         step->state.velocity = slide_in_air(step, &f, step->state.velocity);
         step->report.slides++;
         hits++;
-        if (step->limits->feel) {
-            meet_wall(step, &f, &hit);
+        if (step->limits->feel & TAHR__FEEL_WALLS && tahr__meet_wall(step, &hit)) {
+            f.look = 1;
         }
     }
     step->time += f.left;

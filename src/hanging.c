@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * hanging.c: hanging on the edge of a wall, climbing it and letting go. The state's floor tells of the edge: the point on
- * its top, the normal of the wall, and the top's as that of the surface; without flags, for nothing stands on it. */
+ * hanging.c: hanging on the edge of a wall, climbing it and letting go. The state's floor tells of the edge: the
+ * point on its top, the normal of the wall, and the top's as that of the surface; without flags, for nothing stands
+ * on it. */
 #include "hanging.h"
 
 #include <string.h>
@@ -19,7 +20,8 @@ static const double INSET = 0.1;
 /* Of the width: how far behind that place a climb ends, if nothing is in the way. */
 static const double ONTO = 0.5;
 
-/* Of skin: off the wall before rising along it, so that rounding (2e-6 m in single precision) meets no edge on the way. */
+/* Of skin: off the wall before rising along it, so that rounding (2e-6 m in single precision) meets no edge on the
+ * way. */
 static const double CLEAR = 1e-3;
 
 /* m, of a height on an arc that was solved for it. */
@@ -70,8 +72,7 @@ static int is_spent(const tahr__step *step, vec3 facing, const tahr_hit *edge)
 {
     const tahr_floor *old = &step->state.floor;
     double apart = dot(sub(edge->point, old->point), step->state.up), reach = step->config->ledge_grab;
-    return step->state.flags & TAHR_STATE_EDGE_SPENT && dot(old->normal, facing) > 0.5 && apart < reach &&
-           apart > -reach;
+    return step->state.flags & TAHR_STATE_EDGE_SPENT && dot(old->normal, facing) > 0.5 && apart < reach && apart > -reach;
 }
 
 static void keep_edge(tahr__step *step, vec3 facing, const tahr_hit *edge)

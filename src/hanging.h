@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: MIT
  * hanging.h: hanging on the edge of a wall, climbing it and letting go.
  *
- * Who falls along a wall and pushes into it hangs where its head passes the edge of a top that can be stood on, or at
- * once if the edge is no more than config.ledge_grab above the head: at rest, its head level with the edge, its side at
- * the wall. Crouching or moving away lets go, and the same edge is not grabbed again before a fall to where it is out of
- * reach. A jump climbs: up along the wall and onto the top in one go (report.step_offset tells the height, for smoothing
- * what is shown), or straight up with jump_speed where there is no room to stand. It follows an edge that moves by less
- * than ledge_grab a step. An edge needs ledge_grab of free height over the head to be seen. */
+ * Who falls along a wall and pushes into it hangs where its head passes the edge of a top that can be stood on, or
+ * at once if the edge is no more than config.ledge_grab above the head: at rest, its head level with the edge, its
+ * side at the wall. Crouching or moving away lets go, and the same edge is not grabbed again before a fall to where
+ * it is out of reach. A jump climbs: up along the wall and onto the top in one go (report.step_offset tells the
+ * height, for smoothing what is shown), or straight up with jump_speed where there is no room to stand. It follows
+ * an edge that moves by less than ledge_grab a step. An edge needs ledge_grab of free height over the head to be
+ * seen. */
 #ifndef TAHR_HANGING_H
 #define TAHR_HANGING_H
 
 #include "core.h"
 
-/* Looks for the edge of the wall that faces `facing` (level) and that the character is at: from ledge_grab above the head
- * to `below` under it. [out] edge: the top, if it can be stood on. Returns 0 if there is none. 1 to 3 rays. */
+/* Looks for the edge of the wall that faces `facing` (level) and that the character is at: from ledge_grab above the
+ * head to `below` under it. [out] edge: the top, if it can be stood on. Returns 0 if there is none. 1 to 3 rays. */
 int tahr__find_edge(tahr__step *step, vec3 facing, double below, tahr_hit *edge);
 
 /* m, of the edge under the head. */

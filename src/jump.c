@@ -30,17 +30,18 @@ void tahr__count_down(tahr__step *step)
     s->wall_left = after(s->wall_left, step->dt);
 }
 
-void tahr__mode_ended(tahr__step *step, uint32_t from, uint32_t to)
+void tahr__floor_ended(tahr__step *step)
 {
-    tahr_state *s = &step->state;
-    if (from == TAHR_MODE_WALKING && to == TAHR_MODE_FALLING) {
-        s->coyote_left = step->config->coyote_time > 0 ? step->config->coyote_time + step->time : 0;
-    } else if (from == TAHR_MODE_FALLING) {
-        s->coyote_left = 0;
-        s->jump_count = 0;
-        s->flags &= ~(uint32_t)TAHR_STATE_EDGE_SPENT;
-        tahr__forget_walls(step);
-    }
+    double time = step->config->coyote_time;
+    step->state.coyote_left = time > 0 ? time + step->time : 0;
+}
+
+void tahr__flight_ended(tahr__step *step)
+{
+    step->state.coyote_left = 0;
+    step->state.jump_count = 0;
+    step->state.flags &= ~(uint32_t)TAHR_STATE_EDGE_SPENT;
+    tahr__forget_walls(step);
 }
 
 double tahr__gravity_factor(const tahr__step *step, double rise)
@@ -163,6 +164,18 @@ void tahr__begin_jump(tahr__step *step)
     } else if (s->mode == TAHR_MODE_FALLING && !jump_from_air(step, 1)) {
         s->buffer_left = step->config->jump_buffer;
     }
+}
+
+int tahr__meet_wall(tahr__step *step, const tahr_hit *hit)
+{
+    if (!tahr__is_wall(step, hit->normal)) {
+        return 0;
+    }
+    tahr__touch_wall(step, hit);
+    if (press_is_remembered(step)) {
+        tahr__use_press(step);
+    }
+    return 1;
 }
 
 void tahr__use_press(tahr__step *step)

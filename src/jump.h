@@ -6,12 +6,13 @@
  *   coyote  the floor ended less than coyote_time ago, and no jump or launch has happened since;
  *   wall    within 1.5 skin of a wall, or one was left less than wall_coyote_time ago, that was not jumped off already;
  *   air     fewer than air_jumps since it last stood, swam or hung (walking off a ledge costs none of them).
- * What starts nothing is remembered for jump_buffer seconds and starts at the moment of landing or of meeting a wall. A
- * press starts one jump at most, and a jump ends the coyote time and forgets the press. On an edge (hanging.h) a press
- * climbs instead.
+ * What starts nothing is remembered for jump_buffer seconds and starts at the moment of landing or of meeting a
+ * wall. A press starts one jump at most, and a jump ends the coyote time and forgets the press. On an edge
+ * (hanging.h) a press climbs instead.
  *
- * A jump from the ground adds jump_speed; every other one raises the speed against gravity to jump_speed, so that none is
- * higher than the one from the ground: jump_speed * jump_hold_time + jump_speed^2 / (2 gravity) above where it began. */
+ * A jump from the ground adds jump_speed; every other one raises the speed against gravity to jump_speed, so that
+ * none is higher than the one from the ground: jump_speed * jump_hold_time + jump_speed^2 / (2 gravity) above where
+ * it began. */
 #ifndef TAHR_JUMP_H
 #define TAHR_JUMP_H
 
@@ -20,6 +21,10 @@
 /* Looks at the button at the begin of a step. One contact query for a press in the air with wall jumps; an edge costs
  * what climbing does. */
 void tahr__begin_jump(tahr__step *step);
+
+/* Notes a wall that a fall has met, and jumps off it if that was asked for a moment ago. Returns 0 if it is no wall. At
+ * most one contact query. */
+int tahr__meet_wall(tahr__step *step, const tahr_hit *hit);
 
 /* Starts the jump that was asked for in the air, on ground or where a wall was just met. At most one contact query. */
 void tahr__use_press(tahr__step *step);
@@ -30,14 +35,17 @@ static inline int press_is_remembered(const tahr__step *step)
     return step->state.buffer_left > 0;
 }
 
-/* A slice ended in another mode than it began in: the floor ended, or what belongs to the flight is over. No query. */
-void tahr__mode_ended(tahr__step *step, uint32_t from, uint32_t to);
+/* The floor has ended, now: not by a jump or a launch. No query. */
+void tahr__floor_ended(tahr__step *step);
+
+/* Falling has ended: air jumps are given back, walls and edges forgotten. No query. */
+void tahr__flight_ended(tahr__step *step);
 
 /* What gravity is multiplied by while the speed against it is `rise`. */
 double tahr__gravity_factor(const tahr__step *step, double rise);
 
-/* Times at the end of the state's timers. While a step runs they hold what was left at its begin, so that what starts at
- * step->time is set to that more, and is over where step->time reaches it: the same at every frame rate. */
+/* Times at the end of the state's timers. While a step runs they hold what was left at its begin, so that what
+ * starts at step->time is set to that more, and is over where step->time reaches it: the same at every frame rate. */
 void tahr__count_down(tahr__step *step);
 
 /* At the end of a step, for every timer of the state. */

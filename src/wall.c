@@ -13,7 +13,8 @@ static const double LEAN = 0.25881904510252074;
 /* cos 30 degrees: walls that face alike. A round pillar that is slid around stays one. */
 static const double ALIKE = 0.8660254037844386;
 
-/* Of skin: up to here a wall is touched. What walks beside it keeps no less than 1 and stays within it without a push. */
+/* Of skin: up to here a wall is touched. What walks beside it keeps no less than 1 and stays within it without a
+ * push. */
 static const double TOUCHED = 1.5;
 
 int tahr__is_wall(const tahr__step *step, vec3 normal)

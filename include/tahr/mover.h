@@ -12,7 +12,8 @@ extern "C" {
 
 typedef struct tahr_mover tahr_mover;
 
-/* NONE: frozen. HANGING: on an edge (config.ledge_grab); floor tells of it: point on top, normal of the wall. CUSTOM: the caller's own function (tahr_mover_set_custom_mode). */
+/* NONE: frozen. HANGING: on an edge (config.ledge_grab); floor tells of it: point on top, normal of the wall.
+ * CUSTOM: the caller's own function (tahr_mover_set_custom_mode). */
 enum {
     TAHR_MODE_NONE = 0,
     TAHR_MODE_WALKING = 1,
@@ -48,11 +49,11 @@ typedef struct tahr_floor {
 } tahr_floor;
 
 enum {
-    TAHR_STATE_JUMP_HELD = 1 << 0,   /* the jump button was down in the last step */
-    TAHR_STATE_JUMPING = 1 << 1,     /* rising by a jump */
-    TAHR_STATE_FLOOR_MOVED = 1 << 2, /* the height was corrected after floor was looked for */
-    TAHR_STATE_CROUCHED = 1 << 3,    /* smaller than config.shape */
-    TAHR_STATE_JUMP_SPENT = 1 << 4,  /* this press of the jump button has started its jump (noted if a setting needs it) */
+    TAHR_STATE_JUMP_HELD = 1 << 0,    /* the jump button was down in the last step */
+    TAHR_STATE_JUMPING = 1 << 1,      /* rising by a jump */
+    TAHR_STATE_FLOOR_MOVED = 1 << 2,  /* the height was corrected after floor was looked for */
+    TAHR_STATE_CROUCHED = 1 << 3,     /* smaller than config.shape */
+    TAHR_STATE_JUMP_SPENT = 1 << 4,   /* this press of the jump button has started its jump (if a setting needs it) */
     TAHR_STATE_WALL_TOUCHED = 1 << 5, /* in the air, within 1.5 skin of the wall that wall_normal tells of */
     TAHR_STATE_WALL_SPENT = 1 << 6,   /* that wall was jumped off: not again before ground or another wall */
     TAHR_STATE_EDGE_SPENT = 1 << 7    /* the edge at floor.point was let go: not again before falling below it */
@@ -148,12 +149,12 @@ enum {
     TAHR_EVENT_MODE = 12,          /* value: the new mode */
     TAHR_EVENT_OVERLAP_BEGIN = 13, /* of a sensor; in one step with its end: passed through */
     TAHR_EVENT_OVERLAP_END = 14,
-    TAHR_EVENT_BASE = 15,     /* stands on another body (or TAHR_NO_BODY) */
-    TAHR_EVENT_SHAPE = 16,    /* value: the new half height, m */
-    TAHR_EVENT_LAUNCHED = 17, /* value: speed, m/s */
-    TAHR_EVENT_PUSHED = 18,   /* pushes a body that has a mass: at position, against normal; value: impulse, N s */
+    TAHR_EVENT_BASE = 15,        /* stands on another body (or TAHR_NO_BODY) */
+    TAHR_EVENT_SHAPE = 16,       /* value: the new half height, m */
+    TAHR_EVENT_LAUNCHED = 17,    /* value: speed, m/s */
+    TAHR_EVENT_PUSHED = 18,      /* pushes a body that has a mass: at position, against normal; value: impulse, N s */
     TAHR_EVENT_WALL_JUMPED = 19, /* instead of JUMPED; value: speed away from the wall, m/s */
-    TAHR_EVENT_GRABBED = 20 /* hangs on an edge */
+    TAHR_EVENT_GRABBED = 20      /* hangs on an edge */
 };
 
 /* Why the ground was left: value of LEFT_GROUND. */

@@ -10,12 +10,12 @@ enum { PLAYER_EVENTS = 32 };
 
 typedef struct player {
     rig *rig;
-    double rate;                   /* Hz */
-    double time;                   /* s since player_begin */
-    uint32_t seen[PLAYER_EVENTS];  /* events by type */
-    double when[PLAYER_EVENTS];    /* s, of the last one of each type */
+    double rate;                  /* Hz */
+    double time;                  /* s since player_begin */
+    uint32_t seen[PLAYER_EVENTS]; /* events by type */
+    double when[PLAYER_EVENTS];   /* s, of the last one of each type */
     tahr_event last[PLAYER_EVENTS];
-    double top;                    /* m, greatest height of the centre, events included */
+    double top; /* m, greatest height of the centre, events included */
 } player;
 
 void player_begin(player *p, rig *r, double rate);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_feel_matrix.c: whatever is pressed, no two of the jump helpers together lead higher than the sum of their jumps. */
+ * test_feel_matrix.c: whatever is pressed, no two of the jump helpers together lead higher than the sum of their
+ * jumps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -53,9 +54,10 @@ static double make_wall(fake_world *w, const tahr_config *c)
     return STANDING + rise_of(c) * (1 + c->air_jumps + (c->wall_jump_speed > 0));
 }
 
-/* Ground, a block to stand on, and a ceiling with a side that begins above. The sides of the block can be jumped off again
- * and again, but only where they are: a centre that touches one is lower than one that stands on the top, and may go on
- * rising for as long as a wall is remembered. From there one jump, one off the side of the ceiling, those in the air. */
+/* Ground, a block to stand on, and a ceiling with a side that begins above. The sides of the block can be jumped off
+ * again and again, but only where they are: a centre that touches one is lower than one that stands on the top, and
+ * may go on rising for as long as a wall is remembered. From there one jump, one off the side of the ceiling, those
+ * in the air. */
 static double make_block(fake_world *w, const tahr_config *c)
 {
     int walls = c->wall_jump_speed > 0;
@@ -89,8 +91,7 @@ static void play(player *p, rig *r, double dt)
     if (r->time >= p->next) {
         double a = oracle_below(&p->random, 2) ? 0 : oracle_uniform(&p->random, -3.2, 3.2); /* often at the wall */
         int home = fabs(r->state.position.x) > 4 || fabs(r->state.position.y) > 3;
-        r->input.move =
-            home ? fake_vec(-r->state.position.x, -r->state.position.y, 0) : fake_vec(cos(a), sin(a), 0);
+        r->input.move = home ? fake_vec(-r->state.position.x, -r->state.position.y, 0) : fake_vec(cos(a), sin(a), 0);
         p->next += 0.5;
     }
 }
@@ -193,8 +194,7 @@ static void all_helpers_together_lead_no_higher_than_the_sum_of_their_jumps(void
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_two_helpers_together_lead_higher_than_the_sum_of_their_jumps),
-        cmocka_unit_test(all_helpers_together_lead_no_higher_than_the_sum_of_their_jumps)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_two_helpers_together_lead_higher_than_the_sum_of_their_jumps),
+                                       cmocka_unit_test(all_helpers_together_lead_no_higher_than_the_sum_of_their_jumps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
