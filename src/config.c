@@ -90,7 +90,7 @@ static void unreal(tahr_config *c)
     c->floor_max = 2.4 / 1.9;
     c->max_depenetration = 5.0;
     c->mass = 100;
-    c->walkable_angle = 0.7812981174487248; /* acos(0.71) = 44.765 degrees */
+    c->walkable_angle = 0.781298117448725; /* acos(0.71) = 44.765 degrees, rounded up: 0.71 itself is walkable */
     c->walkable_hysteresis = 0;
     c->step_height = 0.45;
     c->snap_distance = 0.45;

@@ -122,14 +122,17 @@ typedef struct tahr__step {
     tahr_state state;
     tahr_report report;
     tahr_query_context context;
-    tahr__limits own_limits; /* what limits points to while the shape is not the config's */
-    uint32_t ignore_body;    /* not there for this step's queries now, or TAHR_NO_BODY */
-    double dt;               /* s of the whole step */
-    double time;             /* s since the start of the step, at the begin of the slice */
-    double ahead;            /* s from there to what is being worked on: events happen then */
-    double push_left;        /* m of depenetration still allowed */
-    uint32_t queries;        /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
-    tahr_status error;       /* sticky: after it every query answers "blocked here" */
+    tahr__limits own_limits;  /* what limits points to while the shape is not the config's */
+    uint32_t ignore_body;     /* not there for this step's queries now, or TAHR_NO_BODY */
+    uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */
+    double dt;                /* s of the whole step */
+    double time;              /* s since the start of the step, at the begin of the slice */
+    double ahead;             /* s from there to what is being worked on: events happen then */
+    double push_left;         /* m of depenetration still allowed */
+    uint32_t queries;         /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
+    uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
+    uint32_t apexes;          /* of them cut short at an apex */
+    tahr_status error;        /* sticky: after it every query answers "blocked here" */
 } tahr__step;
 
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */
@@ -147,6 +150,19 @@ static inline vec3 step_foot(const tahr__step *step)
 static inline vec3 step_level(const tahr__step *step, vec3 v)
 {
     return reject(v, step->state.up);
+}
+
+/* TAHR_BODY_* of a body that the core described, else 0. */
+static inline uint32_t world_body_flags(const tahr_world *world, uint32_t body)
+{
+    return body < world->body_count && world->bodies ? world->bodies[body].flags : 0;
+}
+
+/* The part that config.plane lets through. */
+static inline vec3 step_constrained(const tahr__step *step, vec3 v)
+{
+    vec3 n = step->config->plane;
+    return length_squared(n) > 0 ? reject(v, unit(n)) : v; /* a config's is a unit to nine digits */
 }
 
 #endif

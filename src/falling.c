@@ -4,6 +4,7 @@
 #include "falling.h"
 
 #include "corner.h"
+#include "fall_two_walls.h"
 #include "floor.h"
 #include "hanging.h"
 #include "jump.h"
@@ -11,6 +12,7 @@
 #include "query.h"
 #include "report.h"
 #include "slide.h"
+#include "stepped.h"
 #include "wall.h"
 
 /* A contact-free arc from the character's position. */
@@ -45,9 +47,13 @@ static arc arc_of(const tahr__step *step)
     a.law.speed = c->max_speed * min_of(size, 1);
     a.law.acceleration = c->acceleration * c->air_control;
     a.law.turn_friction = c->air_turn_friction;
+    if (c->integrator == TAHR_INTEGRATOR_STEPPED) { /* the slice began with its velocity across up */
+        a.law = tahr__constant_law();
+    }
     a.rise = dot(step->state.velocity, a.axis);
     a.level = add_scaled(step->state.velocity, a.axis, -a.rise);
-    a.hold = (step->state.flags & TAHR_STATE_JUMPING) && step->input->jump ? step->state.jump_hold : 0;
+    int holds = (step->state.flags & TAHR_STATE_JUMPING) && step->input->jump && !c->jump_hold_gravity;
+    a.hold = holds ? step->state.jump_hold : 0;
     return a;
 }
 
@@ -126,7 +132,8 @@ static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
     if (up < 1e-3 || leaves || step->error < 0) { /* 1e-3: a wall */
         return tahr__decide(step, TAHR_RULE_LANDING, 0, hit, up, 1e-3, "not met from above");
     }
-    tahr__find_floor(step, step->config->snap_distance, hit, floor);
+    tahr__supplied met = {.hit = hit};
+    tahr__find_floor(step, step->config->snap_distance, &met, floor);
     int near = floor->distance <= step->config->floor_max * step->config->skin;
     return tahr__decide(step, TAHR_RULE_LANDING, floor_is_walkable(floor) && near, hit, floor->distance,
                         step->config->floor_max * step->config->skin, "floor where it fell");
@@ -294,7 +301,7 @@ static int lands_in_wedge(tahr__step *step, tahr_floor *floor)
     return floor_is_walkable(floor);
 }
 
-tahr__next tahr__fall(tahr__step *step, double time)
+static tahr__next fall_slice(tahr__step *step, double time)
 {
     fall f; /* of its planes only what is counted is read */
     tahr_floor floor;
@@ -342,4 +349,33 @@ tahr__next tahr__fall(tahr__step *step, double time)
     }
     tahr__next next = {TAHR_MODE_FALLING, 0};
     return next;
+}
+
+/* Slices that each keep one velocity across up; the rise and the fall are closed forms all the same. */
+static tahr__next fall_in_steps(tahr__step *step, double time)
+{
+    tahr__next next = {TAHR_MODE_FALLING, time};
+    while (next.mode == TAHR_MODE_FALLING && next.time_left >= TAHR__LEAST_TIME && step->error >= 0) {
+        double h = tahr__begin_iteration(step, next.time_left);
+        if (h == 0) {
+            return (tahr__next){TAHR_MODE_FALLING, 0};
+        }
+        double left = next.time_left - h;
+        vec3 level = step_level(step, step->state.velocity);
+        tahr__law law = tahr__falling_law(step);
+        vec3 gained = sub(tahr__calc_velocity(step->config, &law, 0, level, h), level);
+        step->state.velocity = add(step->state.velocity, gained);
+        next = fall_slice(step, h);
+        next.time_left += left;
+    }
+    next.time_left = next.time_left < TAHR__LEAST_TIME ? 0 : next.time_left;
+    return next;
+}
+
+tahr__next tahr__fall(tahr__step *step, double time)
+{
+    if (step->config->slide_solver == TAHR_SLIDE_TWO_WALLS) {
+        return tahr__fall_two_walls(step, time);
+    }
+    return step->config->integrator == TAHR_INTEGRATOR_EXACT ? fall_slice(step, time) : fall_in_steps(step, time);
 }

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * floor.c: walkable test, edge tolerance, perch, floor distance, find floor, height adjustment. */
+ * floor.c: walkable test, find floor, height adjustment. Beside it: floor_distance.c (edge tolerance, floor sweep test,
+ * floor distance), perch.c, wedge.c, foot.c.
+ *
+ * Two ways to look, config.floor_probe. WHOLE sweeps the shape with its skin: one sweep tells all there is to know of a
+ * shape that is kept a skin away from everything. SHRUNK sweeps a shorter shape without a skin, and then doubts. */
 #include "floor.h"
 
 #include "elementary.h"
-#include "lip.h"
-#include "move.h"
-#include "query.h"
+#include "floor_distance.h"
+#include "foot.h"
+#include "perch.h"
 #include "report.h"
 
 /* Faces this close to vertical are never a floor, whatever an override says. */
@@ -55,66 +59,19 @@ static inline double inside_rim(const tahr__step *step, const tahr_hit *hit)
     return s->type == TAHR_SHAPE_BOX ? skin + inside_box(step, offset) : s->radius + skin - length(offset);
 }
 
-/* An upright capsule that moves along its own axis enters new space with its lower cap alone: a sphere there is the same
- * sweep and a fraction of the geometry. What overlaps higher up is found by the sweep of the move. */
-tahr__foot tahr__foot_of(const tahr_shape *shape, uint32_t capabilities)
-{
-    tahr__foot foot = {*shape, 0};
-    if (shape->type == TAHR_SHAPE_CAPSULE && (capabilities & TAHR_CAP_SPHERE)) {
-        foot.shape.type = TAHR_SHAPE_SPHERE;
-        foot.shape.half_height = shape->radius;
-        foot.offset = shape->radius - shape->half_height;
-    }
-    return foot;
-}
-
-static void sweep_down(tahr__step *step, const tahr__foot *foot, double range, tahr_hit *hit)
-{
-    vec3 up = step->state.up;
-    vec3 from = add_scaled(step->state.position, up, foot->offset);
-    tahr__sweep(step, &foot->shape, from, scale(up, -range), step->config->skin, 0, hit);
-}
-
-/* The foot of the shape, thinner all round, with its end where it was. */
-static tahr__foot thinner(const tahr__step *step, double by)
-{
-    tahr_shape s = step->limits->shape;
-    if (s.type == TAHR_SHAPE_BOX) {
-        s.half_x = max_of(s.half_x - by, 1e-3 * s.half_x);
-        s.half_y = max_of(s.half_y - by, 1e-3 * s.half_y);
-    } else {
-        s.type = TAHR_SHAPE_CAPSULE;
-        s.radius = max_of(s.radius - by, 1e-3 * s.radius);
-    }
-    return tahr__foot_of(&s, step->world->backend->capabilities);
-}
-
-/* Clearance below in the direction of up, from a downward sweep over `range`. */
-static double clearance(const tahr__step *step, const tahr_hit *hit, double range)
-{
-    double skin = step->config->skin;
-    if (hit->fraction > 0 || hit->distance >= skin) {
-        return hit->fraction * range + skin;
-    }
-    /* Closer than skin already: the way up that restores it, for slopes not steeper than 78 degrees. */
-    double rate = max_of(dot(hit->normal, step->state.up), 0.2);
-    return skin - (skin - max_of(hit->distance, 0)) / rate;
-}
-
 /* Nearly the same face as a moment ago: within 0.8 degrees, less than the hysteresis. */
 static int is_same_face(const tahr_floor *old, const tahr_hit *hit)
 {
     return old->body == hit->body && dot(old->surface_normal, hit->surface_normal) > 0.9999;
 }
 
-static uint32_t still_slope(const tahr__step *step, const tahr_hit *hit)
+uint32_t tahr__still_slope(const tahr__step *step, const tahr_hit *hit)
 {
     const tahr_floor *old = &step->state.floor;
     return old->flags & TAHR_FLOOR_SLOPE && is_same_face(old, hit) ? TAHR_FLOOR_SLOPE : 0;
 }
 
-/* The same face, if it was walkable by itself, keeps the benefit of the hysteresis. */
-static int was_walkable(const tahr__step *step, const tahr_hit *hit)
+int tahr__was_walkable(const tahr__step *step, const tahr_hit *hit)
 {
     const tahr_floor *old = &step->state.floor;
     return step->state.mode == TAHR_MODE_WALKING && floor_is_walkable(old) && (old->flags & TAHR_FLOOR_FACE) &&
@@ -134,33 +91,6 @@ static void fill(tahr_floor *floor, const tahr_hit *hit, double distance, uint32
     floor->surface = hit->surface;
 }
 
-/* The front of a step holds who walks, between the floor before it and the one behind it; who falls slides off it. */
-static int holds_on_lip(tahr__step *step, const tahr_hit *hit)
-{
-    int lip = step->state.mode == TAHR_MODE_WALKING && tahr__is_lip(step, hit);
-    return tahr__decide(step, TAHR_RULE_PERCH, lip, hit, dot(hit->surface_normal, step->state.up), 0, "front of a step");
-}
-
-/* A contact at the rim, or on a face too steep, holds the character only if there is a floor for a thinner foot. Under a
- * face that is itself no floor it may lie no deeper than a step: that is a bevelled step, not a rock to lean on. */
-static int perches(tahr__step *step, double reach, const tahr_hit *outer, tahr_floor *floor)
-{
-    tahr__foot inner = thinner(step, step->config->perch_threshold);
-    int surface_walkable = (floor->flags & TAHR_FLOOR_FACE) != 0;
-    double deepest = surface_walkable ? reach + step->config->perch_extra : step->config->step_height;
-    double range = deepest + step->config->skin;
-    tahr_hit hit;
-    sweep_down(step, &inner, range, &hit);
-    int ok = tahr__is_walkable(step, &hit, was_walkable(step, &hit));
-    double distance = hit.blocking ? clearance(step, &hit, range) : range;
-    if (ok) {
-        floor->flags |= TAHR_FLOOR_PERCHING;
-        floor->perch_distance = distance;
-    }
-    tahr__decide(step, TAHR_RULE_PERCH, ok, &hit, distance, deepest, "floor for the inner foot");
-    return ok || holds_on_lip(step, surface_walkable ? &hit : outer);
-}
-
 static int wedge(tahr__step *step, tahr_floor *floor)
 {
     double band = step->config->floor_max * step->config->skin;
@@ -171,7 +101,7 @@ static int wedge(tahr__step *step, tahr_floor *floor)
     return 1;
 }
 
-void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor)
+static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor)
 {
     const tahr_config *c = step->config;
     double range = reach + (c->floor_max - 1) * c->skin;
@@ -181,13 +111,13 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
         hit = *supplied;
         hit.fraction = 0; /* it ended here */
     } else {
-        sweep_down(step, &step->limits->foot, range, &hit);
+        foot_sweep(step, &step->limits->foot, range, &hit);
     }
     double inside = hit.blocking ? inside_rim(step, &hit) : 0;
     if (hit.blocking && !hit.start_overlap && inside < c->edge_tolerance) {
         tahr__decide(step, TAHR_RULE_EDGE_TOLERANCE, 0, &hit, inside, c->edge_tolerance, "touches the rim");
-        tahr__foot inner = thinner(step, 2 * c->edge_tolerance);
-        sweep_down(step, &inner, range, &hit);
+        tahr__foot inner = tahr__thinner_foot(step, 2 * c->edge_tolerance);
+        foot_sweep(step, &inner, range, &hit);
         inside = hit.blocking ? inside_rim(step, &hit) : 0;
         flags |= TAHR_FLOOR_RIM;
     }
@@ -196,18 +126,18 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
         tahr__decide(step, TAHR_RULE_FLOOR, 0, NULL, floor->distance, range, "nothing below");
         return;
     }
-    fill(floor, &hit, hit.start_overlap ? -hit.depth : clearance(step, &hit, range), flags | still_slope(step, &hit));
-    int surface = tahr__is_walkable(step, &hit, was_walkable(step, &hit));
+    fill(floor, &hit, hit.start_overlap ? -hit.depth : foot_clearance(step, &hit, range), flags | tahr__still_slope(step, &hit));
+    int surface = tahr__is_walkable(step, &hit, tahr__was_walkable(step, &hit));
     floor->flags |= surface ? TAHR_FLOOR_FACE : 0u;
     /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
     int on_face = dot(hit.normal, hit.surface_normal) > 1 - 1e-6;
     int rim = inside < c->perch_threshold + c->skin;
     int ok = surface && (on_face || !rim);
     if (!ok && rim && !hit.start_overlap) {
-        ok = perches(step, reach, &hit, floor);
+        ok = tahr__perches(step, reach, &hit, floor);
     }
     if (!ok && !surface && !rim) {
-        ok = holds_on_lip(step, &hit);
+        ok = tahr__holds_on_lip(step, &hit);
     }
     if (!ok && !surface) {
         ok = wedge(step, floor);
@@ -216,16 +146,158 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, 
     tahr__decide(step, TAHR_RULE_FLOOR, ok, &hit, floor->distance, range, "floor distance");
 }
 
+/* May the body that holds the character move without a change of the world's revision being all there is to see of it?
+ * What the core knows nothing of may, if anything of its world does. */
+static int may_move(const tahr_world *world, uint32_t body)
+{
+    if (world->bodies && body < world->body_count) {
+        return (world->bodies[body].flags & TAHR_BODY_MOVABLE) != 0;
+    }
+    return body == TAHR_NO_BODY || (world->has & TAHR__HAS_BASES) != 0;
+}
+
+/* bAlwaysCheckFloor and bForceNextFloorCheck: nothing moved since the floor was looked for, nor was the height put right. */
+static int takes_cached_floor(tahr__step *step)
+{
+    const tahr_state *s = &step->state;
+    if (!step->config->cached_floor || s->mode != TAHR_MODE_WALKING || step->just_teleported ||
+        (s->flags & TAHR_STATE_FLOOR_MOVED) || !floor_is_walkable(&s->floor) || !floor_is_current(step) ||
+        may_move(step->world, s->floor.body)) {
+        return 0;
+    }
+    step->report.flags |= TAHR_REPORT_CACHED_FLOOR;
+    return tahr__decide(step, TAHR_RULE_CACHED_FLOOR, 1, NULL, 0, 0, "neither the character nor the world moved");
+}
+
+/* What touches the shape at its rim counts only with a floor further in. A floor deep under a perch keeps its distance,
+ * rather than lose the perch by rising; a face too steep gives way to the floor that was found. */
+static void doubt_rim(tahr__step *step, double deepest, tahr_floor *floor)
+{
+    const tahr_config *c = step->config;
+    double target = c->floor_target * c->skin;
+    tahr_floor inner;
+    tahr__perch_look look = {.radius = tahr__valid_perch_radius(step),
+                             .point = floor->point,
+                             .location = add_scaled(step->state.position, step->state.up, -floor->distance),
+                             .deepest = deepest};
+    if (!tahr__should_compute_perch(step, floor, look.location, 1)) {
+        return;
+    }
+    if (!tahr__compute_perch(step, &look, &inner)) {
+        floor->flags &= ~(uint32_t)TAHR_FLOOR_WALKABLE;
+        return;
+    }
+    double below = inner.distance + floor->distance; /* from here, not from the contact */
+    if (target - floor->distance + inner.distance >= deepest) {
+        floor->distance = target;
+    }
+    if (floor_is_walkable(floor)) {
+        floor->flags |= TAHR_FLOOR_PERCHING;
+        floor->perch_distance = below;
+        return;
+    }
+    double distance = floor->distance;
+    uint32_t rim = floor->flags & TAHR_FLOOR_RIM;
+    *floor = inner;
+    floor->flags = TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_LINE | rim;
+    floor->distance = distance;
+    floor->perch_distance = max_of(distance, c->skin);
+}
+
+static void find_shrunk(tahr__step *step, double reach, const tahr__supplied *supplied, tahr_floor *floor)
+{
+    const tahr_config *c = step->config;
+    if (takes_cached_floor(step)) {
+        *floor = step->state.floor;
+        return;
+    }
+    int walking = step->state.mode == TAHR_MODE_WALKING;
+    double highest = c->floor_max * c->skin;
+    double distance = max_of(highest, reach + (walking ? highest + tiny_length(c) : -highest));
+    tahr__floor_look look = {.from = step->state.position,
+                             .line_distance = distance,
+                             .sweep_distance = distance,
+                             .radius = step->limits->width,
+                             .supplied = supplied};
+    tahr__compute_floor_distance(step, &look, floor);
+    if ((floor->flags & TAHR_FLOOR_BLOCKING) && !(floor->flags & TAHR_FLOOR_LINE)) {
+        doubt_rim(step, distance + (walking ? c->perch_extra : 0), floor);
+    }
+    int steep = (floor->flags & TAHR_FLOOR_BLOCKING) && !(floor->flags & TAHR_FLOOR_FACE);
+    if (steep && !floor_is_walkable(floor) && c->slide_solver == TAHR_SLIDE_JOINT && wedge(step, floor)) {
+        floor->flags |= TAHR_FLOOR_WALKABLE; /* for a solver that comes to rest between walls */
+    }
+    tahr__decide(step, TAHR_RULE_FLOOR, floor_is_walkable(floor), NULL, floor->distance, distance,
+                 floor->flags & TAHR_FLOOR_BLOCKING ? "floor distance" : "nothing below");
+}
+
+void tahr__find_floor(tahr__step *step, double reach, const tahr__supplied *supplied, tahr_floor *floor)
+{
+    if (step->config->floor_probe == TAHR_FLOOR_PROBE_SHRUNK) {
+        find_shrunk(step, reach, supplied, floor);
+    } else {
+        find_whole(step, reach, supplied ? supplied->hit : NULL, floor);
+    }
+}
+
 /* The floor goes with the character, so that the next move starts from it; a character that stands looks again. */
 static void shift_floor(tahr__step *step, double height)
 {
     step->state.floor.distance += height;
-    step->state.floor.perch_distance += step->state.floor.flags & TAHR_FLOOR_PERCHING ? height : 0;
+    step->state.floor.perch_distance +=
+        step->state.floor.flags & (TAHR_FLOOR_PERCHING | TAHR_FLOOR_LINE) ? height : 0;
     step->state.floor_position = step->state.position;
     step->state.flags |= TAHR_STATE_FLOOR_MOVED;
 }
 
-double tahr__adjust_height(tahr__step *step)
+/* A floor found by a ray lies deeper than what the sweep met; above that the character rises off what it met only. No
+ * rounding of a backend moves a character. Returns 1 and the clearance to put right. */
+static int is_off_height(const tahr__step *step, double *gap)
+{
+    const tahr_floor *floor = &step->state.floor;
+    double lowest = step->config->skin, highest = step->config->floor_max * lowest, tiny = tiny_length(step->config);
+    *gap = floor->distance;
+    if (floor->flags & TAHR_FLOOR_LINE) {
+        if (*gap < lowest && floor->perch_distance >= lowest) {
+            return 0; /* else it would climb the wall that it met */
+        }
+        *gap = floor->perch_distance;
+    }
+    return floor_is_walkable(floor) && (*gap < lowest - tiny || *gap > highest + tiny);
+}
+
+static double adjust_shrunk(tahr__step *step)
+{
+    const tahr_config *c = step->config;
+    vec3 up = step->state.up, before = step->state.position;
+    tahr__swept swept;
+    double gap;
+    if (!is_off_height(step, &gap)) {
+        return 0;
+    }
+    double asked = c->floor_target * c->skin - gap;
+    vec3 motion = scale(up, asked);
+    /* Out of the floor by this motion alone: a push out first would be added to it, and make the character hop. */
+    int out = gap < 0 && tahr__move_updated(step, motion, TAHR_SWEEP_LEAVE_OVERLAP, &swept);
+    if (!out) {
+        tahr__safe_move(step, motion, &swept);
+    }
+    const tahr_hit *hit = &swept.hit;
+    double height = dot(sub(step->state.position, before), up);
+    shift_floor(step, height);
+    if (asked < 0 && hit->blocking && !hit->start_overlap) {
+        double distance = dot(sub(step->state.position, swept.location), up);
+        if (tahr__is_walkable(step, hit, tahr__was_walkable(step, hit))) {
+            fill(&step->state.floor, hit, distance, TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE);
+        }
+        step->state.floor.distance = distance;
+    }
+    step->just_teleported |= !c->keep_level_speed || gap < 0;
+    tahr__decide(step, TAHR_RULE_FLOOR_HEIGHT, 1, NULL, gap, c->floor_max * c->skin, "clearance outside the band");
+    return height;
+}
+
+static double adjust_whole(tahr__step *step)
 {
     const tahr_config *c = step->config;
     const tahr_floor *floor = &step->state.floor;
@@ -249,22 +321,8 @@ double tahr__adjust_height(tahr__step *step)
     return height;
 }
 
-int tahr__is_wedged(tahr__step *step)
+
+double tahr__adjust_height(tahr__step *step)
 {
-    enum { CONTACTS = TAHR__MAX_PLANES };
-    tahr_contact contacts[CONTACTS];
-    tahr__plane planes[TAHR__MAX_PLANES];
-    uint32_t used = 0;
-    vec3 way;
-    /* Touched: at the skin, with a hundredth of it for what backends round. */
-    uint32_t count = tahr__contacts(step, step->state.position, 1.01 * step->config->skin, contacts, CONTACTS);
-    for (uint32_t i = 0; i < count; i++) {
-        tahr__plane plane = {.normal = contacts[i].normal, .body = contacts[i].body, .feature = contacts[i].feature};
-        tahr__planes_add(planes, &used, &plane);
-    }
-    tahr__project(planes, used, scale(step->state.up, -1), &way);
-    double left = length(way);
-    /* sin of 0.6 degrees: a gutter less inclined holds a character as a floor does. */
-    return tahr__decide(step, TAHR_RULE_WEDGE, used > 1 && left < 0.01, NULL, left, 0.01,
-                        "downward motion that the contacts leave");
+    return step->config->floor_probe == TAHR_FLOOR_PROBE_SHRUNK ? adjust_shrunk(step) : adjust_whole(step);
 }

@@ -3,7 +3,21 @@
 #ifndef TAHR_FLOOR_H
 #define TAHR_FLOOR_H
 
-#include "core.h"
+#include "move.h"
+
+/* A sweep of the character's shape that was made anyway, and ended where a floor is looked for. SHRUNK takes its hit in
+ * place of a first sweep if it went straight down: it needs its motion, and the centre at the contact (without a
+ * pull-back). */
+typedef struct tahr__supplied {
+    const tahr_hit *hit;
+    vec3 motion, location;
+} tahr__supplied;
+
+static inline tahr__supplied supplied_by(const tahr__swept *swept)
+{
+    tahr__supplied supplied = {&swept->hit, swept->motion, swept->location};
+    return supplied;
+}
 
 /* Walkable test. was_walkable widens the limit by the hysteresis. No query. */
 int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable);
@@ -11,9 +25,16 @@ int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable);
 /* Cosine of the steepest slope that this face may have to be walkable. No query. */
 double tahr__walkable_limit(const tahr__step *step, const tahr_hit *hit, int was_walkable);
 
-/* Floor under the character's position, looked for down to `reach` metres (plus the clearance band). A hit of a vertical
- * sweep that ended here may be supplied instead of the first sweep. 1 sweep; at most TAHR__FLOOR_QUERIES. */
-void tahr__find_floor(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor);
+/* Is it nearly the same face as the state's floor? Then, if that was walkable by itself, it keeps the benefit of the
+ * hysteresis; and TAHR_FLOOR_SLOPE if it has been found to be one. No query. */
+int tahr__was_walkable(const tahr__step *step, const tahr_hit *hit);
+uint32_t tahr__still_slope(const tahr__step *step, const tahr_hit *hit);
+
+/* Floor under the character's position, looked for down to `reach` metres (plus the clearance band; with SHRUNK less it,
+ * unless walking). A hit of a sweep that ended here may be supplied instead of the first sweep.
+ * With WHOLE 1 sweep, at most TAHR__FLOOR_QUERIES. With SHRUNK 0 where config.cached_floor lets it take the state's floor,
+ * else 1; at most 6, with flat_base 10. */
+void tahr__find_floor(tahr__step *step, double reach, const tahr__supplied *supplied, tahr_floor *floor);
 
 /* 1 sweep, 1 retry with a thinner shape, 1 perch sweep, 4 rays for the front of a step, 1 contact query for a wedge. */
 enum { TAHR__FLOOR_QUERIES = 8 };
@@ -34,21 +55,20 @@ static inline int floor_is_current(const tahr__step *step)
            vec_equal(step->state.floor_position, step->state.position);
 }
 
-/* What sweeps the way down for a shape on a backend with these TAHR_CAP_*. */
-tahr__foot tahr__foot_of(const tahr_shape *shape, uint32_t capabilities);
-
-/* Is the clearance in the band [skin, floor_max * skin]? Below it by no more than a backend's rounding is inside. */
+/* Is the clearance in the band [skin, floor_max * skin]? Below it by no more than a backend's rounding is inside. Of a
+ * floor that a ray found tahr__adjust_height knows more. */
 static inline int floor_is_in_band(const tahr__step *step)
 {
     double gap = step->state.floor.distance, skin = step->config->skin;
-    return gap >= skin - 1e-6 && gap <= step->config->floor_max * skin;
+    return gap >= skin - 1e-6 && gap <= step->config->floor_max * skin && !(step->state.floor.flags & TAHR_FLOOR_LINE);
 }
 
-/* Brings the clearance into the band, following the floor down or rising off it. Returns the
- * change of height. No query going down what the floor sweep has proven free, else one sweep. */
+/* Brings the clearance into the band, following the floor down or rising off it. Returns the change of height. With WHOLE
+ * no query going down what the floor sweep has proven free, else one sweep. With SHRUNK no query in the band, else one
+ * safe move; sets just_teleported where the height is no motion of the character's own. */
 double tahr__adjust_height(tahr__step *step);
 
-/* Held by faces that are each too steep, so that no motion downward is left? One contact query. */
+/* Held by faces that are each too steep, so that no motion downward is left? One contact query. See wedge.c. */
 int tahr__is_wedged(tahr__step *step);
 
 static inline int floor_is_walkable(const tahr_floor *floor)

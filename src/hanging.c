@@ -235,14 +235,13 @@ int tahr__climb_edge(tahr__step *step)
         return 0;
     }
     step->state.position = position;
-    tahr__find_floor(step, step->config->snap_distance, &landing, &floor);
+    tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
     if (!floor_is_walkable(&floor) || step->error < 0) {
         step->state = before;
         return refuse(step, &landing, floor.distance, "no floor to stand on there");
     }
     double gain = dot(sub(position, before.position), step->state.up);
     tahr__keep_floor(step, &floor);
-    step->state.flags |= TAHR_STATE_FLOOR_MOVED; /* found by a hit that ended here: standing looks again */
     step->report.step_offset += gain;
     tahr__event(step, TAHR_EVENT_STEPPED_UP, &landing, gain);
     tahr__decide(step, TAHR_RULE_LEDGE_GRAB, 1, &landing, gain, 0, "climbed");

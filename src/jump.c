@@ -13,7 +13,7 @@ static const double MOMENT = 1e-9;
 
 static int is_running(const tahr__step *step, double timer)
 {
-    return timer - step->time > MOMENT;
+    return timer - (step->time + step->ahead) > MOMENT;
 }
 
 static double after(double timer, double dt)
@@ -52,6 +52,17 @@ double tahr__gravity_factor(const tahr__step *step, double rise)
     }
     int up = !step->input->jump || !(s->flags & TAHR_STATE_JUMP_SPENT); /* a press in the air is not that of the jump */
     return s->flags & TAHR_STATE_JUMPING && up ? step->config->jump_release_gravity : 1;
+}
+
+/* A jump that gravity slows down from the start is held up by starting it again in every step: how high it goes depends on
+ * the frame rate. Up to a nanosecond is the rounding of a time that was used up. */
+static void hold_jump(tahr__step *step)
+{
+    tahr_state *s = &step->state;
+    double rise = dot(s->velocity, s->up), speed = step->config->jump_speed;
+    if (step->config->jump_hold_gravity && s->flags & TAHR_STATE_JUMPING && s->jump_hold > 1e-9 && rise < speed) {
+        s->velocity = add_scaled(s->velocity, s->up, speed - rise);
+    }
 }
 
 /* What all jumps have in common. */
@@ -154,6 +165,7 @@ void tahr__begin_jump(tahr__step *step)
     }
     s->flags |= TAHR_STATE_JUMP_HELD;
     if (held) {
+        hold_jump(step);
         return;
     }
     s->flags &= ~(uint32_t)TAHR_STATE_JUMP_SPENT;

@@ -3,7 +3,7 @@
 #include "limits.h"
 
 #include "elementary.h"
-#include "floor.h"
+#include "foot.h"
 #include "shape.h"
 
 tahr__pull tahr__pull_of(vec3 gravity)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * move.c: moving the character's shape: sweep with the skin as a margin, and depenetration by a joint solve. */
+ * move.c: moving the character's shape: one sweep with a skin or a pull-back, and the depenetration by a joint solve. */
 #include "move.h"
 
 #include <string.h>
@@ -29,10 +29,108 @@ static const char *outcome(const tahr_hit *hit)
     return hit->blocking ? "kept the skin to something" : "nothing in the way";
 }
 
+/* A motion of less is skipped: 4e-4 cm in the field, the rounding of a float's centimetres. With a skin none is too
+ * short: at 1000 Hz a slow character would never start. */
+static double least_motion(const tahr_config *c)
+{
+    return c->separation == TAHR_SEPARATION_PULL_BACK ? 0.004 * c->pull_back : 0;
+}
+
+/* In the field's centimetres: clamp(0.1, 0.1 / D, 1 / D) + 0.001. So a short motion ends 0.1 cm before the contact, a
+ * long one at most 1 cm and a thousandth of itself. */
+double tahr__pull_back_part(const tahr_config *config, double length)
+{
+    double least = config->pull_back / length;
+    return clamp(0.1, least, 10 * least) + 0.001;
+}
+
+double tahr__pull_back(const tahr_config *config, double t, double length)
+{
+    return clamp(t - tahr__pull_back_part(config, length), 0, 1);
+}
+
+/* Nothing was asked, and nothing met. */
+static void skip(tahr__swept *swept)
+{
+    memset(&swept->hit, 0, sizeof swept->hit);
+    swept->hit.fraction = 1;
+    swept->hit.body = TAHR_NO_BODY;
+    swept->location = swept->start;
+}
+
+/* The field picks of several overlaps the one whose face opposes the motion most; the seam's answer is the deepest of
+ * those that count. */
+int tahr__move_updated(tahr__step *step, vec3 motion, uint32_t flags, tahr__swept *swept)
+{
+    const tahr_config *c = step->config;
+    int pulls = c->separation == TAHR_SEPARATION_PULL_BACK;
+    tahr_hit *hit = &swept->hit;
+    double least = least_motion(c);
+    swept->start = step->state.position;
+    swept->motion = motion = step_constrained(step, motion);
+    double size2 = length_squared(motion);
+    if (size2 <= least * least) {
+        skip(swept);
+        return 1;
+    }
+    tahr__sweep(step, &step->limits->shape, swept->start, motion, pulls ? 0 : c->skin, flags, hit);
+    tahr__decide(step, TAHR_RULE_SWEEP, !hit->blocking, hit, hit->fraction, 1, outcome(hit));
+    double contact = hit->start_overlap ? 0 : hit->fraction;
+    swept->location = add_scaled(swept->start, motion, contact);
+    hit->fraction = contact;
+    if (hit->blocking && pulls) {
+        hit->fraction = tahr__pull_back(c, contact, sqrt(size2));
+        if (hit->fraction * hit->fraction * size2 <= least * least) {
+            hit->fraction = 0;
+        }
+        tahr__decide(step, TAHR_RULE_PULL_BACK, hit->fraction > 0, hit, contact, hit->fraction, "kept off the contact");
+    }
+    step->state.position = add_scaled(swept->start, motion, hit->fraction);
+    return hit->fraction > 0;
+}
+
+/* tahr__safe_move. [out] overlapped: was there an overlap at the start? */
+static int safe_move(tahr__step *step, vec3 motion, tahr__swept *swept, int *overlapped)
+{
+    int moved = tahr__move_updated(step, motion, 0, swept);
+    *overlapped = swept->hit.start_overlap != 0;
+    if (!*overlapped) {
+        return moved;
+    }
+    if (step->config->depenetration == TAHR_DEPENETRATION_JOINT) {
+        tahr__depenetrate(step);
+        step->just_teleported |= !vec_equal(step->state.position, swept->start);
+    } else if (!tahr__resolve_penetration(step, tahr__penetration_adjustment(step, &swept->hit), swept)) {
+        return moved;
+    }
+    /* What is still overlapped may be left, never entered deeper. */
+    return tahr__move_updated(step, motion, TAHR_SWEEP_LEAVE_OVERLAP, swept);
+}
+
+int tahr__safe_move(tahr__step *step, vec3 motion, tahr__swept *swept)
+{
+    int overlapped;
+    return safe_move(step, motion, swept, &overlapped);
+}
+
+/* tahr__move with one of the other methods. */
+static int move_otherwise(tahr__step *step, vec3 motion, tahr_hit *hit)
+{
+    tahr__swept swept;
+    int overlapped;
+    safe_move(step, motion, &swept, &overlapped);
+    *hit = swept.hit;
+    return overlapped;
+}
+
 int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
 {
     const tahr_shape *shape = &step->limits->shape;
-    double skin = step->config->skin;
+    const tahr_config *c = step->config;
+    if (c->separation != TAHR_SEPARATION_MARGIN || c->depenetration != TAHR_DEPENETRATION_JOINT) {
+        return move_otherwise(step, motion, hit);
+    }
+    double skin = c->skin;
     tahr__sweep(step, shape, step->state.position, motion, skin, 0, hit);
     int overlapped = hit->start_overlap != 0;
     if (overlapped) {
@@ -68,11 +166,10 @@ static int joint_push(const tahr_contact *contacts, uint32_t count, double skin,
 }
 
 /* Moves along a push that frees: only what is not overlapped yet can stop it. */
-static void push_out(tahr__step *step, vec3 push)
+static void push_out(tahr__step *step, vec3 push, double skin)
 {
     tahr_hit hit;
-    tahr__sweep(step, &step->limits->shape, step->state.position, push, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP,
-                &hit);
+    tahr__sweep(step, &step->limits->shape, step->state.position, push, skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
     advance(step, push, &hit);
     if (hit.start_overlap &&
         hit.blocking) { /* a curved neighbour looks deeper for a moment: the push is still the joint one */
@@ -101,10 +198,16 @@ static void emit(tahr__step *step, vec3 start, double residual, const tahr_conta
                  "depth left after the joint push");
 }
 
+/* How far from everything a push ends. */
+static double clear_of(const tahr_config *c)
+{
+    return c->separation == TAHR_SEPARATION_MARGIN ? c->skin : 1.25 * c->pull_back;
+}
+
 int tahr__depenetrate(tahr__step *step)
 {
     tahr_contact contacts[CONTACTS];
-    double skin = step->config->skin;
+    double skin = clear_of(step->config);
     vec3 start = step->state.position;
     uint32_t count = tahr__contacts(step, step->state.position, skin, contacts, CONTACTS);
     tahr_contact first;
@@ -123,7 +226,7 @@ int tahr__depenetrate(tahr__step *step)
             size = step->push_left;
         }
         if (frees) {
-            push_out(step, push);
+            push_out(step, push, skin);
         } else {
             step->state.position = add(step->state.position, push);
         }

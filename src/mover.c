@@ -121,6 +121,9 @@ static void run(tahr__step *step, double dt)
         }
         left = tahr__run_mode(step, left);
     }
+    if (step->iterations + step->apexes > step->report.slices) { /* a mode cut its slices into more */
+        step->report.slices = step->iterations + step->apexes;
+    }
     if (left > MIN_SLICE) {
         step->report.time_lost += left;
     }
@@ -262,7 +265,9 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.ahead = 0;
     step.push_left = mover->config.max_depenetration;
     step.queries = 0;
+    step.iterations = step.apexes = 0;
     step.ignore_body = TAHR_NO_BODY;
+    step.just_teleported = 0;
     step.dt = dt;
     step.error = TAHR_OK;
     if (dt > 0) {

@@ -8,12 +8,17 @@
 #include "report.h"
 #include "slide.h"
 #include "step_up.h"
+#include "stepped.h"
 
 /* The velocity asked for, and how it is approached. Along walls what they leave of it is asked for: pushing slantwise into
  * a wall is walking along it at the wish's part along it, at every rate. */
 static inline void set_law(tahr__path *w, const tahr__step *step)
 {
     const tahr_config *c = step->config;
+    if (c->integrator == TAHR_INTEGRATOR_STEPPED) { /* the slice began with its velocity */
+        w->law = tahr__constant_law();
+        return;
+    }
     vec3 wish = step_level(step, step->input->move);
     double size = length(wish);
     double asked = c->max_speed * min_of(size, 1);
@@ -150,7 +155,7 @@ static vec3 along_floor(const tahr__path *w, const tahr__step *step, vec3 level)
     if (rise * rise > 1.5 * size * size) { /* steeper than 51 degrees is only walkable by an override, and never a bevel */
         climb = rise;
     }
-    return scale(lifted, size / sqrt(size * size + climb * climb));
+    return step->config->keep_level_speed ? lifted : scale(lifted, size / sqrt(size * size + climb * climb));
 }
 
 /* A walkable face in the way: go on along it. Its contact normal must be walkable too; the lip of a step is not a ramp. */

@@ -293,13 +293,14 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
     }
 }
 
-uint32_t tahr__contacts(tahr__step *step, vec3 position, double margin, tahr_contact *contacts, uint32_t capacity)
+uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 position, double margin,
+                           tahr_contact *contacts, uint32_t capacity)
 {
     uint32_t count = 0, kept = 0;
     if (!may_ask(step)) {
         return 0;
     }
-    tahr_contact_query q = {.shape = step->limits->shape,
+    tahr_contact_query q = {.shape = *shape,
                             .position = position,
                             .up = step->state.up,
                             .orientation = step->state.orientation,
@@ -318,6 +319,11 @@ uint32_t tahr__contacts(tahr__step *step, vec3 position, double margin, tahr_con
         }
     }
     return kept;
+}
+
+uint32_t tahr__contacts(tahr__step *step, vec3 position, double margin, tahr_contact *contacts, uint32_t capacity)
+{
+    return tahr__contacts_of(step, &step->limits->shape, position, margin, contacts, capacity);
 }
 
 void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit)

@@ -14,6 +14,10 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
  * capacity. One contact query. */
 uint32_t tahr__contacts(tahr__step *step, vec3 position, double margin, tahr_contact *contacts, uint32_t capacity);
 
+/* The same for another shape of the character. */
+uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 position, double margin,
+                           tahr_contact *contacts, uint32_t capacity);
+
 /* The first thing between origin and origin + motion. One ray. */
 void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit);
 

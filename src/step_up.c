@@ -103,9 +103,28 @@ static int land(tahr__step *step, attempt *a)
     return 1;
 }
 
+static int by_contact(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
+{
+    tahr__swept here = {.hit = *obstacle, .location = step->state.position};
+    int found_floor;
+    return tahr__step_up_by_contact(step, motion, &here, &found_floor);
+}
+
+int tahr__step_up_at(tahr__step *step, vec3 motion, const tahr__swept *obstacle, int *found_floor)
+{
+    if (step->config->step_rule == TAHR_STEP_BY_CONTACT) {
+        return tahr__step_up_by_contact(step, motion, obstacle, found_floor);
+    }
+    *found_floor = tahr__step_up(step, motion, &obstacle->hit) > 0;
+    return *found_floor;
+}
+
 double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
 {
     const tahr_config *c = step->config;
+    if (c->step_rule == TAHR_STEP_BY_CONTACT) {
+        return by_contact(step, motion, obstacle);
+    }
     tahr_state before = step->state;
     tahr_floor floor;
     attempt a = {.up = step->state.up, .lift = c->step_height};
@@ -117,7 +136,8 @@ double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
         return 0;
     }
     step->state.position = a.position;
-    tahr__find_floor(step, c->snap_distance, &a.landing, &floor);
+    tahr__supplied landing = {.hit = &a.landing};
+    tahr__find_floor(step, c->snap_distance, &landing, &floor);
     if (!floor_is_walkable(&floor) || step->error < 0) {
         step->state = before;
         refuse(step, &a.landing, floor.distance, 0, "no floor to stand on there");

@@ -12,6 +12,8 @@
 #include "move.h"
 #include "path.h"
 #include "report.h"
+#include "stepped.h"
+#include "walk_two_walls.h"
 
 void tahr__leave_floor(tahr__step *step)
 {
@@ -19,7 +21,7 @@ void tahr__leave_floor(tahr__step *step)
     vec3 v = step_level(step, step->state.velocity);
     double size2 = length_squared(v);
     step->state.velocity = v;
-    if (floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE) && size2 > 0) {
+    if (floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE) && size2 > 0 && !step->config->keep_level_speed) {
         double rise = dot(floor->surface_normal, v) / dot(floor->surface_normal, step->state.up);
         step->state.velocity = scale(v, sqrt(size2 / (size2 + rise * rise)));
     }
@@ -176,7 +178,7 @@ static void go_back(tahr__step *step, const start *begin)
     step->ahead = 0;
 }
 
-tahr__next tahr__walk(tahr__step *step, double time)
+static tahr__next walk_slice(tahr__step *step, double time)
 {
     tahr__path w;
     tahr_floor floor;
@@ -222,4 +224,35 @@ tahr__next tahr__walk(tahr__step *step, double time)
     step->time += time;
     tahr__next next = {TAHR_MODE_WALKING, 0};
     return next;
+}
+
+/* Slices that each keep one velocity along the path. */
+static tahr__next walk_in_steps(tahr__step *step, double time)
+{
+    tahr__next next = {TAHR_MODE_WALKING, time};
+    while (next.mode == TAHR_MODE_WALKING && next.time_left >= TAHR__LEAST_TIME && step->error >= 0) {
+        double h = tahr__begin_iteration(step, next.time_left);
+        if (h == 0) {
+            return (tahr__next){TAHR_MODE_WALKING, 0};
+        }
+        double left = next.time_left - h;
+        vec3 before = step_level(step, step->state.velocity);
+        tahr__law law = tahr__walking_law(step);
+        step->state.velocity = tahr__calc_velocity(step->config, &law, 0, before, h);
+        if (length_squared(before) > 0 && length_squared(step->state.velocity) == 0) {
+            tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);
+        }
+        next = walk_slice(step, h);
+        next.time_left += left;
+    }
+    next.time_left = next.time_left < TAHR__LEAST_TIME ? 0 : next.time_left;
+    return next;
+}
+
+tahr__next tahr__walk(tahr__step *step, double time)
+{
+    if (step->config->slide_solver == TAHR_SLIDE_TWO_WALLS) {
+        return tahr__walk_two_walls(step, time);
+    }
+    return step->config->integrator == TAHR_INTEGRATOR_EXACT ? walk_slice(step, time) : walk_in_steps(step, time);
 }

@@ -72,9 +72,10 @@ typedef struct tahr_config {
     uint32_t mask;       /* [all bits] bodies this character meets; 0: none */
     uint32_t max_slides; /* [8] sweeps of one slice of walking or falling, then the rest of the motion is dropped; 1..16 */
     double skin;         /* m [0.01 | 0.019] distance kept from everything that blocks (PULL_BACK: from floors) */
-    double pull_back;    /* m [0.001] PULL_BACK: least distance taken back; 1.25 of it is added to every push out */
-    double max_depenetration;           /* m [1.0 | 5.0] longest push out of an overlap per step */
-    double max_depenetration_character; /* m [1.0] the same, out of a body with TAHR_BODY_CHARACTER */
+    double pull_back; /* m [0.001] PULL_BACK: least distance taken back, 0.004 of it the shortest motion; SINGLE: 1.25 of
+                          * it is added to every push, where a shape larger by it fits */
+    double max_depenetration; /* m [1.0 | 5.0] JOINT: longest way out of overlaps per step; SINGLE: longest push */
+    double max_depenetration_character; /* m [1.0] SINGLE: the same, out of a body with TAHR_BODY_CHARACTER */
     tahr_vec3 plane;                    /* [0] unit normal: motion stays across it (a side-scroller); zero: none */
     double mass;                        /* kg [80 | 100] */
     double push_force;                  /* N [500 | 500] most that is reported as a push against a body with a mass */

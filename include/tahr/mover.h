@@ -35,7 +35,8 @@ enum {
     TAHR_FLOOR_LINE = 1 << 7      /* SHRUNK: a ray found it under the axis; perch_distance is how deep */
 };
 
-/* What is below the shape. distance is the way down until the shape would be skin above it, plus skin. */
+/* What is below the shape. distance is the way down until the shape would be skin above it, plus skin; with SHRUNK until
+ * it touches, negative where it overlaps. */
 typedef struct tahr_floor {
     tahr_vec3 normal;         /* contact normal */
     tahr_vec3 surface_normal; /* of the face */

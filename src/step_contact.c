@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT
+ * step_contact.c: config.step_rule CONTACT: up, along, down, and judged by where the shape came down. For the face behind
+ * the edge as the judge see step_up.c. */
+#include "floor.h"
+#include "floor_distance.h"
+#include "report.h"
+#include "slide.h"
+#include "step_up.h"
+
+/* MAX_STEP_SIDE_Z: a face that rises or leans less is the front of a step. */
+static const double STEP_SIDE = 0.08;
+
+typedef struct attempt {
+    vec3 up;
+    double rise, drop; /* m of the ways up and down */
+    double base;       /* m along up: under the foot; what is met no higher is no step */
+    double floor;      /* m along up: what the height of the step is measured from */
+    tahr_floor found;
+    int found_floor;
+} attempt;
+
+/* What a refused step has to forget. */
+typedef struct undo {
+    tahr_state state;
+    uint32_t flags, event_count, events_lost, slides, just_teleported;
+    double step_offset, residual, push_left;
+} undo;
+
+static void remember(const tahr__step *step, undo *u)
+{
+    const tahr_report *r = &step->report;
+    u->state = step->state;
+    u->flags = r->flags;
+    u->event_count = r->event_count;
+    u->events_lost = r->events_lost;
+    u->slides = r->slides;
+    u->just_teleported = step->just_teleported;
+    u->step_offset = r->step_offset;
+    u->residual = r->residual;
+    u->push_left = step->push_left;
+}
+
+/* Of the report's flags stay what the queries themselves said. */
+static void take_back(tahr__step *step, const undo *u)
+{
+    const uint32_t stay = TAHR_REPORT_UNKNOWN | TAHR_REPORT_QUERY_CAP;
+    tahr_report *r = &step->report;
+    uint32_t lost = r->decisions_lost > 0 ? (uint32_t)TAHR_REPORT_TRUNCATED : 0;
+    step->state = u->state;
+    r->flags = u->flags | (r->flags & (stay | lost));
+    r->event_count = u->event_count;
+    r->events_lost = u->events_lost;
+    r->slides = u->slides;
+    step->just_teleported = u->just_teleported;
+    r->step_offset = u->step_offset;
+    r->residual = u->residual;
+    step->push_left = u->push_left;
+}
+
+static int refuse(tahr__step *step, const tahr_hit *hit, double value, double limit, const char *reason)
+{
+    return tahr__decide(step, TAHR_RULE_STEP_UP, 0, hit, value, limit, reason);
+}
+
+static int is_blocked(const tahr_hit *hit)
+{
+    return hit->blocking && !hit->start_overlap;
+}
+
+/* CanStepUp */
+static int can_step_up(const tahr__step *step, const tahr_hit *hit)
+{
+    return is_blocked(hit) && step->state.mode != TAHR_MODE_FALLING &&
+           !(world_body_flags(step->world, hit->body) & TAHR_BODY_NO_STEP);
+}
+
+/* How far up and down, and from where. On a floor the hover gap is part of the step; the way down is longer by two bands,
+ * to come as close to the floor as before. */
+static void plan(const tahr__step *step, const tahr__swept *obstacle, attempt *a)
+{
+    const tahr_config *c = step->config;
+    const tahr_floor *floor = &step->state.floor;
+    a->rise = a->drop = c->step_height;
+    a->base = a->floor = dot(step_foot(step), a->up);
+    if (step->state.mode == TAHR_MODE_WALKING && floor_is_walkable(floor)) {
+        int line = (floor->flags & TAHR_FLOOR_LINE) != 0;
+        double gap = max_of(line ? floor->perch_distance : floor->distance, 0);
+        int level = tahr__is_within_edge_tolerance(step, obstacle->location, obstacle->hit.point, step->limits->width);
+        a->base -= gap;
+        a->floor = !line && level ? dot(floor->point, a->up) : a->floor - floor->distance;
+        a->rise = max_of(c->step_height - gap, 0);
+        a->drop = c->step_height + 2 * c->floor_max * c->skin;
+    }
+}
+
+/* At the height of the step, along what is in the way there too. Returns 1 to go on down. */
+static int forward(tahr__step *step, vec3 motion, const tahr_hit *above)
+{
+    tahr__swept ahead;
+    tahr__move_updated(step, motion, 0, &ahead);
+    if (ahead.hit.start_overlap) {
+        return refuse(step, &ahead.hit, ahead.hit.depth, 0, "overlaps something when raised");
+    }
+    if (!is_blocked(&ahead.hit)) {
+        return 1;
+    }
+    if (is_blocked(above)) {
+        tahr__handle_impact(step, above);
+    }
+    tahr__handle_impact(step, &ahead.hit);
+    double part = ahead.hit.fraction;
+    double slid = tahr__slide_along_surface(step, motion, 1 - part, ahead.hit.normal, &ahead);
+    return part > 0 || slid > 0 || refuse(step, &ahead.hit, part, 0, "blocked at step height too");
+}
+
+/* May it come down on this? side: how much the face that was in the way rises. */
+static int judge(tahr__step *step, vec3 motion, double side, const undo *before, const tahr__swept *down, attempt *a)
+{
+    const tahr_hit *hit = &down->hit;
+    double height = dot(hit->point, a->up) - a->floor;
+    double gain = dot(sub(down->location, before->state.position), a->up);
+    if (height > step->config->step_height) {
+        return refuse(step, hit, height, step->config->step_height, "higher than a step");
+    }
+    if (!tahr__is_walkable(step, hit, 0) && (dot(motion, hit->surface_normal) < 0 || gain > 0)) {
+        return refuse(step, hit, dot(hit->surface_normal, a->up), step->limits->walkable, "landing face too steep");
+    }
+    if (!tahr__is_within_edge_tolerance(step, down->location, hit->point, step->limits->width)) {
+        return refuse(step, hit, 0, 0, "came down on its rim");
+    }
+    if (height > 0 && !can_step_up(step, hit)) {
+        return refuse(step, hit, height, 0, "not to be stepped up on");
+    }
+    tahr__supplied supplied = supplied_by(down);
+    tahr__find_floor(step, step->config->snap_distance, &supplied, &a->found);
+    if (gain > 0 && !(a->found.flags & TAHR_FLOOR_BLOCKING) && side < STEP_SIDE) {
+        return refuse(step, hit, a->found.distance, 0, "no floor to stand on there");
+    }
+    a->found_floor = 1;
+    return 1;
+}
+
+static int go_over(tahr__step *step, vec3 motion, double side, const undo *before, attempt *a)
+{
+    tahr__swept swept;
+    tahr__move_updated(step, scale(a->up, a->rise), 0, &swept);
+    if (swept.hit.start_overlap) {
+        return refuse(step, &swept.hit, swept.hit.depth, 0, "no room to rise");
+    }
+    const tahr_hit above = swept.hit;
+    if (!forward(step, motion, &above)) {
+        return 0;
+    }
+    tahr__move_updated(step, scale(a->up, -a->drop), 0, &swept);
+    if (swept.hit.start_overlap) {
+        return refuse(step, &swept.hit, swept.hit.depth, 0, "overlaps something when down");
+    }
+    return !is_blocked(&swept.hit) || judge(step, motion, side, before, &swept, a);
+}
+
+static void tell(tahr__step *step, const undo *before, const attempt *a, const tahr_hit *obstacle)
+{
+    double gain = dot(sub(step->state.position, before->state.position), a->up);
+    double height = a->found_floor ? dot(a->found.point, a->up) - a->floor : gain;
+    step->report.step_offset += gain;
+    tahr__decide(step, TAHR_RULE_STEP_UP, 1, obstacle, gain, step->config->step_height, "came down");
+    if (height > step->config->skin) { /* not again while the foot rolls over the same edge */
+        tahr__event(step, TAHR_EVENT_STEPPED_UP, obstacle, height);
+    }
+}
+
+int tahr__step_up_by_contact(tahr__step *step, vec3 motion, const tahr__swept *obstacle, int *found_floor)
+{
+    undo before;
+    attempt a = {.up = step->state.up};
+    const tahr_hit hit = obstacle->hit;
+    const tahr_shape *s = &step->limits->shape;
+    *found_floor = 0;
+    if (!can_step_up(step, &hit) || step->config->step_height <= 0 || step->pull->size == 0) {
+        return 0;
+    }
+    plan(step, obstacle, &a);
+    double at = dot(hit.point, a.up), cap = dot(step->state.position, a.up) + (s->half_height - s->radius);
+    if (at > cap || at <= a.base) {
+        return refuse(step, &hit, at, at > cap ? cap : a.base, "met too high, or no higher than the floor");
+    }
+    remember(step, &before);
+    if (!go_over(step, motion, dot(hit.surface_normal, a.up), &before, &a) || step->error < 0) {
+        take_back(step, &before);
+        return 0;
+    }
+    if (a.found_floor) {
+        tahr__keep_floor(step, &a.found);
+    }
+    *found_floor = a.found_floor;
+    tell(step, &before, &a, &hit);
+    return 1;
+}
