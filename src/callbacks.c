@@ -126,6 +126,13 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
     return status;
 }
 
+static tahr_status fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *answer)
+{
+    const tahr_callbacks *user = self;
+    (void)context;
+    return user->fluid ? user->fluid(user->user, query, answer) : TAHR_OK;
+}
+
 const tahr_backend tahr__callbacks_backend = {
     .struct_size = sizeof(tahr_backend),
     .abi_major = TAHR_ABI_MAJOR,
@@ -137,4 +144,5 @@ const tahr_backend tahr__callbacks_backend = {
     .sweep = sweep,
     .contacts = contacts,
     .ray = ray,
+    .fluid = fluid,
 };

@@ -102,6 +102,12 @@ typedef struct tahr__sleep {
     tahr_event events[TAHR__SLEEP_EVENTS];
 } tahr__sleep;
 
+/* The function of TAHR_MODE_CUSTOM, or none. */
+typedef struct tahr__custom {
+    tahr_custom_mode_fn run;
+    void *user;
+} tahr__custom;
+
 struct tahr_mover {
     tahr_world *world;
     tahr_config config;
@@ -109,16 +115,21 @@ struct tahr_mover {
     void *cache;
     size_t cache_size;
     uint32_t busy;
+    tahr__custom custom;
     tahr__sleep sleep;
 };
 
+/* Public as the opaque tahr_step of a custom mode. */
+typedef tahr_step tahr__step;
+
 /* One step in progress: working copies of what it writes, so that an error leaves the caller's untouched. */
-typedef struct tahr__step {
+struct tahr__step {
     const tahr_config *config;
     const tahr__limits *limits;
     tahr_world *world;
     const tahr_input *input;
     const tahr__pull *pull;
+    const tahr__custom *custom;
     tahr_state state;
     tahr_report report;
     tahr_query_context context;
@@ -133,7 +144,7 @@ typedef struct tahr__step {
     uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
     uint32_t apexes;          /* of them cut short at an apex */
     tahr_status error;        /* sticky: after it every query answers "blocked here" */
-} tahr__step;
+};
 
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */
 typedef struct tahr__next {

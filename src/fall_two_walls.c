@@ -10,6 +10,7 @@
 #include "report.h"
 #include "slide.h"
 #include "stepped.h"
+#include "swimming.h"
 #include "wall.h"
 
 /* Slices shorter than this have no velocity of their own, and no apex. */
@@ -356,6 +357,10 @@ tahr__next tahr__fall_two_walls(tahr__step *step, double time)
     fall f = {.left = time};
     int answer = GOES_ON;
     while (answer == GOES_ON && f.left >= TAHR__LEAST_TIME && step->error >= 0) {
+        if (step_has_fluids(step) && tahr__is_carried(step, step->state.position, step->state.velocity)) {
+            tahr__begin_swimming(step);
+            return (tahr__next){TAHR_MODE_SWIMMING, f.left};
+        }
         double begun = f.left;
         f.h = tahr__begin_iteration(step, f.left);
         if (f.h == 0) {

@@ -13,6 +13,7 @@
 #include "report.h"
 #include "slide.h"
 #include "stepped.h"
+#include "swimming.h"
 #include "wall.h"
 
 /* A contact-free arc from the character's position. */
@@ -218,6 +219,24 @@ static void use_time(tahr__step *step, fall *f, double t)
     }
 }
 
+static vec3 place_on_arc(const void *self, double t)
+{
+    vec3 v;
+    return arc_at(self, t, &v);
+}
+
+/* s of the chord until a fluid carries. */
+static double until_fluid(tahr__step *step, const arc *a, double duration)
+{
+    const tahr__way way = {a, place_on_arc};
+    vec3 v, to = arc_at(a, duration, &v);
+    double line = tahr__swim_line(step->config), m = tahr__fluid(step, add(step->state.position, to)).immersion;
+    if (m < line || (m < 1 && dot(v, step->state.up) > 0)) {
+        return duration;
+    }
+    return tahr__passing_time(step, &way, duration, m, line, 1);
+}
+
 /* One chord. Returns 1 if something was hit. */
 static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
 {
@@ -234,6 +253,11 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         duration = apex;
     } else if (f->left > duration) { /* equal chords rather than a short last one */
         duration = f->left / (double)(int)(f->left / duration + 1);
+    }
+    if (step_has_fluids(step)) {
+        double dry = until_fluid(step, &a, duration);
+        reaches_apex = reaches_apex && dry == duration;
+        duration = dry;
     }
     vec3 chord = slide_in_air(step, f, arc_at(&a, duration, &v));
     if (f->has_edge && a.rise <= 0) {
@@ -315,6 +339,11 @@ static tahr__next fall_slice(tahr__step *step, double time)
     while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         tahr__planes_forget(step, f.planes, &f.plane_count);
+        if (step_has_fluids(step) && tahr__is_carried(step, step->state.position, step->state.velocity)) {
+            tahr__next swim = {TAHR_MODE_SWIMMING, f.left};
+            tahr__begin_swimming(step);
+            return swim;
+        }
         if (step->limits->feel & TAHR__FEEL_EDGES && hangs(step, &f)) {
             return (tahr__next){TAHR_MODE_HANGING, f.left};
         }

@@ -5,6 +5,7 @@
 #include "hanging.h"
 #include "modes.h"
 #include "report.h"
+#include "swimming.h"
 #include "walking.h"
 #include "wall.h"
 
@@ -173,6 +174,9 @@ void tahr__begin_jump(tahr__step *step)
         jump_from_ground(step);
     } else if (s->mode == TAHR_MODE_HANGING) {
         jump_from_edge(step);
+    } else if (s->mode == TAHR_MODE_SWIMMING) {
+        tahr__jump_from_water(step);
+        s->flags |= step->limits->feel & TAHR__FEEL_JUMPS ? TAHR_STATE_JUMP_SPENT : 0u;
     } else if (s->mode == TAHR_MODE_FALLING && !jump_from_air(step, 1)) {
         s->buffer_left = step->config->jump_buffer;
     }

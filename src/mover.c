@@ -13,6 +13,7 @@
 #include "overlap.h"
 #include "query.h"
 #include "report.h"
+#include "request.h"
 #include "sleep.h"
 #include "stance.h"
 #include "turning.h"
@@ -109,6 +110,7 @@ static void run(tahr__step *step, double dt)
     tahr__follow_base(step, dt);
     tahr__take_stance(step);
     if (step->input->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING)) {
+        tahr__ask_mode(step);
         tahr__launch(step);
     }
     tahr__begin_jump(step);
@@ -248,6 +250,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     tahr__pull pull;
     step.config = &mover->config;
     step.limits = &mover->limits;
+    step.custom = &mover->custom;
     step.world = mover->world;
     if (state->half_height != mover->config.shape.half_height || state->radius != mover->config.shape.radius) {
         tahr__use_shape(&step, state->radius, state->half_height);

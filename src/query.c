@@ -344,6 +344,49 @@ void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit)
     }
 }
 
+static const char *bad_fluid(const tahr_fluid *f)
+{
+    if (!(f->immersion >= 0 && f->immersion <= 1)) {
+        return "immersion";
+    }
+    if (!(f->friction >= 0 && f->friction <= 1e4)) {
+        return "friction";
+    }
+    return length_squared(f->velocity) <= 1e8 ? NULL : "velocity";
+}
+
+static tahr_status checked_fluid(const tahr_world *world, tahr_query_context *context, const tahr_fluid_query *query,
+                                 tahr_fluid *fluid)
+{
+    *fluid = (tahr_fluid){.body = TAHR_NO_BODY};
+    if (!world->backend->fluid) {
+        return TAHR_OK;
+    }
+    tahr_status status = world->backend->fluid(world->self, context, query, fluid);
+    const char *bad = status < 0 ? "status" : bad_fluid(fluid);
+    return bad ? bad_answer(world, "fluid", bad) : TAHR_OK;
+}
+
+tahr_fluid tahr__fluid(tahr__step *step, vec3 position)
+{
+    tahr_fluid fluid = {.body = TAHR_NO_BODY};
+    if (!step_has_fluids(step) || !may_ask(step)) {
+        return fluid;
+    }
+    tahr_fluid_query q = {.position = position,
+                          .up = step->state.up,
+                          .radius = step->limits->width,
+                          .half_height = step->limits->shape.half_height,
+                          .mask = step->config->mask};
+    step->report.fluid_queries++;
+    tahr_status status = checked_fluid(step->world, &step->context, &q, &fluid);
+    if (status < 0) {
+        step->error = status;
+        return (tahr_fluid){.body = TAHR_NO_BODY};
+    }
+    return fluid;
+}
+
 void tahr__announce(tahr__step *step, const tahr_prepare *announcement)
 {
     const tahr_backend *backend = step->world->backend;
@@ -488,6 +531,36 @@ tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, tahr_hit *h
     if (status >= 0) {
         *hit = found_hit;
         *count = found;
+    }
+    return status;
+}
+
+tahr_status tahr_world_fluid(tahr_world *world, const tahr_fluid_query *query, tahr_fluid *fluid)
+{
+    static const char function[] = "tahr_world_fluid";
+    if (!world) {
+        return TAHR_E_NULL;
+    }
+    if (!query || !fluid) {
+        return null_argument(world, function, query, fluid, "fluid");
+    }
+    if (!vec_is_finite(query->position) || length(query->position) > 2e7) {
+        return bad_argument(world, function, "position");
+    }
+    if (!(length_squared(query->up) > 1 - 1e-9 && length_squared(query->up) < 1 + 1e-9)) {
+        return bad_argument(world, function, "up");
+    }
+    if (!(query->half_height >= 1e-6 && query->half_height <= 1e4)) {
+        return bad_argument(world, function, "half_height");
+    }
+    if (!(query->radius >= 0 && query->radius <= 1e4) || query->reserved) {
+        return bad_argument(world, function, query->reserved ? "reserved" : "radius");
+    }
+    tahr_query_context context = {0};
+    tahr_fluid found;
+    tahr_status status = checked_fluid(world, &context, query, &found);
+    if (status >= 0) {
+        *fluid = found;
     }
     return status;
 }

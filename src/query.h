@@ -21,6 +21,16 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
 /* The first thing between origin and origin + motion. One ray. */
 void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit);
 
+/* How deep the character's shape is in a fluid at `position`; all zero where there is none, and where there cannot be any
+ * in this world (then no query). One fluid query. */
+tahr_fluid tahr__fluid(tahr__step *step, vec3 position);
+
+/* May there be a fluid anywhere in this world? */
+static inline int step_has_fluids(const tahr__step *step)
+{
+    return (step->world->has & TAHR__HAS_FLUIDS) != 0;
+}
+
 /* The TAHR_CAP_* that a character of this shape needs. */
 uint32_t tahr__shape_capability(uint32_t type);
 

@@ -38,7 +38,9 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
 {
     tahr__sleep *s = &mover->sleep;
     const tahr_report *r = &step->report;
-    s->noted = !changed && mover->config.sleep && !r->decisions && r->event_count <= TAHR__SLEEP_EVENTS;
+    /* A caller's own mode may depend on what the core cannot see. */
+    int own = mover->custom.run && (state->mode == TAHR_MODE_CUSTOM || (step->input->flags & TAHR_INPUT_MODE));
+    s->noted = !changed && !own && mover->config.sleep && !r->decisions && r->event_count <= TAHR__SLEEP_EVENTS;
     if (!s->noted) {
         return;
     }

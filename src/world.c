@@ -234,6 +234,10 @@ static tahr_status open_scene(tahr_world *world, const tahr_backend *backend, co
     if (status >= 0) {
         status = note_bodies(world, &scene);
     }
+    if (status >= 0 && (world->has & TAHR__HAS_FLUIDS) && !backend->fluid) {
+        status = tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_open", "backend.fluid",
+                                "is NULL, but a body is TAHR_BODY_FLUID");
+    }
     if (status >= 0) {
         enter_backend(world, "tahr_world_open");
         status = leave_backend(world, backend, backend->open(&world->host, &scene, &world->self));
@@ -273,6 +277,8 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
         return status;
     }
     world->backend = backend;
+    /* A backend that brings its own scene may have fluids in it that nobody described. */
+    world->has |= backend->fluid && desc->body_count == 0 ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
     *out = world;
     return TAHR_OK;
 }
@@ -306,6 +312,7 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     world->self = world + 1;
     memcpy(world->self, callbacks, sizeof *callbacks);
     world->backend = &tahr__callbacks_backend;
+    world->has |= callbacks->fluid ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
     *out = world;
     return TAHR_OK;
 }

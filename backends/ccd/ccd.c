@@ -32,6 +32,15 @@ static tahr_status place(void *self, const tahr_body_pose *poses, uint32_t count
     return tahr__ccd_scene_place(self, poses, count);
 }
 
+static tahr_status fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *answer)
+{
+    const tahr__ccd_scene *scene = self;
+
+    (void)context;
+    tahr__fluids_ask(&scene->fluids, query, answer);
+    return TAHR_OK;
+}
+
 static const tahr_backend backend = {
     .struct_size = sizeof backend,
     .abi_major = TAHR_ABI_MAJOR,
@@ -46,6 +55,7 @@ static const tahr_backend backend = {
     .contacts = tahr__ccd_contacts,
     .ray = tahr__ccd_ray,
     .place = place,
+    .fluid = fluid,
 };
 
 const tahr_backend *tahr_backend_v1_ccd(void)

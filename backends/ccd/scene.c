@@ -67,6 +67,7 @@ tahr_status tahr__ccd_scene_open(tahr__ccd_scene *scene, const tahr_host *host, 
     scene->host = host;
     scene->bodies = NULL;
     scene->body_count = 0;
+    scene->fluids = (tahr__fluids){NULL, 0};
     if (desc->body_count == 0) return TAHR_OK;
     scene->bodies = host->allocator.alloc(host->allocator.user, size, 64);
     if (!scene->bodies) return TAHR_E_MEMORY;
@@ -75,6 +76,7 @@ tahr_status tahr__ccd_scene_open(tahr__ccd_scene *scene, const tahr_host *host, 
         scene->bodies[i] = (tahr__ccd_body){0};
     for (uint32_t i = 0; i < desc->body_count && status >= 0; i++)
         status = open_body(scene, &desc->bodies[i], i);
+    if (status >= 0) status = tahr__fluids_open(&scene->fluids, host, desc);
     if (status < 0) tahr__ccd_scene_close(scene);
     return status;
 }
@@ -87,6 +89,7 @@ void tahr__ccd_scene_close(tahr__ccd_scene *scene)
         if (scene->bodies[i].type == TAHR_BODY_MESH) tahr__mesh_free(scene->host, &scene->bodies[i].mesh);
     }
     if (scene->bodies) a->free(a->user, scene->bodies, scene->body_count * sizeof *scene->bodies, 64);
+    tahr__fluids_close(&scene->fluids, scene->host);
     scene->bodies = NULL;
     scene->body_count = 0;
 }
@@ -113,5 +116,6 @@ tahr_status tahr__ccd_scene_place(tahr__ccd_scene *scene, const tahr_body_pose *
     }
     for (uint32_t i = 0; i < count; i++)
         place_body(&scene->bodies[poses[i].body], &poses[i].pose);
+    tahr__fluids_place(&scene->fluids, poses, count);
     return TAHR_OK;
 }

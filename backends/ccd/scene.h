@@ -4,6 +4,7 @@
 #define TAHR_CCD_SCENE_H
 
 #include "../common/core.h"
+#include "../common/fluid.h"
 #include "../common/mesh.h"
 
 #include <tahr/ccd.h>
@@ -30,6 +31,7 @@ typedef struct tahr__ccd_scene {
     tahr__ccd_body *bodies;
     uint32_t body_count;
     uint32_t reserved;
+    tahr__fluids fluids;
 } tahr__ccd_scene;
 
 /* A convex piece of a body: a triangle of a mesh, or a whole box, sphere or capsule. Corners are relative to the

@@ -177,6 +177,7 @@ tahr_status tahr__bodies_open(tahr__native *world, const tahr_world_desc *desc)
         status = open_body(world, i, &desc->bodies[i]);
     if (status == TAHR_OK) status = open_group(world, &world->fixed, 0);
     if (status == TAHR_OK) status = open_group(world, &world->movable, TAHR_BODY_MOVABLE);
+    if (status == TAHR_OK) status = tahr__fluids_open(&world->fluids, world->host, desc);
     return status;
 }
 
@@ -187,6 +188,7 @@ void tahr__bodies_close(tahr__native *world)
         tahr__mesh_free(world->host, &world->bodies[i].mesh);
     close_group(world, &world->fixed);
     close_group(world, &world->movable);
+    tahr__fluids_close(&world->fluids, world->host);
     if (world->bodies) a->free(a->user, world->bodies, world->body_count * sizeof *world->bodies, 64);
 }
 
@@ -207,6 +209,7 @@ tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses,
     }
     for (uint32_t i = 0; i < count; i++)
         put_pose(&world->bodies[poses[i].body], &poses[i].pose);
+    tahr__fluids_place(&world->fluids, poses, count);
     tahr__group *group = &world->movable;
     if (count == 0 || group->count == 0) return TAHR_OK;
     for (uint32_t i = 0; i < group->count; i++) {

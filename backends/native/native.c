@@ -109,6 +109,14 @@ static tahr_status native_place(void *self, const tahr_body_pose *poses, uint32_
     return tahr__bodies_place(self, poses, count);
 }
 
+static tahr_status native_fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *fluid)
+{
+    const tahr__native *world = self;
+    (void)context;
+    tahr__fluids_ask(&world->fluids, query, fluid);
+    return TAHR_OK;
+}
+
 const tahr_backend *tahr_backend_v1_native(void)
 {
     static const tahr_backend backend = {
@@ -127,6 +135,7 @@ const tahr_backend *tahr_backend_v1_native(void)
         .cache_size = native_cache_size,
         .prepare = native_prepare,
         .place = native_place,
+        .fluid = native_fluid,
     };
     return &backend;
 }

@@ -4,6 +4,7 @@
 #define TAHR_NATIVE_SCENE_H
 
 #include "../common/core.h"
+#include "../common/fluid.h"
 #include "../common/mesh.h"
 #include "lanes.h"
 
@@ -48,6 +49,7 @@ typedef struct tahr__native {
     tahr__lanes_fn *cull;
     double cache_margin;
     tahr__group fixed, movable;
+    tahr__fluids fluids;
 } tahr__native;
 
 /* Where a query is computed: relative to the corner of a 4 m cell, up along +z. Everything in a frame is a pure function

@@ -105,7 +105,8 @@ typedef struct tahr_state {
 enum {
     TAHR_INPUT_GRAVITY = 1 << 0,
     TAHR_INPUT_FACING = 1 << 1,
-    TAHR_INPUT_MODE = 1 << 2,         /* change to input.mode at the start of this step */
+    TAHR_INPUT_MODE = 1 << 2,         /* change to input.mode at the start of this step: WALKING needs a floor within
+                                     * config.snap_distance, SWIMMING a fluid deep enough, CUSTOM a function */
     TAHR_INPUT_SHAPE = 1 << 3,        /* take radius and half_height; growing waits until there is room */
     TAHR_INPUT_LAUNCH = 1 << 4,       /* add launch to the velocity, and leave the ground */
     TAHR_INPUT_LAUNCH_LEVEL = 1 << 5, /* with LAUNCH: the part across up replaces that of the velocity */
@@ -155,7 +156,8 @@ enum {
     TAHR_EVENT_LAUNCHED = 17,    /* value: speed, m/s */
     TAHR_EVENT_PUSHED = 18,      /* pushes a body that has a mass: at position, against normal; value: impulse, N s */
     TAHR_EVENT_WALL_JUMPED = 19, /* instead of JUMPED; value: speed away from the wall, m/s */
-    TAHR_EVENT_GRABBED = 20      /* hangs on an edge */
+    TAHR_EVENT_GRABBED = 20,     /* hangs on an edge */
+    TAHR_EVENT_CUSTOM = 21       /* of tahr_step_event; value: the caller's own */
 };
 
 /* Why the ground was left: value of LEFT_GROUND. */

@@ -8,5 +8,6 @@
 #include <tahr/config.h>
 #include <tahr/world.h>
 #include <tahr/mover.h>
+#include <tahr/custom_mode.h>
 
 #endif

@@ -121,7 +121,7 @@ typedef tahr_status (*tahr_sensors_fn)(void *user, const tahr_sweep *query, tahr
  * body that is gone: who stood on it falls. Called at least once a step by who stands on it; must agree with what the
  * queries answer. Other statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_body_fn)(void *user, uint32_t body, tahr_body_motion *motion);
-/* [in] query, [out] fluid (zeroed before the call: leaving it so means "dry"). Statuses and threads as for tahr_sweep_fn. */
+/* [in] query, [out] fluid (zeroed before the call but for its body, TAHR_NO_BODY: leaving it so means "dry"): immersion within 0..1, friction within 0..1e4, |velocity| up to 1e4. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_fluid_fn)(void *user, const tahr_fluid_query *query, tahr_fluid *fluid);
 
 /* Your own collision engine. Only sweep is required; sensors missing: there are none; body missing: nothing moves; fluid
@@ -207,6 +207,12 @@ TAHR_API tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query
 TAHR_API tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts,
                                          uint32_t capacity, uint32_t *count);
 TAHR_API tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, tahr_hit *hit, uint32_t *count);
+
+/* How deep an upright shape is in the fluids of a world: of described bodies the largest part of its axis that lies inside
+ * one of them, ties by id. [in] query: radius 0..1e4 m, half_height 1e-6..1e4 m; [out] fluid: immersion 0 and TAHR_NO_BODY
+ * where there is none; untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_ARGUMENT, TAHR_E_BACKEND (invalid answer).
+ * Allocates nothing; may run on several threads. Since 0.1. */
+TAHR_API tahr_status tahr_world_fluid(tahr_world *world, const tahr_fluid_query *query, tahr_fluid *fluid);
 
 #ifdef __cplusplus
 }

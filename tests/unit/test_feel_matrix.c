@@ -111,7 +111,9 @@ static void assert_sound(const rig *r, const fake_world *w, double bound)
     assert_true(isfinite(s->velocity.x + s->velocity.y + s->velocity.z));
     assert_true(s->coyote_left >= 0 && s->buffer_left >= 0 && s->wall_left >= 0 && s->coyote_left <= TIME &&
                 s->buffer_left <= TIME && s->wall_left <= TIME + 1e-12);
-    assert_int_equal(r->report.flags & (TAHR_REPORT_STUCK | TAHR_REPORT_CRUSHED | TAHR_REPORT_QUERY_CAP), 0);
+    assert_int_equal(r->report.flags &
+                         (TAHR_REPORT_STUCK | TAHR_REPORT_CRUSHED | TAHR_REPORT_QUERY_CAP | TAHR_REPORT_MODE_REFUSED),
+                     0);
     double kept = r->config.separation == TAHR_SEPARATION_MARGIN ? 0.01 - 1e-7 : 0; /* a pull-back keeps what it can */
     assert_true(fake_clearance(w, &r->config.shape, s->position) > kept);
     if (s->position.z > bound + 1e-6) {

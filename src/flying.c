@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT
+ * flying.c: one slice of flying: the law of walking in three dimensions, without gravity. */
+#include "flying.h"
+
+#include "glide.h"
+#include "move.h"
+#include "report.h"
+#include "stepped.h"
+
+/* m/s: a drag alone never ends. A deceleration of the drag at this speed does, at the same time at every frame rate. */
+static const double HOVERS = 1e-3;
+
+/* Along walls what they leave of the wish is asked for, as in walking. */
+static tahr__law law_of(const tahr__step *step, const tahr__glide *g)
+{
+    const tahr_config *c = step->config;
+    vec3 wish = step->input->move;
+    double size = length(wish), stick = min_of(size, 1), kept = 1;
+    if (size > 0 && g->plane_count > 0) {
+        wish = tahr__glide_bend(g, wish);
+        kept = length(wish) / size;
+    }
+    tahr__law law = {.wish = unit(wish),
+                     .speed = c->fly_speed * stick * kept,
+                     .acceleration = c->acceleration * kept,
+                     .turn_friction = c->turn_friction,
+                     .braking = c->fly_drag * HOVERS,
+                     .drag = c->fly_drag};
+    return law;
+}
+
+/* m/s2 that bend the path: nothing does while it flies straight along the wish, or brakes. */
+static double bending(const tahr__law *law, vec3 v)
+{
+    vec3 across = reject(v, law->wish);
+    int straight = length_squared(across) <= 1e-12 * length_squared(v);
+    return law->speed > 0 && !straight ? law->acceleration + law->turn_friction * length(across) : 0;
+}
+
+/* Of a piece, when a part of it was covered. */
+static double time_of_part(const tahr__law *law, vec3 v, double piece, vec3 whole, double part)
+{
+    if (part <= 0 || part >= 1 || length_squared(whole) == 0) {
+        return part <= 0 ? 0 : piece;
+    }
+    return dot(v, whole) < 0 && part * part * length_squared(whole) < 1e-10 ? 0 /* touched before it turned round */
+                                                                            : tahr__law_time(law, v, piece, whole, part);
+}
+
+/* STEPPED: one velocity for all of it. */
+static tahr__motion stepped(const tahr__step *step, const tahr__law *law, vec3 v, double t)
+{
+    tahr__law push = *law;
+    push.acceleration *= min_of(length(step->input->move), 1); /* half a stick is half the acceleration too */
+    push.braking = 0;
+    push.turn_friction = 0.5 * law->drag; /* half of the friction turns, all of it brakes, the air takes its half too */
+    vec3 then = tahr__calc_velocity(step->config, &push, 0.5 * law->drag, v, t);
+    tahr__motion m = {scale(then, t), then, -1};
+    return m;
+}
+
+/* One piece of the slice. Returns 0 if nothing can go on from where it ended. */
+static int fly_piece(tahr__step *step, tahr__glide *g)
+{
+    int steps = step->config->integrator == TAHR_INTEGRATOR_STEPPED;
+    tahr_hit hit;
+    vec3 v = tahr__glide_bend(g, step->state.velocity);
+    tahr__law law = law_of(step, g);
+    double piece = tahr__glide_piece(step, g, bending(&law, v)), used = piece;
+    tahr__motion m = steps ? stepped(step, &law, v, piece) : tahr__law_advance(&law, v, piece);
+    vec3 way = tahr__glide_bend(g, m.displacement);
+    step->state.velocity = m.velocity;
+    if (length_squared(way) == 0) {
+        tahr__glide_use(step, g, piece);
+        return 1;
+    }
+    if (step->config->slide_solver == TAHR_SLIDE_TWO_WALLS) {
+        const tahr__glide_motion whole = {way, piece, NULL};
+        if (tahr__glide_two_walls(step, g, &whole, &hit)) {
+            tahr__glide_forget_floor(step);
+        }
+        return !hit.unknown && !hit.start_overlap;
+    }
+    tahr__move(step, way, &hit);
+    if (hit.blocking) {
+        used = steps ? piece * hit.fraction : time_of_part(&law, v, piece, way, hit.fraction);
+        step->state.velocity = steps ? m.velocity : tahr__law_advance(&law, v, used).velocity;
+    } else if (m.stop_time >= 0) {
+        step->ahead = m.stop_time;
+        tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);
+        step->ahead = 0;
+    }
+    tahr__glide_use(step, g, used);
+    if (!hit.blocking || hit.start_overlap || hit.unknown) {
+        return !hit.blocking;
+    }
+    if (tahr__glide_step_up(step, g, &hit, scale(way, 1 - hit.fraction), NULL)) {
+        tahr__glide_forget_floor(step);
+        return 1;
+    }
+    return tahr__glide_meet(step, g, &hit);
+}
+
+tahr__next tahr__fly(tahr__step *step, double time)
+{
+    tahr__glide g;
+    tahr__next next = {TAHR_MODE_FLYING, 0};
+    tahr__glide_begin(step, &g, time);
+    while (tahr__glide_goes_on(step, &g) && fly_piece(step, &g)) {
+    }
+    tahr__glide_end(step, &g);
+    return next;
+}
