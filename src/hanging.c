@@ -84,6 +84,7 @@ static void keep_edge(tahr__step *step, vec3 facing, const tahr_hit *edge)
                         .feature = edge->feature,
                         .surface = edge->surface};
     tahr__keep_floor(step, &floor);
+    tahr__hold_wall(step, facing, edge->body, edge->feature);
 }
 
 /* Moves the head level with the edge. Returns 0, at the old place, if something is in the way. */
@@ -242,6 +243,7 @@ int tahr__climb_edge(tahr__step *step)
     }
     double gain = dot(sub(position, before.position), step->state.up);
     tahr__keep_floor(step, &floor);
+    tahr__forget_walls(step);
     step->report.step_offset += gain;
     tahr__event(step, TAHR_EVENT_STEPPED_UP, &landing, gain);
     tahr__decide(step, TAHR_RULE_LEDGE_GRAB, 1, &landing, gain, 0, "climbed");

@@ -27,7 +27,6 @@ void tahr__count_down(tahr__step *step)
     tahr_state *s = &step->state;
     s->coyote_left = after(s->coyote_left, step->dt);
     s->buffer_left = after(s->buffer_left, step->dt);
-    s->lift_left = after(s->lift_left, step->dt);
     s->wall_left = after(s->wall_left, step->dt);
 }
 
@@ -37,12 +36,14 @@ void tahr__floor_ended(tahr__step *step)
     step->state.coyote_left = time > 0 ? time + step->time : 0;
 }
 
-void tahr__flight_ended(tahr__step *step)
+void tahr__flight_ended(tahr__step *step, uint32_t mode)
 {
     step->state.coyote_left = 0;
     step->state.jump_count = 0;
     step->state.flags &= ~(uint32_t)TAHR_STATE_EDGE_SPENT;
-    tahr__forget_walls(step);
+    if (mode != TAHR_MODE_HANGING) {
+        tahr__forget_walls(step);
+    }
 }
 
 double tahr__gravity_factor(const tahr__step *step, double rise)

@@ -38,8 +38,9 @@ static inline int press_is_remembered(const tahr__step *step)
 /* The floor has ended, now: not by a jump or a launch. No query. */
 void tahr__floor_ended(tahr__step *step);
 
-/* Falling has ended: air jumps are given back, walls and edges forgotten. No query. */
-void tahr__flight_ended(tahr__step *step);
+/* Falling has ended in another mode: air jumps are given back, walls and edges forgotten, but for what it hangs on. No
+ * query. */
+void tahr__flight_ended(tahr__step *step, uint32_t mode);
 
 /* What gravity is multiplied by while the speed against it is `rise`. */
 double tahr__gravity_factor(const tahr__step *step, double rise);
@@ -48,11 +49,11 @@ double tahr__gravity_factor(const tahr__step *step, double rise);
  * starts at step->time is set to that more, and is over where step->time reaches it: the same at every frame rate. */
 void tahr__count_down(tahr__step *step);
 
-/* At the end of a step, for every timer of the state. */
+/* At the end of a step. lift_left counts with the base (base_motion.c). */
 static inline void tahr__run_timers(tahr__step *step)
 {
     const tahr_state *s = &step->state;
-    if (s->coyote_left + s->buffer_left + (s->lift_left + s->wall_left) > 0) {
+    if (s->coyote_left + s->buffer_left + s->wall_left > 0) {
         tahr__count_down(step);
     }
 }

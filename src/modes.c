@@ -76,7 +76,7 @@ const char *tahr__transition(uint32_t from, uint32_t to)
 void tahr__grant_mode(tahr__step *step, uint32_t mode)
 {
     if (step->state.mode == TAHR_MODE_FALLING) {
-        tahr__flight_ended(step);
+        tahr__flight_ended(step, mode);
     }
     step->state.mode = mode;
     tahr__event(step, TAHR_EVENT_MODE, NULL, mode);

@@ -116,6 +116,12 @@ int tahr__wall_to_jump_off(tahr__step *step, int remembers, tahr_hit *wall)
     return 0;
 }
 
+void tahr__hold_wall(tahr__step *step, vec3 facing, uint32_t body, uint32_t feature)
+{
+    tahr__forget_walls(step);
+    remember(step, facing, body, feature);
+}
+
 void tahr__spend_wall(tahr__step *step, const tahr_hit *wall)
 {
     tahr_state *s = &step->state;

@@ -51,6 +51,9 @@ void tahr__leave_wall(tahr__step *step, double when);
  * body, feature. Returns 0 if there is none. One contact query. */
 int tahr__wall_to_jump_off(tahr__step *step, int remembers, tahr_hit *wall);
 
+/* It is hung on. No query. */
+void tahr__hold_wall(tahr__step *step, vec3 facing, uint32_t body, uint32_t feature);
+
 /* It was jumped off. No query. */
 void tahr__spend_wall(tahr__step *step, const tahr_hit *wall);
 

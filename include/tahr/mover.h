@@ -94,7 +94,7 @@ typedef struct tahr_state {
     double buffer_left;    /* s for which a jump asked for in the air still counts */
     double lift_left;      /* s for which base.velocity is still imparted */
     double wall_left;      /* s for which a wall jump may still start after the wall was left */
-    tahr_vec3 wall_normal; /* of the last wall touched in the air or jumped off, level; zero: none */
+    tahr_vec3 wall_normal; /* of the last wall touched in the air, jumped off or hung on, level; zero: none */
     uint32_t wall_body;    /* or TAHR_NO_BODY */
     uint32_t wall_feature;
     uint32_t drop_body; /* one-way platform being dropped through, or TAHR_NO_BODY */

@@ -329,19 +329,17 @@ static void timers_run_out_to_zero_and_the_state_repeats(void **unused)
     rig r;
     tahr_config c = rig_config();
     (void)unused;
-    c.coyote_time = c.jump_buffer = c.wall_coyote_time = c.lift_momentum = 0.3;
+    c.coyote_time = c.jump_buffer = c.wall_coyote_time = 0.3;
     fake_world_flat(&w);
     rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
     r.state.coyote_left = 0.1;
-    r.state.lift_left = 0.2;
     r.state.wall_left = 1.0 / 60; /* over with the step but for rounding */
     for (int i = 1; i <= 12; i++) {
         rig_step(&r, 1.0 / 60);
-        assert_near(r.state.lift_left, fmax(0.2 - i / 60.0, 0), 1e-12);
         assert_near(r.state.coyote_left, fmax(0.1 - i / 60.0, 0), 1e-12);
         assert_true(r.state.wall_left == 0);
     }
-    assert_true(r.state.lift_left == 0 && r.state.coyote_left == 0);
+    assert_true(r.state.coyote_left == 0);
     tahr_state before = r.state;
     rig_step(&r, 1.0 / 60);
     assert_memory_equal(&before, &r.state, sizeof before);

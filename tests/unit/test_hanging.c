@@ -64,7 +64,8 @@ static void hangs_where_and_when_the_head_passes_the_edge(void **unused)
             player_until(&p, p.time + 1);
             assert_hangs(&r);
             assert_near(r.state.floor.point.z, EDGE, 1e-9);
-            assert_true(r.state.floor.normal.x == -1);
+            assert_true(r.state.floor.normal.x == -1 && r.state.wall_normal.x == -1);
+            assert_int_equal(r.state.wall_body, 1);
             rig_close(&r);
         }
     }
