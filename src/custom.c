@@ -48,7 +48,8 @@ tahr__next tahr__run_custom(tahr__step *step, double time)
     tahr_status status = custom->run(custom->user, step, time, &answer);
     const char *bad = status < 0 ? "custom mode: status" : bad_answer(&answer, time);
     if (bad && step->error >= 0) {
-        step->error = tahr__complain(&step->world->log, TAHR_E_BACKEND, "tahr_mover_step", bad, "in the answer is invalid");
+        step->error =
+            tahr__complain(&step->world->log, TAHR_E_BACKEND, "tahr_mover_step", bad, "in the answer is invalid");
     }
     if (step->error < 0) {
         return next;

@@ -230,11 +230,11 @@ static double until_fluid(tahr__step *step, const arc *a, double duration)
 {
     const tahr__way way = {a, place_on_arc};
     vec3 v, to = arc_at(a, duration, &v);
-    double line = tahr__swim_line(step->config), m = tahr__fluid(step, add(step->state.position, to)).immersion;
-    if (m < line || (m < 1 && dot(v, step->state.up) > 0)) {
+    if (a->rise > 0) { /* not before its apex, where a chord ends */
         return duration;
     }
-    return tahr__passing_time(step, &way, duration, m, line, 1);
+    double line = tahr__swim_line(step->config), m = tahr__fluid(step, add(step->state.position, to)).immersion;
+    return m < line ? duration : tahr__passing_time(step, &way, duration, m, line, 1);
 }
 
 /* One chord. Returns 1 if something was hit. */

@@ -9,8 +9,8 @@
 
 /* A slice of it. */
 typedef struct tahr__glide {
-    vec3 start;         /* where it began */
-    double time, left;  /* s */
+    vec3 start;        /* where it began */
+    double time, left; /* s */
     uint32_t hits, pieces;
     tahr__plane planes[TAHR__MAX_PLANES]; /* only what is counted is read */
     uint32_t plane_count;

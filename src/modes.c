@@ -36,7 +36,6 @@ static const entry modes[TAHR_MODE_CUSTOM + 1] = {
     {"flying", tahr__fly}, {"hanging", tahr__hang}, {"custom", tahr__run_custom},
 };
 
-/* clang-format off: one line each, for the diagram */
 static const struct transition {
     uint32_t from, to;
     const char *why;
@@ -56,7 +55,6 @@ static const struct transition {
     {TAHR_MODE_CUSTOM, TAHR_MODE_SWIMMING, "your function"},
     {TAHR_MODE_CUSTOM, TAHR_MODE_FLYING, "your function"},
 };
-/* clang-format on */
 
 const char *tahr_mode_name(uint32_t mode)
 {

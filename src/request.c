@@ -28,8 +28,7 @@ static int is_granted(tahr__step *step, uint32_t mode)
 {
     switch (mode) {
     case TAHR_MODE_WALKING: return finds_floor(step);
-    case TAHR_MODE_SWIMMING:
-        return tahr__fluid(step, step->state.position).immersion >= tahr__swim_line(step->config);
+    case TAHR_MODE_SWIMMING: return tahr__fluid(step, step->state.position).immersion >= tahr__swim_line(step->config);
     case TAHR_MODE_HANGING: return 0; /* on what? */
     case TAHR_MODE_CUSTOM: return step->custom->run != NULL;
     default: return 1;

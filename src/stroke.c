@@ -23,7 +23,8 @@ static double decayed(double k, double t)
 static double relax(double v0, double push, double k, double t, double *v)
 {
     double x = k * t, one = decayed(k, t);
-    double two = x < 1e-2 ? t * t * (0.5 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120 - x * (1.0 / 720))))) : (t - one) / k;
+    double two =
+        x < 1e-2 ? t * t * (0.5 - x * (1.0 / 6 - x * (1.0 / 24 - x * (1.0 / 120 - x * (1.0 / 720))))) : (t - one) / k;
     *v = v0 * (1 - k * one) + push * one;
     return v0 * one + push * two;
 }

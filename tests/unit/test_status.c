@@ -33,13 +33,13 @@ static void modes_events_and_rules_have_names(void **unused)
     assert_string_equal(tahr_event_name(TAHR_EVENT_LANDED), "landed");
     assert_string_equal(tahr_event_name(TAHR_EVENT_STEPPED_DOWN), "stepped_down");
     assert_string_equal(tahr_event_name(TAHR_EVENT_MODE), "mode");
-    for (uint32_t type = TAHR_EVENT_LANDED; type <= TAHR_EVENT_GRABBED; type++) {
+    for (uint32_t type = TAHR_EVENT_LANDED; type <= TAHR_EVENT_CUSTOM; type++) {
         for (uint32_t other = 0; other < type; other++) {
             assert_string_not_equal(tahr_event_name(type), tahr_event_name(other));
         }
     }
     assert_string_equal(tahr_event_name(0), "?");
-    assert_string_equal(tahr_event_name(21), "?");
+    assert_string_equal(tahr_event_name(22), "?");
     assert_string_equal(tahr_event_name(0xFFFFFFFFu), "?");
 #define CHECK(constant, value, name) assert_string_equal(tahr_rule_name(constant), name);
     TAHR_RULE_TABLE(CHECK)

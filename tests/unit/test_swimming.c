@@ -220,8 +220,8 @@ static void a_swimmer_slides_along_walls_and_stops_in_corners(void **unused)
         pool p;
         rig r;
         pool_init(&p);
-        fake_add_plane(&p.world, fake_vec(-1, 0, 0), -3); /* x < 3 */
-        fake_add_plane(&p.world, fake_vec(0, -1, 0), -5); /* y < 5 */
+        fake_add_plane(&p.world, fake_vec(-1, 0, 0), -3);     /* x < 3 */
+        fake_add_plane(&p.world, fake_vec(0, -1, 0), -5);     /* y < 5 */
         fake_add_plane(&p.world, fake_vec(0, 0.6, 0.8), -54); /* a bottom that slopes */
         open_deep(&r, &p, NULL);
         r.input.move = fake_vec(0.6, 0.8, 0);
