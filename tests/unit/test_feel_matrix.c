@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "../support/oracle.h"
+#include "dice.h"
 #include "rig.h"
 
 enum { COYOTE, BUFFER, HOLD, RELEASE, AIR, WALL, LEDGE, CORNER, HELPERS };
@@ -218,10 +218,58 @@ static void every_method_keeps_to_the_sum(void **unused)
     }
 }
 
+enum { BLOCKS = 24 };
+
+/* Ground and turned blocks of all heights, some in the air, on the native backend. */
+static void make_yard(tahr_body_desc *bodies, oracle_random *random)
+{
+    for (int i = 0; i < BLOCKS; i++) {
+        double a = oracle_uniform(random, 0, 3);
+        assert_int_equal(tahr_body_desc_init(&bodies[i], sizeof bodies[i], TAHR_BODY_BOX), TAHR_OK);
+        bodies[i].half_extents = dice_vec(random, 0.3, 1.5);
+        bodies[i].pose.position = dice_vec(random, -4, 4);
+        bodies[i].pose.position.z = i % 3 ? bodies[i].half_extents.z - 0.1 : oracle_uniform(random, 3.5, 5);
+        bodies[i].pose.orientation = (tahr_quat){0, 0, sin(a / 2), cos(a / 2)};
+    }
+    bodies[0].half_extents = fake_vec(50, 50, 1);
+    bodies[0].pose.position = fake_vec(0, 0, -1);
+}
+
+/* Above the reach of all helpers there is nothing, below it nobody falls. */
+static void all_helpers_stay_sound_among_turned_blocks(void **unused)
+{
+    const double rates[] = {10, 60, 300};
+    uint32_t most = 0;
+    (void)unused;
+    for (int i = 0; i < 3 * METHODS * 4; i++) {
+        tahr_body_desc bodies[BLOCKS];
+        rig r;
+        player p = {.random = {(uint64_t)i + 77}};
+        tahr_config c = config_of((1u << HELPERS) - 1, i / 3 % METHODS);
+        double rate = rates[i % 3];
+        make_yard(bodies, &p.random);
+        rig_open_bodies(&r, bodies, BLOCKS, &c, fake_vec(0, 0, 8));
+        for (int k = 0; k < (int)(10 * rate); k++) {
+            const tahr_state *s = &r.state;
+            play(&p, &r, 1 / rate);
+            rig_step(&r, 1 / rate);
+            rig_assert_in_order(&r, 1 / rate);
+            uint32_t asked = r.report.sweeps + r.report.contact_queries + r.report.rays;
+            most = asked > most ? asked : most;
+            assert_false(r.report.flags & (TAHR_REPORT_QUERY_CAP | TAHR_REPORT_MODE_REFUSED));
+            assert_true(isfinite(s->velocity.x + s->velocity.y + s->velocity.z));
+            assert_true(s->position.z > 0.8 && s->position.z < 20);
+        }
+        rig_close(&r);
+    }
+    print_message("at most %u queries a step\n", most);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_two_helpers_together_lead_higher_than_the_sum_of_their_jumps),
                                        cmocka_unit_test(all_helpers_together_lead_no_higher_than_the_sum_of_their_jumps),
-                                       cmocka_unit_test(every_method_keeps_to_the_sum)};
+                                       cmocka_unit_test(every_method_keeps_to_the_sum),
+                                       cmocka_unit_test(all_helpers_stay_sound_among_turned_blocks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
