@@ -78,7 +78,6 @@ static double make_block(fake_world *w, const tahr_config *c)
 /* What happened, so that the test cannot pass because nothing did. */
 typedef struct tally {
     uint32_t jumps, wall_jumps, grabs, climbs, corners, air_jumps;
-    double nearest; /* m, to a bound */
 } tally;
 
 typedef struct player {
@@ -121,7 +120,7 @@ static void assert_sound(const rig *r, const fake_world *w, double bound)
     }
 }
 
-static void count(tally *t, const rig *r, const tahr_state *before, double bound)
+static void count(tally *t, const rig *r, const tahr_state *before)
 {
     for (uint32_t k = 0; k < r->report.event_count; k++) {
         t->jumps += r->events[k].type == TAHR_EVENT_JUMPED;
@@ -132,7 +131,6 @@ static void count(tally *t, const rig *r, const tahr_state *before, double bound
     const tahr_decision *corner = rig_decision(r, TAHR_RULE_CORNER);
     t->corners += corner && corner->accepted;
     t->air_jumps += r->state.jump_count > before->jump_count;
-    t->nearest = fmin(t->nearest, bound - r->state.position.z);
 }
 
 static void run(uint32_t helpers, int method, double rate, double (*make)(fake_world *w, const tahr_config *c), tally *t)
@@ -143,7 +141,7 @@ static void run(uint32_t helpers, int method, double rate, double (*make)(fake_w
     tahr_config c = config_of(helpers, method);
     double bound = make(&w, &c);
     tahr_mover *other;
-    tally own = {.nearest = 1e3};
+    tally own = {0};
     rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
     assert_int_equal(tahr_mover_create(r.world, &c, &other), TAHR_OK);
     r.time = 0;
@@ -153,7 +151,7 @@ static void run(uint32_t helpers, int method, double rate, double (*make)(fake_w
         rig_step(&r, 1 / rate);
         rig_assert_in_order(&r, 1 / rate);
         assert_sound(&r, &w, bound);
-        count(&own, &r, &again, bound);
+        count(&own, &r, &again);
         assert_true(own.jumps + own.wall_jumps <= p.presses);
         if (i % 7 == 0) { /* nothing but the state is remembered */
             assert_true(tahr_mover_step(other, &r.input, 1 / rate, &again, NULL) >= 0);
@@ -166,7 +164,6 @@ static void run(uint32_t helpers, int method, double rate, double (*make)(fake_w
     t->climbs += own.climbs;
     t->corners += own.corners;
     t->air_jumps += own.air_jumps;
-    t->nearest = fmin(t->nearest, own.nearest);
     tahr_mover_destroy(other);
     rig_close(&r);
 }
@@ -182,21 +179,21 @@ static void run_at_all_rates(uint32_t helpers, int method, tally *t)
 
 static void no_two_helpers_together_lead_higher_than_the_sum_of_their_jumps(void **unused)
 {
-    tally t = {.nearest = 1e3};
+    tally t = {0};
     (void)unused;
     for (uint32_t a = 0; a < HELPERS; a++) {
         for (uint32_t b = a; b < HELPERS; b++) {
             run_at_all_rates(1u << a | 1u << b, PRECISE, &t);
         }
     }
-    print_message("%u jumps, %u off walls, %u in the air, %u edges, %u climbed, %u corners; nearest to a bound %g m\n",
-                  t.jumps, t.wall_jumps, t.air_jumps, t.grabs, t.climbs, t.corners, t.nearest);
+    print_message("%u jumps, %u off walls, %u in the air, %u edges, %u climbed, %u corners\n", t.jumps, t.wall_jumps,
+                  t.air_jumps, t.grabs, t.climbs, t.corners);
     assert_true(t.jumps && t.wall_jumps && t.air_jumps && t.grabs && t.climbs && t.corners);
 }
 
 static void all_helpers_together_lead_no_higher_than_the_sum_of_their_jumps(void **unused)
 {
-    tally t = {.nearest = 1e3};
+    tally t = {0};
     (void)unused;
     run_at_all_rates(0, PRECISE, &t);
     run_at_all_rates((1u << HELPERS) - 1, PRECISE, &t);
@@ -207,7 +204,7 @@ static void every_method_keeps_to_the_sum(void **unused)
 {
     (void)unused;
     for (int method = STEPS; method < METHODS; method++) {
-        tally t = {.nearest = 1e3};
+        tally t = {0};
         for (uint32_t a = 0; a < HELPERS; a++) {
             run_at_all_rates(1u << a, method, &t);
         }
@@ -231,7 +228,7 @@ static void make_yard(tahr_body_desc *bodies, oracle_random *random)
         bodies[i].pose.position.z = i % 3 ? bodies[i].half_extents.z - 0.1 : oracle_uniform(random, 3.5, 5);
         bodies[i].pose.orientation = (tahr_quat){0, 0, sin(a / 2), cos(a / 2)};
     }
-    bodies[0].half_extents = fake_vec(50, 50, 1);
+    bodies[0].half_extents = fake_vec(2000, 2000, 1);
     bodies[0].pose.position = fake_vec(0, 0, -1);
 }
 
