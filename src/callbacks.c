@@ -30,11 +30,45 @@ static vec3 nearest_point(const tahr_sweep *q, const tahr_hit *h)
     return add_scaled(core, h->normal, -(q->shape.radius + h->distance));
 }
 
-static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
-                         uint32_t capacity, uint32_t *count)
+/* A sensor does not block, and its normal decides little: against the motion, if the user says nothing. */
+static void complete_sensor(const tahr_sweep *q, double part, tahr_hit *h)
 {
-    const tahr_callbacks *user = self;
-    (void)capacity;
+    double size = length(q->motion);
+    h->sensor = 1;
+    h->blocking = h->unknown = 0;
+    h->fraction *= h->fraction <= 1 ? part : 1; /* what is wrong stays wrong */
+    if (length_squared(h->normal) == 0) {
+        h->normal = size > 0 ? scale(q->motion, -1 / size) : q->up;
+    }
+    if (length_squared(h->surface_normal) == 0) {
+        h->surface_normal = h->normal;
+    }
+    if (length_squared(h->point) == 0) {
+        h->point = add_scaled(q->position, q->motion, h->fraction);
+    }
+}
+
+/* The sensors along a part of a motion. */
+static tahr_status sensors(const tahr_callbacks *user, const tahr_sweep *query, double part, tahr_hit *hits,
+                           uint32_t capacity, uint32_t *count)
+{
+    tahr_sweep q = *query;
+    *count = 0;
+    if (!user->sensors || capacity == 0) {
+        return TAHR_OK;
+    }
+    q.motion = scale(query->motion, part);
+    memset(hits, 0, capacity * sizeof hits[0]);
+    tahr_status status = user->sensors(user->user, &q, hits, capacity, count);
+    for (uint32_t i = 0; i < *count && i < capacity; i++) {
+        complete_sensor(query, part, &hits[i]);
+    }
+    return status < 0 || status == TAHR_TRUNCATED ? status : TAHR_OK;
+}
+
+static tahr_status sweep_solids(const tahr_callbacks *user, tahr_query_context *context, const tahr_sweep *query,
+                                tahr_hit *hits, uint32_t *count)
+{
     context->narrow_tests++;
     memset(&hits[0], 0, sizeof hits[0]);
     tahr_status status = user->sweep(user->user, query, &hits[0]);
@@ -52,6 +86,30 @@ static tahr_status sweep(void *self, tahr_query_context *context, const tahr_swe
         h->point = nearest_point(query, h);
     }
     return status < 0 ? status : TAHR_OK;
+}
+
+static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
+                         uint32_t capacity, uint32_t *count)
+{
+    const tahr_callbacks *user = self;
+    tahr_hit wall;
+    uint32_t found = 0;
+    if (query->flags & TAHR_SWEEP_SENSORS) {
+        return sensors(user, query, 1, hits, capacity, count);
+    }
+    if (capacity < 2 || !user->sensors) {
+        return sweep_solids(user, context, query, hits, count);
+    }
+    tahr_status status = sweep_solids(user, context, query, &wall, &found);
+    if (status < 0) {
+        return status;
+    }
+    double part = found && wall.fraction >= 0 && wall.fraction <= 1 ? wall.fraction : 1;
+    status = sensors(user, query, part, hits, capacity - found, count);
+    if (status >= 0 && found && *count < capacity) {
+        hits[(*count)++] = wall;
+    }
+    return status;
 }
 
 /* Without a contacts function a sweep that goes nowhere tells the deepest overlap. */
@@ -79,7 +137,7 @@ static tahr_status contacts(void *self, tahr_query_context *context, const tahr_
                     .margin = query->margin,
                     .mask = query->mask,
                     .ignore_body = query->ignore_body};
-    tahr_status status = sweep(self, context, &q, &hit, 1, &found);
+    tahr_status status = sweep_solids(user, context, &q, &hit, &found);
     *count = 0;
     if (status < 0 || !found || !hit.start_overlap || capacity == 0) {
         return status;
@@ -121,7 +179,7 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
                     .motion = query->motion,
                     .mask = query->mask,
                     .ignore_body = query->ignore_body};
-    tahr_status status = sweep(self, context, &q, hit, 1, count);
+    tahr_status status = sweep_solids(user, context, &q, hit, count);
     *count = hit->blocking != 0;
     return status;
 }
@@ -131,6 +189,12 @@ static tahr_status fluid(void *self, tahr_query_context *context, const tahr_flu
     const tahr_callbacks *user = self;
     (void)context;
     return user->fluid ? user->fluid(user->user, query, answer) : TAHR_OK;
+}
+
+static tahr_status body_motion(void *self, uint32_t body, tahr_body_motion *motion)
+{
+    const tahr_callbacks *user = self;
+    return user->body ? user->body(user->user, body, motion) : TAHR_E_NOT_FOUND;
 }
 
 const tahr_backend tahr__callbacks_backend = {
@@ -145,4 +209,5 @@ const tahr_backend tahr__callbacks_backend = {
     .contacts = contacts,
     .ray = ray,
     .fluid = fluid,
+    .body_motion = body_motion,
 };

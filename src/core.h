@@ -18,22 +18,24 @@ typedef struct tahr__memory {
 
 /* What the core remembers of a body. */
 typedef struct tahr__body_note {
-    uint64_t pose_hash; /* its share of the revision */
-    double reach;       /* m, radius around its position that holds all of it */
+    uint64_t pose_hash;   /* its share of the revision */
+    uint64_t motion_hash; /* and of world->motion; 0: at rest */
+    double reach;         /* m, radius around its position that holds all of it */
     double fluid_friction;
     tahr_vec3 surface_velocity; /* local */
     tahr_pose pose, before;     /* before: where the motion of the last placement began */
     double dt;                  /* s of that motion; 0: at rest */
     double mass;
-    uint32_t flags;      /* TAHR_BODY_* */
-    uint32_t teleported; /* by the last placement */
+    uint32_t flags;  /* TAHR_BODY_* */
+    uint32_t jumped; /* world->moves at the time it was put where it is without a motion; 0: never */
 } tahr__body_note;
 
 /* What a world may hold, so that a step does not look for what is not there. */
 enum {
     TAHR__HAS_SENSORS = 1 << 0,
     TAHR__HAS_FLUIDS = 1 << 1,
-    TAHR__HAS_BASES = 1 << 2 /* bodies that move, drive a conveyor, or can be pushed */
+    TAHR__HAS_MOVING_SENSORS = 1 << 3, /* or some that may: nothing is known of a user's own */
+    TAHR__HAS_BASES = 1 << 2           /* bodies that move, drive a conveyor, or can be pushed */
 };
 
 struct tahr_world {
@@ -45,10 +47,13 @@ struct tahr_world {
     uint32_t complaints; /* of the backend in it */
     uint32_t body_count;
     uint32_t has;         /* TAHR__HAS_* */
-    uint32_t moved_count; /* bodies in motion since the last placement: the first of moved */
+    uint32_t moved_count; /* bodies in motion: the first of moved, by id */
+    uint32_t moves;       /* calls of tahr_world_move, from 1 */
     uint32_t *moved;
     tahr__memory memory;
     uint64_t revision; /* never 0; a pure function of the poses of all bodies and of the touches */
+    uint64_t motion;   /* the same of their motions; 0: all at rest */
+    uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a motion */
     tahr__body_note *bodies;
 };
 
@@ -105,6 +110,7 @@ struct tahr_mover {
     size_t cache_size;
     uint32_t busy;
     tahr__custom custom;
+    tahr_state blank; /* what a state remembers that has nothing to remember: from radius on */
     tahr__sleep sleep;
 };
 
@@ -121,10 +127,14 @@ struct tahr__step {
     const tahr__custom *custom;
     tahr_state state;
     tahr_report report;
+    struct tahr__trail *trail; /* NULL in a world without sensors (trail.h) */
     tahr_query_context context;
     tahr__limits own_limits;  /* what limits points to while the shape is not the config's */
     uint32_t ignore_body;     /* not there for this step's queries now, or TAHR_NO_BODY */
     uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */
+    uint32_t frame_body;      /* what state.velocity is relative to in this step, or TAHR_NO_BODY (base_motion.c) */
+    uint32_t frame_is_base;   /* 1: it stood on it; 0: it meets it in the air */
+    vec3 frame_velocity;      /* m/s, of that body at the foot */
     double dt;                /* s of the whole step */
     double time;              /* s since the start of the step, at the begin of the slice */
     double ahead;             /* s from there to what is being worked on: events happen then */
@@ -140,6 +150,12 @@ typedef struct tahr__next {
     uint32_t mode;
     double time_left; /* s */
 } tahr__next;
+
+/* Has anything in the world ever been moved? Then characters may be squeezed. */
+static inline int step_squeezes(const tahr__step *step)
+{
+    return step->world->moves > 1;
+}
 
 static inline vec3 step_foot(const tahr__step *step)
 {
@@ -162,7 +178,7 @@ static inline uint32_t world_body_flags(const tahr_world *world, uint32_t body)
 static inline vec3 step_constrained(const tahr__step *step, vec3 v)
 {
     vec3 n = step->config->plane;
-    return length_squared(n) > 0 ? reject(v, n) : v;
+    return length_squared(n) > 0 ? reject(v, unit(n)) : v; /* a config's is a unit to nine digits */
 }
 
 #endif

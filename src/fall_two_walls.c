@@ -4,6 +4,7 @@
 #include "fall_two_walls.h"
 
 #include "landing.h"
+#include "overlap.h"
 #include "report.h"
 #include "slide.h"
 #include "stepped.h"
@@ -108,8 +109,7 @@ static void begin_slice(tahr__step *step, fall *f)
     f->free = f->controls ? advance(step, f, &idle, f->h, &unused) : after;
     f->control = scale(sub(after, f->free), 1.0 / f->h);
     f->apex = apex_time(step, f, after);
-    int cuts =
-        step->config->apex_substep && step->apexes < MOST_APEXES && f->apex >= SHORT_SLICE && f->apex < f->h;
+    int cuts = step->config->apex_substep && step->apexes < MOST_APEXES && f->apex >= SHORT_SLICE && f->apex < f->h;
     if (cuts) {
         end_at_apex(step, f, &law, f->apex, &after);
         f->free = add_scaled(after, f->control, -f->h);
@@ -299,6 +299,7 @@ tahr__next tahr__fall_two_walls(tahr__step *step, double time)
         answer = fall_slice(step, &f);
         step->time += begun - f.left;
         step->ahead = 0;
+        tahr__time_slice(step);
     }
     if (answer == ENDS) {
         step->report.time_lost += f.left;

@@ -3,9 +3,11 @@
  * arc. */
 #include "falling.h"
 
+#include "base_motion.h"
 #include "fall_two_walls.h"
 #include "floor.h"
 #include "move.h"
+#include "overlap.h"
 #include "query.h"
 #include "report.h"
 #include "slide.h"
@@ -135,6 +137,7 @@ static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
 
 static tahr__next land(tahr__step *step, const tahr_hit *hit, const tahr_floor *floor, double left)
 {
+    tahr__land_on(step, floor->body);
     double speed = -dot(step->state.velocity, step->state.up);
     tahr__event(step, TAHR_EVENT_LANDED, hit, max_of(speed, 0));
     step->state.velocity = step_level(step, step->state.velocity);
@@ -215,7 +218,7 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         duration = dry;
     }
     vec3 chord = slide_in_air(step, f, arc_at(&a, duration, &v));
-    vec3 start = step->state.position;
+    vec3 start = step->state.position, began = step->state.velocity;
     double used = duration;
     int pushed = tahr__move(step, chord, hit);
     int met = hit->blocking && !hit->start_overlap && !hit->unknown;
@@ -229,6 +232,7 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         arc_at(&a, used, &v);
     }
     step->state.velocity = slide_in_air(step, f, v);
+    tahr__time_fall(step, began, used, f->plane_count > 0 || pushed);
     use_time(step, f, used);
     if (reaches_apex && used == duration) {
         if (f->plane_count == 0) { /* exactly zero, so that the apex is met once */

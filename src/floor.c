@@ -126,7 +126,8 @@ static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied,
         tahr__decide(step, TAHR_RULE_FLOOR, 0, NULL, floor->distance, range, "nothing below");
         return;
     }
-    fill(floor, &hit, hit.start_overlap ? -hit.depth : foot_clearance(step, &hit, range), flags | tahr__still_slope(step, &hit));
+    fill(floor, &hit, hit.start_overlap ? -hit.depth : foot_clearance(step, &hit, range),
+         flags | tahr__still_slope(step, &hit));
     int surface = tahr__is_walkable(step, &hit, tahr__was_walkable(step, &hit));
     floor->flags |= surface ? TAHR_FLOOR_FACE : 0u;
     /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
@@ -220,9 +221,7 @@ static void find_shrunk(tahr__step *step, double reach, const tahr__supplied *su
                              .radius = step->limits->width,
                              .supplied = supplied};
     tahr__compute_floor_distance(step, &look, floor);
-    if ((floor->flags & TAHR_FLOOR_BLOCKING) && !(floor->flags & TAHR_FLOOR_LINE)) {
-        doubt_rim(step, distance + (walking ? c->perch_extra : 0), floor);
-    }
+    doubt_rim(step, distance + (walking ? c->perch_extra : 0), floor); /* what a ray found lies under the axis: no doubt */
     int steep = (floor->flags & TAHR_FLOOR_BLOCKING) && !(floor->flags & TAHR_FLOOR_FACE);
     if (steep && !floor_is_walkable(floor) && c->slide_solver == TAHR_SLIDE_JOINT && wedge(step, floor)) {
         floor->flags |= TAHR_FLOOR_WALKABLE; /* for a solver that comes to rest between walls */
@@ -244,8 +243,7 @@ void tahr__find_floor(tahr__step *step, double reach, const tahr__supplied *supp
 static void shift_floor(tahr__step *step, double height)
 {
     step->state.floor.distance += height;
-    step->state.floor.perch_distance +=
-        step->state.floor.flags & (TAHR_FLOOR_PERCHING | TAHR_FLOOR_LINE) ? height : 0;
+    step->state.floor.perch_distance += step->state.floor.flags & (TAHR_FLOOR_PERCHING | TAHR_FLOOR_LINE) ? height : 0;
     step->state.floor_position = step->state.position;
     step->state.flags |= TAHR_STATE_FLOOR_MOVED;
 }
@@ -266,6 +264,20 @@ static int is_off_height(const tahr__step *step, double *gap)
     return floor_is_walkable(floor) && (*gap < lowest - tiny || *gap > highest + tiny);
 }
 
+/* Out of the floor by this motion alone: a push out first would be added to it, and make the character hop. */
+static void rise_out(tahr__step *step, vec3 motion, tahr__swept *swept)
+{
+    tahr__move_updated(step, motion, TAHR_SWEEP_LEAVE_OVERLAP, swept);
+    if (!swept->hit.start_overlap) {
+        return;
+    }
+    int joint = step->config->depenetration == TAHR_DEPENETRATION_JOINT;
+    if (joint ? tahr__depenetrate(step)
+              : tahr__resolve_penetration(step, tahr__penetration_adjustment(step, &swept->hit), swept)) {
+        tahr__move_updated(step, motion, TAHR_SWEEP_LEAVE_OVERLAP, swept);
+    }
+}
+
 static double adjust_shrunk(tahr__step *step)
 {
     const tahr_config *c = step->config;
@@ -277,9 +289,9 @@ static double adjust_shrunk(tahr__step *step)
     }
     double asked = c->floor_target * c->skin - gap;
     vec3 motion = scale(up, asked);
-    /* Out of the floor by this motion alone: a push out first would be added to it, and make the character hop. */
-    int out = gap < 0 && tahr__move_updated(step, motion, TAHR_SWEEP_LEAVE_OVERLAP, &swept);
-    if (!out) {
+    if (gap < 0) {
+        rise_out(step, motion, &swept);
+    } else {
         tahr__safe_move(step, motion, &swept);
     }
     const tahr_hit *hit = &swept.hit;
@@ -320,7 +332,6 @@ static double adjust_whole(tahr__step *step)
     shift_floor(step, height);
     return height;
 }
-
 
 double tahr__adjust_height(tahr__step *step)
 {

@@ -119,18 +119,14 @@ static void set_hit(tahr_floor *floor, const tahr_hit *hit)
 }
 
 /* Makes a sweep's hit the floor. Returns 1 if that settles it. */
-static int take_sweep(tahr__step *step, const tahr__floor_look *look, const tahr_hit *hit, uint32_t flags,
-                      tahr_floor *floor)
+static int take_sweep(tahr__step *step, const tahr_hit *hit, uint32_t flags, tahr_floor *floor)
 {
     set_hit(floor, hit);
     int walkable = tahr__is_walkable(step, hit, tahr__was_walkable(step, hit));
     floor->flags = flags | tahr__still_slope(step, hit) | (hit->start_overlap ? 0u : TAHR_FLOOR_BLOCKING) |
                    (walkable ? TAHR_FLOOR_FACE : 0u);
-    if (!walkable || floor->distance > look->sweep_distance) {
-        return 0;
-    }
-    floor->flags |= TAHR_FLOOR_WALKABLE;
-    return 1;
+    floor->flags |= walkable ? TAHR_FLOOR_WALKABLE : 0u;
+    return walkable;
 }
 
 /* Vertical: no more than 1e-4 cm^2 (a centimetre is 10 pull_back) off the axis. */
@@ -150,7 +146,7 @@ static int use_supplied(tahr__step *step, const tahr__floor_look *look, tahr_flo
         return 0;
     }
     floor->distance = dot(sub(look->from, s->location), step->state.up);
-    *settled = take_sweep(step, look, s->hit, 0, floor);
+    *settled = take_sweep(step, s->hit, 0, floor);
     return 1;
 }
 
@@ -180,7 +176,7 @@ static void use_ray(tahr__step *step, const tahr__floor_look *look, tahr_floor *
     tahr_hit hit;
     tahr__ray(step, look->from, scale(step->state.up, -range), &hit);
     double distance = max_of(deepest(step), hit.fraction * range - half);
-    if (!hit.blocking || hit.unknown || !(hit.fraction > 0) || distance > look->line_distance ||
+    if (!hit.blocking || hit.unknown || !(hit.fraction > 0) ||
         !tahr__is_walkable(step, &hit, tahr__was_walkable(step, &hit))) {
         return;
     }
@@ -202,7 +198,7 @@ void tahr__compute_floor_distance(tahr__step *step, const tahr__floor_look *look
             return;
         }
         floor->distance = distance;
-        settled = take_sweep(step, look, &hit, flags, floor);
+        settled = take_sweep(step, &hit, flags, floor);
     }
     if (!settled && look->line_distance > 0) {
         use_ray(step, look, floor);

@@ -11,10 +11,10 @@
 
 /* How a floor is looked for. */
 typedef struct tahr__floor_look {
-    vec3 from;             /* centre of the character's shape */
-    double line_distance;  /* m below the shape that a ray may go */
-    double sweep_distance; /* m below the shape that a sweep may go, >= line_distance */
-    double radius;         /* m, of the probe: limits.width, or less */
+    vec3 from;                      /* centre of the character's shape */
+    double line_distance;           /* m below the shape that a ray may go */
+    double sweep_distance;          /* m below the shape that a sweep may go, >= line_distance */
+    double radius;                  /* m, of the probe: limits.width, or less */
     const tahr__supplied *supplied; /* a sweep that may take the place of the first one, or NULL */
 } tahr__floor_look;
 

@@ -16,7 +16,9 @@ static inline void foot_sweep(tahr__step *step, const tahr__foot *foot, double r
 {
     vec3 up = step->state.up;
     vec3 from = add_scaled(step->state.position, up, foot->offset);
-    tahr__sweep(step, &foot->shape, from, scale(up, -range), step->config->skin, 0, hit);
+    /* Between walls that move in on the character only what is below counts. */
+    uint32_t flags = step_squeezes(step) ? (uint32_t)TAHR_SWEEP_LEAVE_OVERLAP : 0u;
+    tahr__sweep(step, &foot->shape, from, scale(up, -range), step->config->skin, flags, hit);
 }
 
 /* Clearance below in the direction of up, from such a sweep over `range`. */

@@ -2,6 +2,7 @@
  * landing.c: what a fall may end on. For config.slide_solver JOINT see falling.c. */
 #include "landing.h"
 
+#include "base_motion.h"
 #include "floor_distance.h"
 #include "modes.h"
 #include "report.h"
@@ -26,16 +27,16 @@ int tahr__is_valid_landing_spot(tahr__step *step, const tahr__swept *swept)
         return 0;
     }
     double rise = dot(hit->normal, step->state.up);
-    int stands =
-        hit->start_overlap
-            ? rise >= SMALL
-            : tahr__is_walkable(step, hit, 0) && is_under_foot(step, swept->location, hit->point);
+    int stands = hit->start_overlap
+                     ? rise >= SMALL
+                     : tahr__is_walkable(step, hit, 0) && is_under_foot(step, swept->location, hit->point);
     if (!stands) {
         return tahr__decide(step, TAHR_RULE_LANDING, 0, hit, rise, SMALL, "too steep, or not under the foot");
     }
     tahr__supplied supplied = supplied_by(swept);
     tahr__find_floor(step, step->config->snap_distance, &supplied, &floor);
-    return tahr__decide(step, TAHR_RULE_LANDING, floor_is_walkable(&floor), hit, floor.distance, 0, "floor where it fell");
+    return tahr__decide(step, TAHR_RULE_LANDING, floor_is_walkable(&floor), hit, floor.distance, 0,
+                        "floor where it fell");
 }
 
 int tahr__should_check_landing_spot(const tahr__step *step, const tahr_hit *hit)
@@ -59,6 +60,7 @@ void tahr__process_landed(tahr__step *step, const tahr_hit *hit)
 {
     tahr_floor floor;
     tahr_state *s = &step->state;
+    tahr__land_on(step, hit->body);
     tahr__event(step, TAHR_EVENT_LANDED, hit, max_of(-dot(s->velocity, s->up), 0));
     s->velocity = step_level(step, s->velocity);
     s->flags &= ~(uint32_t)TAHR_STATE_JUMPING;

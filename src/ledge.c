@@ -34,7 +34,7 @@ static int hold_at_ledge(tahr__step *step, tahr__path *w)
     if (!floor_is_walkable(&floor)) {
         return tahr__decide(step, TAHR_RULE_LEDGE, 0, NULL, part, 0, "no floor on the way here");
     }
-    w->left = w->left_before - (w->left_before - w->left) * part;
+    tahr__path_cut(step, w, part);
     /* The contact with the edge leans outward: its level part is the wall that keeps the character in. */
     tahr__plane edge = {.normal = unit(scale(step_level(step, floor.normal), -1)),
                         .anchor = step->state.position,

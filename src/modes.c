@@ -7,6 +7,7 @@
 #include "custom.h"
 #include "falling.h"
 #include "flying.h"
+#include "overlap.h"
 #include "report.h"
 #include "swimming.h"
 #include "walking.h"
@@ -92,6 +93,7 @@ double tahr__run_mode(tahr__step *step, double time)
     step->ahead = 0;
     tahr__next next = modes[step->state.mode].run(step, time);
     step->ahead = 0; /* a mode has moved step->time to where it ended */
+    tahr__time_slice(step);
     tahr__change_mode(step, next.mode);
     return next.time_left;
 }

@@ -4,8 +4,10 @@
 
 #include <string.h>
 
+#include "push.h"
 #include "query.h"
 #include "report.h"
+#include "trail.h"
 
 /* An overlap of less is rounding of the backend, not worth a push (robustness: native float 2e-6 m). */
 static const double TOUCHING = 1e-7;
@@ -58,6 +60,8 @@ static void skip(tahr__swept *swept)
     swept->location = swept->start;
 }
 
+/* The field picks of several overlaps the one whose face opposes the motion most; the seam's answer is the deepest of
+ * those that count. */
 int tahr__move_updated(tahr__step *step, vec3 motion, uint32_t flags, tahr__swept *swept)
 {
     const tahr_config *c = step->config;
@@ -71,6 +75,7 @@ int tahr__move_updated(tahr__step *step, vec3 motion, uint32_t flags, tahr__swep
         skip(swept);
         return 1;
     }
+    tahr__trail_go(step);
     tahr__sweep(step, &step->limits->shape, swept->start, motion, pulls ? 0 : c->skin, flags, hit);
     tahr__decide(step, TAHR_RULE_SWEEP, !hit->blocking, hit, hit->fraction, 1, outcome(hit));
     double contact = hit->start_overlap ? 0 : hit->fraction;
@@ -97,6 +102,7 @@ static int safe_move(tahr__step *step, vec3 motion, tahr__swept *swept, int *ove
     }
     if (step->config->depenetration == TAHR_DEPENETRATION_JOINT) {
         tahr__depenetrate(step);
+        step->just_teleported |= !vec_equal(step->state.position, swept->start);
     } else if (!tahr__resolve_penetration(step, tahr__penetration_adjustment(step, &swept->hit), swept)) {
         return moved;
     }
@@ -128,6 +134,7 @@ int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
         return move_otherwise(step, motion, hit);
     }
     double skin = c->skin;
+    tahr__trail_go(step);
     tahr__sweep(step, shape, step->state.position, motion, skin, 0, hit);
     int overlapped = hit->start_overlap != 0;
     if (overlapped) {
@@ -163,11 +170,10 @@ static int joint_push(const tahr_contact *contacts, uint32_t count, double skin,
 }
 
 /* Moves along a push that frees: only what is not overlapped yet can stop it. */
-static void push_out(tahr__step *step, vec3 push)
+static void push_out(tahr__step *step, vec3 push, double skin)
 {
     tahr_hit hit;
-    tahr__sweep(step, &step->limits->shape, step->state.position, push, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP,
-                &hit);
+    tahr__sweep(step, &step->limits->shape, step->state.position, push, skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
     advance(step, push, &hit);
     if (hit.start_overlap &&
         hit.blocking) { /* a curved neighbour looks deeper for a moment: the push is still the joint one */
@@ -196,12 +202,21 @@ static void emit(tahr__step *step, vec3 start, double residual, const tahr_conta
                  "depth left after the joint push");
 }
 
+/* How far from everything a push ends. */
+static double clear_of(const tahr_config *c)
+{
+    return c->separation == TAHR_SEPARATION_MARGIN ? c->skin : 1.25 * c->pull_back;
+}
+
 int tahr__depenetrate(tahr__step *step)
 {
     tahr_contact contacts[CONTACTS];
-    double skin = step->config->skin;
+    double skin = clear_of(step->config);
     vec3 start = step->state.position;
-    uint32_t count = tahr__contacts(step, step->state.position, skin, contacts, CONTACTS);
+    /* A floor is up to 1.5 skin away: pressed from above the character may not be pushed into it, only to be pushed back. */
+    int squeezes = step_squeezes(step);
+    double near = squeezes ? 1.5 * skin : skin;
+    uint32_t count = tahr__contacts(step, step->state.position, near, contacts, CONTACTS);
     tahr_contact first;
     memset(&first, 0, sizeof first);
     first.body = TAHR_NO_BODY;
@@ -212,19 +227,25 @@ int tahr__depenetrate(tahr__step *step)
     for (int round = 0; round < TAHR__DEPENETRATION_ROUNDS && depth > TOUCHING && step->push_left > 0; round++) {
         vec3 push, before = step->state.position;
         int frees = joint_push(contacts, count, skin, &push);
+        double fixed = 0;
+        if (squeezes) {
+            fixed = tahr__fixed_depth(step, contacts, count);
+            push = frees ? push : tahr__spare_the_fixed(step, contacts, count, push);
+        }
         double size = length(push);
         if (size > step->push_left) {
             push = scale(push, step->push_left / size);
             size = step->push_left;
         }
         if (frees) {
-            push_out(step, push);
+            push_out(step, push, skin);
         } else {
             step->state.position = add(step->state.position, push);
         }
-        count = tahr__contacts(step, step->state.position, skin, contacts, CONTACTS);
+        count = tahr__contacts(step, step->state.position, near, contacts, CONTACTS);
         double now = deepest(contacts, count);
-        if (now >= depth) { /* no better: stay where it was least bad */
+        int enters = squeezes && tahr__fixed_depth(step, contacts, count) > fixed + TOUCHING;
+        if (now >= depth || enters) { /* no better: stay where it was least bad */
             step->state.position = before;
             break;
         }

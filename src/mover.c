@@ -16,6 +16,7 @@
 #include "request.h"
 #include "sleep.h"
 #include "stance.h"
+#include "trail.h"
 #include "turning.h"
 
 /* Bytes of a state that a step works on. */
@@ -64,6 +65,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->cache = cache;
+    tahr_state_init(&mover->blank, &mover->config, &(vec3){0, 0, 0});
     mover->cache_size = cache_size;
     *out = mover;
     return TAHR_OK;
@@ -114,17 +116,23 @@ static void run(tahr__step *step, double dt)
         tahr__launch(step);
     }
     tahr__begin_jump(step);
+    tahr__time_slice(step);
     double left = dt;
     while (left > MIN_SLICE && step->error >= 0 && step->report.slices < MAX_SLICES &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         step->report.slices++;
         left = tahr__run_mode(step, left);
     }
+    if (step->iterations + step->apexes > step->report.slices) { /* a mode cut its slices into more */
+        step->report.slices = step->iterations + step->apexes;
+    }
     if (left > MIN_SLICE) {
         step->report.time_lost += left;
     }
     tahr__take_base(step);
-    tahr__find_overlaps(step);
+    if (step->trail) {
+        tahr__find_overlaps(step);
+    }
 }
 
 static vec3 clean(vec3 v)
@@ -241,6 +249,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     }
     tahr__step step;
     tahr__pull pull;
+    tahr__trail trail;
     step.config = &mover->config;
     step.limits = &mover->limits;
     step.custom = &mover->custom;
@@ -266,6 +275,10 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.just_teleported = 0;
     step.dt = dt;
     step.error = TAHR_OK;
+    step.trail = NULL;
+    if (step.world->has & TAHR__HAS_SENSORS) {
+        tahr__trail_begin(&trail, &step);
+    }
     if (dt > 0) {
         mover->busy = 1;
         run(&step, dt);

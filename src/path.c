@@ -233,6 +233,27 @@ double tahr__path_look_ahead(tahr__step *step, const tahr__path *w)
     return used;
 }
 
+void tahr__path_cut(tahr__step *step, tahr__path *w, double part)
+{
+    w->left = w->left_before - (w->left_before - w->left) * part;
+    if (step->trail) {
+        tahr__trail_cut(step, w->from, 1 - w->left);
+    }
+}
+
+/* The motion that was made covers the piece from left_before to left. */
+static void leave_trail(tahr__step *step, const tahr__path *w)
+{
+    tahr__stretch s = {.law = w->law,
+                       .velocity = w->velocity,
+                       .whole = w->wish,
+                       .start = step->time + w->began,
+                       .duration = w->duration,
+                       .first = 1 - w->left_before,
+                       .last = 1 - w->left};
+    tahr__trail_stamp_walk(step, &s);
+}
+
 static int stands_here(tahr__step *step)
 {
     tahr_floor floor;
@@ -254,6 +275,9 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         w->left_before = w->left;
         tahr__move(step, motion, &hit);
         w->left *= hit.blocking ? 1 - hit.fraction : 0;
+        if (step->trail) {
+            leave_trail(step, w);
+        }
         if (!hit.blocking) {
             return;
         }

@@ -3,7 +3,7 @@
 #ifndef TAHR_PATH_H
 #define TAHR_PATH_H
 
-#include "core.h"
+#include "trail.h"
 
 /* Where a slice is: the piece of it that is under way, and what has been met. A piece is one closed-form motion; a wall
  * ends it and begins the next. */
@@ -37,6 +37,9 @@ void tahr__path_find_slope(tahr__path *w, tahr__step *step);
 /* Goes along the path until its end, or until nothing of it is left. At most max_slides sweeps, and what the steps in
  * the way ask. */
 void tahr__path_walk(tahr__step *step, tahr__path *w);
+
+/* The last straight piece of the way went only a part of it, to where the character is now. No query. */
+void tahr__path_cut(tahr__step *step, tahr__path *w, double part);
 
 /* s of the present piece that are used up where the path is now. No query. */
 double tahr__path_used(const tahr__path *w);

@@ -4,6 +4,7 @@
 #include "move.h"
 #include "query.h"
 #include "report.h"
+#include "trail.h"
 
 /* Added to the depth, and the depth itself where that is not known: 0.125 cm in the field (PenetrationPullbackDistance). */
 static double extra_push(const tahr_config *c)
@@ -24,7 +25,7 @@ vec3 tahr__penetration_adjustment(const tahr__step *step, const tahr_hit *hit)
     if (!hit->start_overlap) {
         return vec(0, 0, 0);
     }
-    double depth = hit->depth > 0 ? hit->depth : extra_push(c);
+    double depth = hit->depth > 0 ? min_of(hit->depth, 1e6) : extra_push(c); /* m: no body is larger */
     vec3 push = step_constrained(step, scale(hit->normal, depth + extra_push(c)));
     int character = (world_body_flags(step->world, hit->body) & TAHR_BODY_CHARACTER) != 0;
     double most = character ? c->max_depenetration_character : c->max_depenetration;
@@ -91,6 +92,7 @@ int tahr__resolve_penetration(tahr__step *step, vec3 adjustment, const tahr__swe
     vec3 to = add(swept->start, push);
     int moved = fits(step, to);
     if (moved) {
+        tahr__trail_go(step);
         step->state.position = to;
     } else {
         moved = sweep_out(step, push, swept);

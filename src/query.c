@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "message.h"
+#include "report.h"
 #include "shape.h"
+#include "trail.h"
 
 /* Normals of user callbacks are often single precision: their length is accepted within this and then made exact. */
 static const double UNIT_TOLERANCE = 1e-3;
@@ -133,7 +135,7 @@ static void deflate(const tahr_sweep *q, double margin, tahr_hit *h)
 {
     if (h->start_overlap && h->depth <= margin) {
         h->start_overlap = 0;
-        h->blocking = dot(h->normal, q->motion) < 0;
+        h->blocking = !h->sensor && dot(h->normal, q->motion) < 0;
         h->distance = margin - h->depth;
         h->depth = 0;
     } else if (h->start_overlap) {
@@ -258,6 +260,41 @@ static void make_wall(tahr_hit *hit, vec3 from, vec3 motion, double margin)
     }
 }
 
+static void record_sweep(tahr__step *step, const tahr_sweep *q, const tahr_hit *hit, uint32_t count)
+{
+    tahr_query_record r = {.type = TAHR_QUERY_SWEEP,
+                           .count = count,
+                           .shape = q->shape,
+                           .position = q->position,
+                           .motion = q->motion,
+                           .margin = q->margin,
+                           .fraction = 1,
+                           .body = TAHR_NO_BODY};
+    if (count > 0) {
+        r.fraction = hit->fraction;
+        r.distance = hit->distance;
+        r.normal = hit->normal;
+        r.point = hit->point;
+        r.body = hit->body;
+        r.feature = hit->feature;
+    }
+    tahr__record(step, &r);
+}
+
+/* Also finds out whether the motion meets a sensor: a leg that does not need not be asked about. */
+static tahr_status sensing_sweep(tahr__step *step, const tahr_sweep *q, tahr_hit *hit, uint32_t *count)
+{
+    tahr_hit hits[2];
+    uint32_t n = 0;
+    tahr_status status = checked_sweep(step->world, &step->context, q, hits, 2, &n);
+    *count = status >= 0 && n > 0 && !hits[n - 1].sensor;
+    if (*count) {
+        *hit = hits[n - 1];
+    }
+    tahr__trail_swept(step->trail, q, n == *count);
+    return status;
+}
+
 void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
                  tahr_hit *hit)
 {
@@ -276,21 +313,80 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
                     .ignore_body = step->ignore_body,
                     .flags = flags};
     step->report.sweeps++;
-    tahr_status status = checked_sweep(step->world, &step->context, &q, hit, 1, &count);
+    tahr_status status = step->trail && shape == &step->limits->shape
+                             ? sensing_sweep(step, &q, hit, &count)
+                             : checked_sweep(step->world, &step->context, &q, hit, 1, &count);
     if (status < 0) {
         step->error = status;
         blocked_here(step, hit);
         return;
     }
     if (count == 0 || !(hit->blocking || hit->start_overlap || hit->unknown)) {
+        count = 0;
         set_free(hit);
-        return;
+    } else {
+        hit->blocking = 1;
+        if (hit->unknown) {
+            step->report.flags |= TAHR_REPORT_UNKNOWN;
+            make_wall(hit, from, motion, margin);
+        }
     }
-    hit->blocking = 1;
-    if (hit->unknown) {
-        step->report.flags |= TAHR_REPORT_UNKNOWN;
-        make_wall(hit, from, motion, margin);
+    if (step->report.queries) {
+        record_sweep(step, &q, hit, count);
     }
+}
+
+uint32_t tahr__sensors(tahr__step *step, vec3 from, vec3 motion, uint32_t ignore_body, tahr_hit *hits, uint32_t capacity)
+{
+    uint32_t count = 0, kept = 0;
+    if (step->error < 0) {
+        return 0;
+    }
+    tahr_sweep q = {.shape = step->limits->shape,
+                    .position = from,
+                    .up = step->state.up,
+                    .orientation = step->state.orientation,
+                    .motion = motion,
+                    .mask = step->config->mask,
+                    .ignore_body = ignore_body,
+                    .flags = TAHR_SWEEP_SENSORS | TAHR_SWEEP_LEAVE_OVERLAP};
+    step->report.sweeps++;
+    tahr_status status = checked_sweep(step->world, &step->context, &q, hits, capacity, &count);
+    if (status < 0) {
+        step->error = status;
+        return 0;
+    }
+    for (uint32_t i = 0; i < count; i++) { /* a backend that does not know the flag may add what blocks */
+        if (hits[i].sensor) {
+            hits[kept++] = hits[i];
+        }
+    }
+    if (status == TAHR_TRUNCATED) {
+        step->report.flags |= TAHR_REPORT_TOUCHED_LOST;
+    }
+    if (step->report.queries) {
+        record_sweep(step, &q, hits, kept);
+    }
+    return kept;
+}
+
+static void record_contacts(tahr__step *step, const tahr_contact_query *q, const tahr_contact *first, uint32_t count)
+{
+    tahr_query_record r = {.type = TAHR_QUERY_CONTACTS,
+                           .count = count,
+                           .shape = q->shape,
+                           .position = q->position,
+                           .margin = q->margin,
+                           .fraction = 1,
+                           .body = TAHR_NO_BODY};
+    if (count > 0) {
+        r.distance = first->distance;
+        r.normal = first->normal;
+        r.point = first->point;
+        r.body = first->body;
+        r.feature = first->feature;
+    }
+    tahr__record(step, &r);
 }
 
 uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 position, double margin,
@@ -306,7 +402,8 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
                             .orientation = step->state.orientation,
                             .margin = margin,
                             .mask = step->config->mask,
-                            .ignore_body = step->ignore_body};
+                            .ignore_body = step->ignore_body,
+                            .flags = TAHR_CONTACTS_SOLID};
     step->report.contact_queries++;
     tahr_status status = checked_contacts(step->world, &step->context, &q, contacts, capacity, &count);
     if (status < 0) {
@@ -318,12 +415,29 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
             contacts[kept++] = contacts[i];
         }
     }
+    if (step->report.queries) {
+        record_contacts(step, &q, contacts, kept);
+    }
     return kept;
 }
 
 uint32_t tahr__contacts(tahr__step *step, vec3 position, double margin, tahr_contact *contacts, uint32_t capacity)
 {
     return tahr__contacts_of(step, &step->limits->shape, position, margin, contacts, capacity);
+}
+
+static void record_ray(tahr__step *step, const tahr_ray *q, const tahr_hit *hit, uint32_t count)
+{
+    tahr_query_record r = {.type = TAHR_QUERY_RAY,
+                           .count = count,
+                           .position = q->origin,
+                           .motion = q->motion,
+                           .fraction = hit->fraction,
+                           .normal = hit->normal,
+                           .point = hit->point,
+                           .body = hit->body,
+                           .feature = hit->feature};
+    tahr__record(step, &r);
 }
 
 void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit)
@@ -339,8 +453,13 @@ void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit)
     if (status < 0) {
         step->error = status;
         blocked_here(step, hit);
-    } else if (count == 0) {
+        return;
+    }
+    if (count == 0) {
         set_free(hit);
+    }
+    if (step->report.queries) {
+        record_ray(step, &q, hit, count);
     }
 }
 
@@ -367,6 +486,18 @@ static tahr_status checked_fluid(const tahr_world *world, tahr_query_context *co
     return bad ? bad_answer(world, "fluid", bad) : TAHR_OK;
 }
 
+static void record_fluid(tahr__step *step, const tahr_fluid_query *q, const tahr_fluid *fluid)
+{
+    tahr_query_record r = {.type = TAHR_QUERY_FLUID,
+                           .count = fluid->immersion > 0,
+                           .shape = step->limits->shape,
+                           .position = q->position,
+                           .fraction = 1,
+                           .distance = fluid->immersion,
+                           .body = fluid->body};
+    tahr__record(step, &r);
+}
+
 tahr_fluid tahr__fluid(tahr__step *step, vec3 position)
 {
     tahr_fluid fluid = {.body = TAHR_NO_BODY};
@@ -384,6 +515,9 @@ tahr_fluid tahr__fluid(tahr__step *step, vec3 position)
         step->error = status;
         return (tahr_fluid){.body = TAHR_NO_BODY};
     }
+    if (step->report.queries) {
+        record_fluid(step, &q, &fluid);
+    }
     return fluid;
 }
 
@@ -393,6 +527,45 @@ void tahr__announce(tahr__step *step, const tahr_prepare *announcement)
     if (backend->prepare && backend->prepare(step->world->self, &step->context, announcement) < 0) {
         step->error = bad_answer(step->world, "prepare", "status");
     }
+}
+
+static const char *bad_motion(const tahr_body_motion *m)
+{
+    tahr_quat q = m->pose.orientation;
+    double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    if (!(length(m->pose.position) <= 2e7)) {
+        return "pose.position";
+    }
+    if (!(q2 > 1 - 1e-6 && q2 < 1 + 1e-6)) {
+        return "pose.orientation";
+    }
+    if (!vec_is_finite(m->velocity) || !vec_is_finite(m->surface_velocity)) {
+        return vec_is_finite(m->velocity) ? "surface_velocity" : "velocity";
+    }
+    if (!vec_is_finite(m->angular_velocity)) {
+        return "angular_velocity";
+    }
+    return m->mass >= 0 && is_finite(m->mass) ? NULL : "mass";
+}
+
+tahr_status tahr__ask_motion(const tahr_world *world, uint32_t body, tahr_body_motion *motion)
+{
+    const tahr_backend *backend = world->backend;
+    memset(motion, 0, sizeof *motion);
+    motion->pose.orientation.w = 1;
+    if (!backend->body_motion || body == TAHR_NO_BODY) {
+        return TAHR_E_NOT_FOUND;
+    }
+    tahr_status status = backend->body_motion(world->self, body, motion);
+    if (status < 0) {
+        return status == TAHR_E_NOT_FOUND ? status : bad_answer(world, "body_motion", "status");
+    }
+    const char *bad = bad_motion(motion);
+    if (bad) {
+        return bad_answer(world, "body_motion", bad);
+    }
+    motion->pose.orientation = quat_unit(motion->pose.orientation);
+    return TAHR_OK;
 }
 
 uint32_t tahr__shape_capability(uint32_t type)
@@ -452,7 +625,8 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     if (!bad && !(vec_is_finite(query->motion) && length(query->motion) <= 1e6)) {
         bad = "motion";
     }
-    if (!bad && (query->flags & ~(uint32_t)TAHR_SWEEP_LEAVE_OVERLAP || query->reserved)) {
+    const uint32_t flags = TAHR_SWEEP_LEAVE_OVERLAP | TAHR_SWEEP_ONLY_BODY | TAHR_SWEEP_SENSORS;
+    if (!bad && (query->flags & ~flags || query->reserved)) {
         bad = query->reserved ? "reserved" : "flags";
     }
     if (bad || capacity == 0) {
@@ -489,7 +663,7 @@ tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *que
         return null_argument(world, "tahr_world_contacts", query, contacts, "contacts");
     }
     const char *bad = bad_placement(&query->shape, query->position, query->up, query->orientation, query->margin);
-    if (!bad && (query->flags || query->reserved)) {
+    if (!bad && (query->flags & ~(uint32_t)TAHR_CONTACTS_SOLID || query->reserved)) {
         bad = query->reserved ? "reserved" : "flags";
     }
     if (bad) {

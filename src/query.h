@@ -10,6 +10,11 @@
 void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
                  tahr_hit *hit);
 
+/* The sensors that the character's shape passes on a motion or is inside of, the first contact with each, ordered by
+ * (start_overlap, fraction, body): what start_overlap says it was inside of at the start. Returns the count. One sweep, on
+ * top of those that a step may ask. */
+uint32_t tahr__sensors(tahr__step *step, vec3 from, vec3 motion, uint32_t ignore_body, tahr_hit *hits, uint32_t capacity);
+
 /* Everything within margin of the character's shape at `position`, without sensors. Returns the count, at most
  * capacity. One contact query. */
 uint32_t tahr__contacts(tahr__step *step, vec3 position, double margin, tahr_contact *contacts, uint32_t capacity);
@@ -33,6 +38,10 @@ static inline int step_has_fluids(const tahr__step *step)
 
 /* The TAHR_CAP_* that a character of this shape needs. */
 uint32_t tahr__shape_capability(uint32_t type);
+
+/* How a body moves that the core has no note of. Checked. TAHR_OK, TAHR_E_NOT_FOUND, TAHR_E_BACKEND (and the log says
+ * what). No query. */
+tahr_status tahr__ask_motion(const tahr_world *world, uint32_t body, tahr_body_motion *motion);
 
 /* Tells the backend where this step is expected to ask. No query. */
 void tahr__announce(tahr__step *step, const tahr_prepare *announcement);

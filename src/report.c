@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * report.c: writing events and decisions into the caller's arrays; what does not fit is counted. */
+ * report.c: writing events, decisions and queries into the caller's arrays; what does not fit is counted. */
 #include "report.h"
+
+#include "push.h"
 
 void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double value)
 {
@@ -23,11 +25,53 @@ void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double va
     if (hit) {
         event.normal = hit->normal;
     }
+    if (type == TAHR_EVENT_PUSHED) {
+        event.position = hit->point;
+    }
     /* A world whose answers contradict each other may let a floor end before something that was met on it. */
     if (r->event_count > 0) {
         event.time = max_of(event.time, r->events[r->event_count - 1].time);
     }
     r->events[r->event_count++] = event;
+    if (type == TAHR_EVENT_HIT && step->world->has & TAHR__HAS_BASES) {
+        tahr__report_push(step, hit, value);
+    }
+}
+
+void tahr__event_at(tahr__step *step, const tahr_event *event)
+{
+    tahr_report *r = &step->report;
+    if (!r->events) {
+        return;
+    }
+    uint32_t at = r->event_count;
+    while (at > 0 && r->events[at - 1].time > event->time) {
+        at--;
+    }
+    if (r->event_count == r->event_capacity) {
+        r->events_lost++;
+        r->flags |= TAHR_REPORT_TRUNCATED;
+        if (at == r->event_count) {
+            return;
+        }
+    } else {
+        r->event_count++;
+    }
+    for (uint32_t i = r->event_count - 1; i > at; i--) {
+        r->events[i] = r->events[i - 1];
+    }
+    r->events[at] = *event;
+}
+
+void tahr__record(tahr__step *step, const tahr_query_record *record)
+{
+    tahr_report *r = &step->report;
+    if (r->query_count == r->query_capacity) {
+        r->queries_lost++;
+        r->flags |= TAHR_REPORT_TRUNCATED;
+        return;
+    }
+    r->queries[r->query_count++] = *record;
 }
 
 int tahr__trace(tahr__step *step, uint32_t rule, int accepted, const tahr_hit *hit, double value, double limit,

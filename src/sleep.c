@@ -12,10 +12,11 @@ int tahr__sleeps_on(const tahr_mover *mover, const tahr_input *input, double dt,
 {
     const tahr__sleep *s = &mover->sleep;
     uint32_t capacity = report && report->events ? report->event_capacity : 0;
-    if (!s->noted || dt != s->dt || mover->world->revision != s->revision || capacity != s->report.event_capacity) {
+    if (!s->noted || dt != s->dt || tahr_world_revision(mover->world) != s->revision ||
+        capacity != s->report.event_capacity) {
         return 0;
     }
-    if (report && report->decisions) {
+    if (report && (report->decisions || report->queries)) {
         return 0; /* a trace wants to see the step */
     }
     return memcmp(state, &s->state, sizeof *state) == 0 && memcmp(input, &s->input, sizeof *input) == 0;
@@ -40,12 +41,16 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
     const tahr_report *r = &step->report;
     /* A caller's own mode may depend on what the core cannot see. */
     int own = mover->custom.run && (state->mode == TAHR_MODE_CUSTOM || (step->input->flags & TAHR_INPUT_MODE));
-    s->noted = !changed && !own && mover->config.sleep && !r->decisions && r->event_count <= TAHR__SLEEP_EVENTS;
+    changed |= own;
+    /* Where a base that the core has no note of is, only the next step asks. */
+    uint32_t base = step->state.base.body;
+    changed |= base != TAHR_NO_BODY && base >= mover->world->body_count;
+    s->noted = !changed && mover->config.sleep && !r->decisions && !r->queries && r->event_count <= TAHR__SLEEP_EVENTS;
     if (!s->noted) {
         return;
     }
     s->dt = dt;
-    s->revision = mover->world->revision;
+    s->revision = tahr_world_revision(mover->world);
     s->state = *state;
     s->input = *step->input;
     s->report = (tahr_report){.flags = r->flags | TAHR_REPORT_ASLEEP,

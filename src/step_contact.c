@@ -4,6 +4,7 @@
 #include "floor.h"
 #include "floor_distance.h"
 #include "report.h"
+#include "scope.h"
 #include "slide.h"
 #include "step_up.h"
 
@@ -18,44 +19,6 @@ typedef struct attempt {
     tahr_floor found;
     int found_floor;
 } attempt;
-
-/* What a refused step has to forget. */
-typedef struct undo {
-    tahr_state state;
-    uint32_t flags, event_count, events_lost, slides, just_teleported;
-    double step_offset, residual, push_left;
-} undo;
-
-static void remember(const tahr__step *step, undo *u)
-{
-    const tahr_report *r = &step->report;
-    u->state = step->state;
-    u->flags = r->flags;
-    u->event_count = r->event_count;
-    u->events_lost = r->events_lost;
-    u->slides = r->slides;
-    u->just_teleported = step->just_teleported;
-    u->step_offset = r->step_offset;
-    u->residual = r->residual;
-    u->push_left = step->push_left;
-}
-
-/* Of the report's flags stay what the queries themselves said. */
-static void take_back(tahr__step *step, const undo *u)
-{
-    const uint32_t stay = TAHR_REPORT_UNKNOWN | TAHR_REPORT_QUERY_CAP;
-    tahr_report *r = &step->report;
-    uint32_t lost = r->decisions_lost > 0 ? (uint32_t)TAHR_REPORT_TRUNCATED : 0;
-    step->state = u->state;
-    r->flags = u->flags | (r->flags & (stay | lost));
-    r->event_count = u->event_count;
-    r->events_lost = u->events_lost;
-    r->slides = u->slides;
-    step->just_teleported = u->just_teleported;
-    r->step_offset = u->step_offset;
-    r->residual = u->residual;
-    step->push_left = u->push_left;
-}
 
 static int refuse(tahr__step *step, const tahr_hit *hit, double value, double limit, const char *reason)
 {
@@ -114,11 +77,11 @@ static int forward(tahr__step *step, vec3 motion, const tahr_hit *above)
 }
 
 /* May it come down on this? side: how much the face that was in the way rises. */
-static int judge(tahr__step *step, vec3 motion, double side, const undo *before, const tahr__swept *down, attempt *a)
+static int judge(tahr__step *step, vec3 motion, double side, vec3 before, const tahr__swept *down, attempt *a)
 {
     const tahr_hit *hit = &down->hit;
     double height = dot(hit->point, a->up) - a->floor;
-    double gain = dot(sub(down->location, before->state.position), a->up);
+    double gain = dot(sub(down->location, before), a->up);
     if (height > step->config->step_height) {
         return refuse(step, hit, height, step->config->step_height, "higher than a step");
     }
@@ -140,7 +103,7 @@ static int judge(tahr__step *step, vec3 motion, double side, const undo *before,
     return 1;
 }
 
-static int go_over(tahr__step *step, vec3 motion, double side, const undo *before, attempt *a)
+static int go_over(tahr__step *step, vec3 motion, double side, vec3 before, attempt *a)
 {
     tahr__swept swept;
     tahr__move_updated(step, scale(a->up, a->rise), 0, &swept);
@@ -158,9 +121,9 @@ static int go_over(tahr__step *step, vec3 motion, double side, const undo *befor
     return !is_blocked(&swept.hit) || judge(step, motion, side, before, &swept, a);
 }
 
-static void tell(tahr__step *step, const undo *before, const attempt *a, const tahr_hit *obstacle)
+static void tell(tahr__step *step, vec3 before, const attempt *a, const tahr_hit *obstacle)
 {
-    double gain = dot(sub(step->state.position, before->state.position), a->up);
+    double gain = dot(sub(step->state.position, before), a->up);
     double height = a->found_floor ? dot(a->found.point, a->up) - a->floor : gain;
     step->report.step_offset += gain;
     tahr__decide(step, TAHR_RULE_STEP_UP, 1, obstacle, gain, step->config->step_height, "came down");
@@ -171,7 +134,7 @@ static void tell(tahr__step *step, const undo *before, const attempt *a, const t
 
 int tahr__step_up_by_contact(tahr__step *step, vec3 motion, const tahr__swept *obstacle, int *found_floor)
 {
-    undo before;
+    tahr__scope scope;
     attempt a = {.up = step->state.up};
     const tahr_hit hit = obstacle->hit;
     const tahr_shape *s = &step->limits->shape;
@@ -181,18 +144,23 @@ int tahr__step_up_by_contact(tahr__step *step, vec3 motion, const tahr__swept *o
     }
     plan(step, obstacle, &a);
     double at = dot(hit.point, a.up), cap = dot(step->state.position, a.up) + (s->half_height - s->radius);
-    if (at > cap || at <= a.base) {
+    /* A skin away from its floor a shape may be stopped by the rounding of that: then up and down again goes on. */
+    int floor_stops = step->config->separation == TAHR_SEPARATION_MARGIN;
+    if (at > cap || (at <= a.base && !floor_stops)) {
         return refuse(step, &hit, at, at > cap ? cap : a.base, "met too high, or no higher than the floor");
     }
-    remember(step, &before);
-    if (!go_over(step, motion, dot(hit.surface_normal, a.up), &before, &a) || step->error < 0) {
-        take_back(step, &before);
+    const vec3 before = step->state.position;
+    const uint32_t teleported = step->just_teleported;
+    tahr__scope_open(step, &scope);
+    if (!go_over(step, motion, dot(hit.surface_normal, a.up), before, &a) || step->error < 0) {
+        tahr__scope_revert(step, &scope);
+        step->just_teleported = teleported;
         return 0;
     }
     if (a.found_floor) {
         tahr__keep_floor(step, &a.found);
     }
     *found_floor = a.found_floor;
-    tell(step, &before, &a, &hit);
+    tell(step, before, &a, &hit);
     return 1;
 }

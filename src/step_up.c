@@ -10,6 +10,7 @@
 #include "lip.h"
 #include "query.h"
 #include "report.h"
+#include "scope.h"
 
 /* Less progress than this part of the radius at step height is a wall, not a step. */
 static const double PROGRESS = 1e-4;
@@ -122,12 +123,12 @@ int tahr__step_up_at(tahr__step *step, vec3 motion, const tahr__swept *obstacle,
 double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
 {
     const tahr_config *c = step->config;
+    tahr__scope scope;
+    tahr_floor floor;
+    attempt a = {.up = step->state.up, .lift = c->step_height};
     if (c->step_rule == TAHR_STEP_BY_CONTACT) {
         return by_contact(step, motion, obstacle);
     }
-    tahr_state before = step->state;
-    tahr_floor floor;
-    attempt a = {.up = step->state.up, .lift = c->step_height};
     if (c->step_height <= 0 || !floor_is_walkable(&step->state.floor) ||
         dot(obstacle->normal, a.up) < -0.1) { /* struck by the upper half: a ceiling or an overhang */
         return 0;
@@ -135,15 +136,16 @@ double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
     if (!forward(step, motion, &a) || !land(step, &a)) {
         return 0;
     }
+    tahr__scope_open(step, &scope);
     step->state.position = a.position;
     tahr__supplied landing = {.hit = &a.landing};
     tahr__find_floor(step, c->snap_distance, &landing, &floor);
     if (!floor_is_walkable(&floor) || step->error < 0) {
-        step->state = before;
+        tahr__scope_revert(step, &scope);
         refuse(step, &a.landing, floor.distance, 0, "no floor to stand on there");
         return 0;
     }
-    double gain = dot(sub(a.position, before.position), a.up);
+    double gain = dot(sub(a.position, scope.position), a.up);
     tahr__keep_floor(step, &floor);
     /* The hit that told the floor ended a hair from where a look from here would: standing looks again. */
     step->state.flags |= TAHR_STATE_FLOOR_MOVED;

@@ -121,6 +121,13 @@ static inline tahr_quat quat_multiply(tahr_quat a, tahr_quat b)
     return r;
 }
 
+/* Of a unit quaternion. */
+static inline tahr_quat quat_inverse(tahr_quat q)
+{
+    tahr_quat r = {-q.x, -q.y, -q.z, q.w};
+    return r;
+}
+
 static inline tahr_quat quat_unit(tahr_quat q)
 {
     double l = sqrt((q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w));

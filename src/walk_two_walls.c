@@ -8,19 +8,21 @@
 #include "floor.h"
 #include "floor_distance.h"
 #include "move_along_floor.h"
+#include "overlap.h"
 #include "query.h"
 #include "report.h"
+#include "scope.h"
 #include "stepped.h"
 #include "walking.h"
 
 typedef struct walk {
-    double left, h; /* s after this slice, and of it */
-    vec3 from;      /* where the slice began, and on which floor */
-    tahr_floor floor;
-    vec3 delta;       /* level motion of the slice */
-    int zero;         /* there is none */
-    int tried_ledge;  /* once a step */
-    int checked_fall; /* whether the floor may be left was asked already, and denied */
+    double left, h;    /* s after this slice, and of it */
+    vec3 from;         /* where the slice began */
+    tahr__scope scope; /* of the slice, where it may have to be taken back */
+    vec3 delta;        /* level motion of the slice */
+    int zero;          /* there is none */
+    int tried_ledge;   /* once a step */
+    int checked_fall;  /* whether the floor may be left was asked already, and denied */
 } walk;
 
 enum { GOES_ON, ENDS, FALLS };
@@ -62,7 +64,9 @@ static void begin_slice(tahr__step *step, walk *w)
     vec3 before = tahr__level_velocity(step, s->velocity);
     step->just_teleported = 0;
     w->from = s->position;
-    w->floor = s->floor;
+    if (!may_walk_off(step)) {
+        tahr__scope_open(step, &w->scope);
+    }
     if (step->config->integrator == TAHR_INTEGRATOR_STEPPED) {
         s->velocity = tahr__calc_velocity(step->config, &law, 0, before, w->h);
         w->delta = scale(s->velocity, w->h);
@@ -110,12 +114,6 @@ static int check_fall(tahr__step *step, walk *w, int must)
     return falls ? start_falling(step, w) : GOES_ON;
 }
 
-static void go_back(tahr__step *step, const walk *w)
-{
-    step->state.position = w->from;
-    tahr__keep_floor(step, &w->floor);
-}
-
 /* CheckLedgeDirection */
 static int has_floor_beside(tahr__step *step, vec3 from, vec3 side)
 {
@@ -144,12 +142,13 @@ static int hold_at_ledge(tahr__step *step, walk *w)
 {
     vec3 beside = w->tried_ledge || w->zero ? vec(0, 0, 0) : tahr__ledge_move(step, w->from, w->delta);
     if (length_squared(beside) > 0) {
-        go_back(step, w);
+        double speed = length(step->state.velocity);
+        tahr__scope_revert(step, &w->scope);
         w->tried_ledge = 1;
         w->left += w->h;
         w->h = 0;
         step->iterations--;
-        step->state.velocity = scale(beside, length(step->state.velocity) / length(w->delta));
+        step->state.velocity = scale(beside, speed / length(w->delta));
         tahr__decide(step, TAHR_RULE_LEDGE, 1, NULL, length(beside), 0, "floor beside the ledge");
         return GOES_ON;
     }
@@ -157,7 +156,7 @@ static int hold_at_ledge(tahr__step *step, walk *w)
         return FALLS;
     }
     tahr__decide(step, TAHR_RULE_LEDGE, 0, NULL, length(w->delta), 0, "no floor beside the ledge");
-    go_back(step, w);
+    tahr__scope_revert(step, &w->scope);
     step->state.velocity = vec(0, 0, 0);
     return ENDS;
 }
@@ -260,6 +259,7 @@ tahr__next tahr__walk_two_walls(tahr__step *step, double time)
         answer = walk_slice(step, &w);
         step->time += answer == ENDS ? begun : begun - w.left;
         step->ahead = 0;
+        tahr__time_slice(step);
     }
     tahr__next next = {answer == FALLS ? TAHR_MODE_FALLING : TAHR_MODE_WALKING, answer == FALLS ? w.left : 0};
     return next;

@@ -12,6 +12,7 @@
 #include "move.h"
 #include "path.h"
 #include "report.h"
+#include "scope.h"
 #include "stepped.h"
 #include "walk_two_walls.h"
 
@@ -34,7 +35,7 @@ static tahr__next fall_off(tahr__step *step, tahr__path *w, vec3 to, double part
     memset(&none, 0, sizeof none);
     none.body = TAHR_NO_BODY;
     step->state.position = add_scaled(w->from, sub(to, w->from), part);
-    w->left = w->left_before - (w->left_before - w->left) * part;
+    tahr__path_cut(step, w, part);
     double used = tahr__path_used(w);
     step->state.velocity = tahr__law_advance(&w->law, w->velocity, used).velocity;
     tahr__leave_floor(step);
@@ -42,7 +43,7 @@ static tahr__next fall_off(tahr__step *step, tahr__path *w, vec3 to, double part
     step->state.floor_revision = 0;
     step->time += w->began + used;
     step->ahead = 0;
-    tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
+    tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, TAHR_LEFT_LEDGE);
     tahr__next next = {TAHR_MODE_FALLING, w->duration - used};
     return next;
 }
@@ -80,7 +81,7 @@ static tahr__next stand(tahr__step *step, double time, int looked)
     }
     tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
     if (!floor_is_walkable(&floor)) {
-        tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
+        tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, TAHR_LEFT_LEDGE);
         tahr__keep_floor(step, &floor);
         tahr__next fall = {TAHR_MODE_FALLING, time};
         return fall;
@@ -128,54 +129,13 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
             return NO_FLOOR;
         }
         tahr__keep_floor(step, &floor);
-        w->left = w->left_before - (w->left_before - w->left) * inside;
+        tahr__path_cut(step, w, inside);
         tahr__path_look_ahead(step, w);
         settle(step);
         tahr__path_carry_floor(w, step);
     }
     w->lost = w->duration - tahr__path_used(w);
     return FLOOR;
-}
-
-/* What a slice begins with, on a floor found there, and changes. */
-typedef struct start {
-    vec3 position, velocity;
-    uint32_t flags;
-    uint32_t event_count, events_lost, slides, truncated;
-    double step_offset;
-    tahr_floor floor;
-} start;
-
-static start begin_here(const tahr__step *step)
-{
-    const tahr_state *s = &step->state;
-    const tahr_report *r = &step->report;
-    start begin = {.position = s->position,
-                   .velocity = s->velocity,
-                   .flags = s->flags,
-                   .event_count = r->event_count,
-                   .events_lost = r->events_lost,
-                   .slides = r->slides,
-                   .truncated = r->flags & TAHR_REPORT_TRUNCATED,
-                   .step_offset = r->step_offset,
-                   .floor = s->floor};
-    return begin;
-}
-
-static void go_back(tahr__step *step, const start *begin)
-{
-    step->state.position = begin->position;
-    step->state.velocity = begin->velocity;
-    tahr__keep_floor(step, &begin->floor);
-    step->state.flags = begin->flags;
-    step->report.event_count = begin->event_count;
-    step->report.events_lost = begin->events_lost;
-    step->report.slides = begin->slides;
-    if (step->report.decisions_lost == 0) {
-        step->report.flags &= ~(uint32_t)TAHR_REPORT_TRUNCATED | begin->truncated;
-    }
-    step->report.step_offset = begin->step_offset;
-    step->ahead = 0;
 }
 
 static tahr__next walk_slice(tahr__step *step, double time)
@@ -193,11 +153,12 @@ static tahr__next walk_slice(tahr__step *step, double time)
     }
     if (!floor_is_walkable(&step->state.floor)) {
         tahr__next fall = {TAHR_MODE_FALLING, time};
-        tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, 0);
+        tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, TAHR_LEFT_LEDGE);
         return fall;
     }
     double part = 1;
-    const start begin = begin_here(step);
+    tahr__scope scope;
+    tahr__scope_open(step, &scope);
     int answer = WALK_AGAIN;
     for (uint32_t careful = 0; answer == WALK_AGAIN; careful = 1) {
         tahr__path_begin(step, &w, time);
@@ -208,7 +169,7 @@ static tahr__next walk_slice(tahr__step *step, double time)
         w.careful = careful;
         answer = walk_over_floor(step, &w, &part);
         if (answer == WALK_AGAIN) { /* the path was bent on the way: once more, with a look at the floor at every bend */
-            go_back(step, &begin);
+            tahr__scope_revert(step, &scope);
         }
     }
     if (answer == NO_FLOOR) {

@@ -7,6 +7,7 @@
 #include "core.h"
 #include "float_mode.h"
 #include "message.h"
+#include "placing.h"
 #include "scene.h"
 #include "sized.h"
 #include "world_memory.h"
@@ -80,14 +81,13 @@ static void write_named(void *user, int32_t level, const char *message)
     tahr__say(&world->log, level, world->calling ? world->calling : world->backend->name, message);
 }
 
-static void enter_backend(tahr_world *world, const char *function)
+void tahr__enter_backend(tahr_world *world, const char *function)
 {
     world->calling = function;
     world->complaints = 0;
 }
 
-/* An error of the backend's that it did not explain gets at least its name. */
-static tahr_status leave_backend(tahr_world *world, const tahr_backend *backend, tahr_status status)
+tahr_status tahr__leave_backend(tahr_world *world, const tahr_backend *backend, tahr_status status)
 {
     if (status < 0 && world->complaints == 0) {
         char text[128];
@@ -127,6 +127,7 @@ static tahr_status new_world(const char *function, const tahr_world_desc *desc, 
     world->host.allocator = tahr__counting_allocator(&world->memory);
     world->host.log = (tahr_log){world, write_named};
     world->revision = 1;
+    world->moves = 1;
     *out = world;
     return TAHR_OK;
 }
@@ -140,8 +141,7 @@ static void free_world(tahr_world *world, size_t extra)
     user.free(user.user, world, sizeof *world + extra, 64);
 }
 
-/* FNV-1a over the words of a pose. */
-static uint64_t hash_pose(uint32_t body, const tahr_pose *pose)
+uint64_t tahr__hash_pose(uint32_t body, const tahr_pose *pose)
 {
     uint64_t words[sizeof *pose / 8], hash = 0xCBF29CE484222325u ^ body;
     memcpy(words, pose, sizeof words);
@@ -154,9 +154,7 @@ static uint64_t hash_pose(uint32_t body, const tahr_pose *pose)
     return hash;
 }
 
-/* The sum of the shares: putting bodies back gives the old number back, which a rollback needs to repeat bit for
- * bit. */
-static void move_revision(tahr_world *world, uint64_t by)
+void tahr__move_revision(tahr_world *world, uint64_t by)
 {
     world->revision += by;
     world->revision += world->revision == 0;
@@ -185,12 +183,12 @@ static tahr__body_note note_of(uint32_t i, const tahr_body_desc *b)
     if (pose.orientation.x == 0 && pose.orientation.y == 0 && pose.orientation.z == 0 && pose.orientation.w == 0) {
         pose.orientation.w = 1;
     }
-    tahr__body_note note = {.pose_hash = hash_pose(i, &b->pose),
+    tahr__body_note note = {.pose_hash = tahr__hash_pose(i, &b->pose),
                             .reach = reach_of(b),
                             .fluid_friction = b->fluid_friction,
                             .surface_velocity = b->surface_velocity,
-                            .pose = pose,
-                            .before = pose,
+                            .pose = {pose.position, quat_unit(pose.orientation)},
+                            .before = {pose.position, quat_unit(pose.orientation)},
                             .mass = b->mass,
                             .flags = b->flags};
     return note;
@@ -200,8 +198,9 @@ static uint32_t has_of(const tahr__body_note *note)
 {
     uint32_t sensor = note->flags & (TAHR_BODY_SENSOR | TAHR_BODY_FLUID);
     uint32_t base = note->flags & TAHR_BODY_MOVABLE || length_squared(note->surface_velocity) > 0 || note->mass > 0;
-    return (sensor ? TAHR__HAS_SENSORS : 0u) | (note->flags & TAHR_BODY_FLUID ? TAHR__HAS_FLUIDS : 0u) |
-           (base ? TAHR__HAS_BASES : 0u);
+    uint32_t moves = sensor && note->flags & TAHR_BODY_MOVABLE;
+    return (sensor ? TAHR__HAS_SENSORS : 0u) | (moves ? TAHR__HAS_MOVING_SENSORS : 0u) |
+           (note->flags & TAHR_BODY_FLUID ? TAHR__HAS_FLUIDS : 0u) | (base ? TAHR__HAS_BASES : 0u);
 }
 
 static tahr_status note_bodies(tahr_world *world, const tahr_world_desc *desc)
@@ -219,7 +218,7 @@ static tahr_status note_bodies(tahr_world *world, const tahr_world_desc *desc)
     for (uint32_t i = 0; i < desc->body_count; i++) {
         world->bodies[i] = note_of(i, &desc->bodies[i]);
         world->has |= has_of(&world->bodies[i]);
-        move_revision(world, world->bodies[i].pose_hash);
+        tahr__move_revision(world, world->bodies[i].pose_hash);
     }
     return TAHR_OK;
 }
@@ -239,8 +238,8 @@ static tahr_status open_scene(tahr_world *world, const tahr_backend *backend, co
                                 "is NULL, but a body is TAHR_BODY_FLUID");
     }
     if (status >= 0) {
-        enter_backend(world, "tahr_world_open");
-        status = leave_backend(world, backend, backend->open(&world->host, &scene, &world->self));
+        tahr__enter_backend(world, "tahr_world_open");
+        status = tahr__leave_backend(world, backend, backend->open(&world->host, &scene, &world->self));
     }
     tahr__bodies_free(&world->host, own, scene.body_count);
     return status;
@@ -279,6 +278,7 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
     world->backend = backend;
     /* A backend that brings its own scene may have fluids in it that nobody described. */
     world->has |= backend->fluid && desc->body_count == 0 ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
+    world->has |= backend->body_motion ? (uint32_t)TAHR__HAS_BASES : 0u;
     *out = world;
     return TAHR_OK;
 }
@@ -313,6 +313,8 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     memcpy(world->self, callbacks, sizeof *callbacks);
     world->backend = &tahr__callbacks_backend;
     world->has |= callbacks->fluid ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
+    world->has |= callbacks->body ? (uint32_t)TAHR__HAS_BASES : 0u;
+    world->has |= ((const tahr_callbacks *)world->self)->sensors ? TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS : 0u;
     *out = world;
     return TAHR_OK;
 }
@@ -325,67 +327,19 @@ void tahr_world_close(tahr_world *world)
     }
 }
 
-static tahr_status check_placement(const tahr_world *world, const tahr_body_pose *p, uint32_t i)
-{
-    char name[64];
-    const char *field = p->body >= world->body_count ? "body" : tahr__bad_pose(&p->pose, 0);
-    snprintf(name, sizeof name, "poses[%u].%s", i, field ? field : (p->flags ? "flags" : "body"));
-    if (p->body >= world->body_count) {
-        return tahr__complain_value(&world->log, TAHR_E_NOT_FOUND, "tahr_world_set", name, p->body, "no such body");
-    }
-    if (field) {
-        return tahr__complain(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", name, "is out of range or not finite");
-    }
-    if (p->flags) {
-        return tahr__complain(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", name, "is not 0");
-    }
-    if (!(world->bodies[p->body].flags & TAHR_BODY_MOVABLE)) {
-        return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, "tahr_world_set", name, p->body,
-                                    "a body without TAHR_BODY_MOVABLE");
-    }
-    return TAHR_OK;
-}
-
-tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint32_t count)
-{
-    if (!world) {
-        return TAHR_E_NULL;
-    }
-    if (!poses && count > 0) {
-        return tahr__complain(&world->log, TAHR_E_NULL, "tahr_world_set", "poses", "is NULL, but count is not 0");
-    }
-    if (!world->backend->place) {
-        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_set", world->backend->name,
-                              "cannot place bodies");
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        tahr_status bad = check_placement(world, &poses[i], i);
-        if (bad < 0) {
-            return bad;
-        }
-    }
-    enter_backend(world, "tahr_world_set");
-    tahr_status status = leave_backend(world, world->backend, world->backend->place(world->self, poses, count));
-    for (uint32_t i = 0; i < count && status >= 0; i++) {
-        uint64_t *share = &world->bodies[poses[i].body].pose_hash, old = *share;
-        *share = hash_pose(poses[i].body, &poses[i].pose);
-        move_revision(world, *share - old);
-    }
-    return status;
-}
-
 tahr_status tahr_world_touch(tahr_world *world)
 {
     if (!world) {
         return TAHR_E_NULL;
     }
-    move_revision(world, 1);
+    tahr__move_revision(world, 1);
+    world->last_revision = 0;
     return TAHR_OK;
 }
 
 uint64_t tahr_world_revision(const tahr_world *world)
 {
-    return world ? world->revision : 0;
+    return world ? world->revision + world->motion : 0;
 }
 
 uint64_t tahr_world_memory(const tahr_world *world)

@@ -73,7 +73,8 @@ tahr_status tahr__ccd_contacts(void *self, tahr_query_context *context, const ta
                              .margin = query->margin,
                              .origin = query->position,
                              .mask = query->mask,
-                             .ignore_body = query->ignore_body};
+                             .ignore_body = query->ignore_body,
+                             .leaves_out = query->flags & TAHR_CONTACTS_SOLID ? TAHR__CCD_SENSORS : 0u};
     collection c = {contacts, capacity, 0, 0};
     tahr__ccd_walk walk;
     tahr__ccd_piece piece;

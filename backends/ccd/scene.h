@@ -44,6 +44,9 @@ typedef struct tahr__ccd_piece {
     double radius;
 } tahr__ccd_piece;
 
+/* What a query may not want to meet. */
+enum { TAHR__CCD_SOLIDS = 1, TAHR__CCD_SENSORS = 2 };
+
 /* One query: the shape, where it starts, where it goes. */
 typedef struct tahr__ccd_probe {
     const tahr__ccd_scene *scene;
@@ -53,6 +56,8 @@ typedef struct tahr__ccd_probe {
     tahr_vec3 origin, motion;
     double motion_length;
     uint32_t mask, ignore_body;
+    int only_body;       /* 1: nothing is there but ignore_body */
+    uint32_t leaves_out; /* 0, or TAHR__CCD_SOLIDS or _SENSORS */
 } tahr__ccd_probe;
 
 /* The nearest points of the shape and a piece. */

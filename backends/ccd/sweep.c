@@ -160,7 +160,7 @@ static uint32_t write_hits(search *s, tahr_hit *hits, uint32_t capacity, int *lo
 {
     uint32_t count = 0, room = s->found && capacity > 0 ? capacity - 1 : capacity;
 
-    for (uint32_t i = 0; i < s->sensor_count && capacity != 1; i++) {
+    for (uint32_t i = 0; i < s->sensor_count; i++) {
         tahr_hit hit = s->sensors[i];
         uint32_t at = count;
         if (s->found && hit.fraction > s->best.fraction) continue;
@@ -187,7 +187,11 @@ tahr_status tahr__ccd_sweep(void *self, tahr_query_context *context, const tahr_
                              .origin = query->position,
                              .motion = query->motion,
                              .mask = query->mask,
-                             .ignore_body = query->ignore_body};
+                             .ignore_body = query->ignore_body,
+                             .only_body = (query->flags & TAHR_SWEEP_ONLY_BODY) != 0,
+                             .leaves_out = query->flags & TAHR_SWEEP_SENSORS ? TAHR__CCD_SOLIDS
+                                           : capacity == 1                  ? TAHR__CCD_SENSORS
+                                                                            : 0u};
     search s;
     tahr__ccd_walk walk;
     tahr__ccd_piece piece;

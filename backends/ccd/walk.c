@@ -61,7 +61,9 @@ static int overlap(const tahr_bounds *a, const tahr_bounds *b)
 static int passes(const tahr__ccd_walk *walk, const tahr__ccd_body *body)
 {
     tahr_bounds world = {v_add(walk->box.min, walk->probe->origin), v_add(walk->box.max, walk->probe->origin)};
-    return (body->mask & walk->probe->mask) != 0 && body->id != walk->probe->ignore_body &&
+    uint32_t kind = body->flags & TAHR_BODY_SENSOR ? TAHR__CCD_SENSORS : TAHR__CCD_SOLIDS;
+    return walk->probe->leaves_out != kind && (body->mask & walk->probe->mask) != 0 &&
+           (body->id == walk->probe->ignore_body) == walk->probe->only_body &&
            overlap(&world, &body->bounds);
 }
 

@@ -96,7 +96,7 @@ tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const
     query.margin = contact_query->margin + SAME;
     query.mask = contact_query->mask;
     query.ignore_body = contact_query->ignore_body;
-    query.sensors = 1;
+    query.sensors = contact_query->flags & TAHR_CONTACTS_SOLID ? TAHR__SENSORS_NONE : TAHR__SENSORS_TOO;
     s.search.query = &query;
     s.search.box = tahr__query_box(&query, 0);
     s.search.reach = query.radius + query.margin;

@@ -78,7 +78,7 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     query.frame = &cache->frame;
     query.mask = p->mask;
     query.ignore_body = TAHR_NO_BODY;
-    query.sensors = 1;
+    query.sensors = TAHR__SENSORS_TOO;
     query.start = tahr__frame_box_to_local(&cache->frame, &(tahr_bounds){p->position, p->position}).min;
     tahr_vec3 m = v_make(world->cache_margin, world->cache_margin, world->cache_margin);
     cache->bounds.min = v_sub(p->bounds.min, m);
@@ -141,8 +141,8 @@ static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
 
 static int concerns(const tahr__query *query, const tahr__prim *prim)
 {
-    if (!(prim->mask & query->mask) || prim->body == query->ignore_body) return 0;
-    return query->sensors || !(prim->kind & TAHR__SENSOR);
+    if (!tahr__is_asked(query, prim->body, prim->mask)) return 0;
+    return query->sensors != (prim->kind & TAHR__SENSOR ? TAHR__SENSORS_NONE : TAHR__SENSORS_ONLY);
 }
 
 uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr__lanes_found *found)
@@ -153,7 +153,9 @@ uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr_
     tahr__lanes_query q;
     lanes_query(s, &q);
     uint32_t count = query->world->cull(&lanes, &q, found), kept = 0;
-    if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY) return count;
+    if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY &&
+        !(query->flags & TAHR_SWEEP_ONLY_BODY))
+        return query->sensors == TAHR__SENSORS_ONLY ? 0 : count;
     for (uint32_t i = 0; i < count; i++) {
         found[kept] = found[i];
         kept += (uint32_t)concerns(query, &all[found[i].index]);

@@ -62,7 +62,8 @@ static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__p
         solid.axis[i] = m_apply(&map.turn, solid.axis[i]);
     if (outside_a_face(&query->core, &solid, v_sub(centre, map.offset))) return 0;
     double depth = tahr__core_leave_solid(&query->core, centre, &solid, map.offset, &out->witness.normal);
-    if (depth <= 0) return 0;
+    /* In the plane of a face a rounded core is overlapped by its radius, and the faces leave that to the inside. */
+    if (depth < 0 || (depth == 0 && query->radius == 0)) return 0;
     tahr_vec3 n = out->witness.normal;
     out->witness.distance = 0;
     out->witness.feature = TAHR__FACE;
@@ -202,9 +203,16 @@ static int advance(flight *f, double limit)
         double next = f->t + rest / -rate;
         if (next > limit) return 0;
         f->t = next;
-        tahr_vec3 before = w->normal;
+        tahr__witness before = *w;
         measure(query, f->prim, v_mad(query->start, query->motion, f->t), w);
-        if (w->distance < BLURRED) w->normal = before;
+        if (w->distance < BLURRED) {
+            w->normal = before.normal;
+            /* A box that touches may find no point to name, nor a feature of the triangle. */
+            if (query->core.axis_count == 3) {
+                w->point = before.point;
+                w->feature = before.feature;
+            }
+        }
         query->context->narrow_iterations++;
     }
     return -1;

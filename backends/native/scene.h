@@ -100,6 +100,9 @@ typedef struct tahr__cache {
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
 } tahr__cache;
 
+/* Which bodies a query looks at: those that block, all, or sensors alone. */
+enum { TAHR__SENSORS_NONE = 0, TAHR__SENSORS_TOO = 1, TAHR__SENSORS_ONLY = 2 };
+
 typedef struct tahr__query {
     const tahr__native *world;
     tahr__cache *cache; /* or NULL */
@@ -113,8 +116,23 @@ typedef struct tahr__query {
     double radius, margin;
     double half; /* of an upright segment, 0 for a point */
     uint32_t mask, ignore_body, flags;
-    uint32_t sensors; /* 0: sensor bodies are not looked at */
+    uint32_t sensors; /* TAHR__SENSORS_* */
 } tahr__query;
+
+/* Is this body there for the query? */
+static inline int tahr__is_asked(const tahr__query *query, uint32_t body, uint32_t mask)
+{
+    int only = (query->flags & TAHR_SWEEP_ONLY_BODY) != 0;
+    return (mask & query->mask) && (body == query->ignore_body) == only;
+}
+
+/* Is nothing asked about but one movable body? Then no static one need be looked at. */
+static inline int tahr__asks_movable_only(const tahr__query *query)
+{
+    const tahr__native *world = query->world;
+    return query->flags & TAHR_SWEEP_ONLY_BODY && query->ignore_body < world->body_count &&
+           world->bodies[query->ignore_body].flags & TAHR_BODY_MOVABLE;
+}
 
 /* Visits every primitive that may be within reach of box. The visitor may shrink box (and set narrowed) on the way. */
 typedef struct tahr__search {

@@ -59,7 +59,8 @@ void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query
     query->core.axis_count = 0;
     query->extent = query->motion = v_make(0, 0, 0);
     query->motion_length = query->radius = query->margin = query->half = 0;
-    query->flags = query->sensors = 0;
+    query->flags = 0;
+    query->sensors = TAHR__SENSORS_NONE;
 }
 
 void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat orientation)
@@ -143,8 +144,10 @@ static void probe(sweep_state *s, const tahr__prim *prim, double earliest)
 {
     const tahr__query *query = s->search.query;
     tahr__found f;
-    tahr__ask ask = {earliest, s->limit, s->again ? &s->beside : NULL};
     int sensor = (prim->kind & TAHR__SENSOR) != 0;
+    /* A sensor is decided at once: it must not make what blocks be looked at a second time. */
+    const double *beside = sensor ? &query->margin : s->again ? &s->beside : NULL;
+    tahr__ask ask = {earliest, s->limit, beside};
     int answer = tahr__probe_sweep(query, prim, &ask, &f);
     if (answer == TAHR__BESIDE && !sensor) s->beside = d_min(s->beside, f.gap);
     if (answer == TAHR__LATER) s->later = d_min(s->later, f.t);
@@ -221,7 +224,7 @@ static uint32_t ask_recent(sweep_state *s, const tahr__prim *prims, tahr__lanes_
     return count;
 }
 
-static void search(sweep_state *s)
+static void search_fixed(sweep_state *s)
 {
     const tahr__query *query = s->search.query;
     if (tahr__cache_holds(&s->search)) {
@@ -238,6 +241,12 @@ static void search(sweep_state *s)
     } else {
         tahr__tree_search(&s->search, &query->world->fixed);
     }
+}
+
+static void search(sweep_state *s)
+{
+    const tahr__query *query = s->search.query;
+    if (!tahr__asks_movable_only(query)) search_fixed(s);
     s->stopper = NULL;
     if (query->world->movable.count == 0) return;
     narrow(s);
@@ -317,7 +326,9 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.mask = sweep->mask;
     query.ignore_body = sweep->ignore_body;
     query.flags = sweep->flags;
-    query.sensors = capacity > 1;
+    query.sensors = sweep->flags & TAHR_SWEEP_SENSORS ? TAHR__SENSORS_ONLY
+                    : capacity > 1                    ? TAHR__SENSORS_TOO
+                                                      : TAHR__SENSORS_NONE;
     s.search.query = &query;
     s.search.box = tahr__query_box(&query, 1.0);
     s.search.reach = query.radius + query.margin;

@@ -61,8 +61,8 @@ static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
 static void search_body(tahr__search *s, uint32_t id)
 {
     const tahr__body *body = &s->query->world->bodies[id];
-    if (!(body->mask & s->query->mask) || id == s->query->ignore_body) return;
-    if ((body->flags & TAHR_BODY_SENSOR) && !s->query->sensors) return;
+    if (!tahr__is_asked(s->query, id, body->mask)) return;
+    if (s->query->sensors == (body->flags & TAHR_BODY_SENSOR ? TAHR__SENSORS_NONE : TAHR__SENSORS_ONLY)) return;
     tahr__map map = tahr__map_make(s->query->frame, body);
     tahr__prim prim;
     tahr__prim_begin(body, id, &prim);

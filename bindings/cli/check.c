@@ -22,6 +22,10 @@ struct checker {
     uint32_t *items;
     uint32_t *seen; /* per item: the last visit that met it */
     uint32_t visit;
+    struct moving {
+        tahr_pose before, now;
+        tahr_vec3 corners[LEVEL_BOX_CORNERS]; /* now, world */
+    } * moving;                               /* one per mover of the level */
 };
 
 struct range {
@@ -202,7 +206,20 @@ struct checker *checker_open(const struct level *level)
         place_item(checker, i, cursor);
     }
     free(cursor);
+    checker->moving = memory_new(level->mover_count, sizeof *checker->moving);
+    checker_time(checker, 0, 0);
     return checker;
+}
+
+void checker_time(struct checker *checker, double before, double now)
+{
+    for (size_t i = 0; i < checker->level->mover_count; i++) {
+        const struct level_mover *mover = &checker->level->movers[i];
+        struct moving *moving = &checker->moving[i];
+        moving->before = level_mover_pose(mover, before);
+        moving->now = level_mover_pose(mover, now);
+        level_box_corners(&moving->now, mover->half_extents, moving->corners);
+    }
 }
 
 void checker_close(struct checker *checker)
@@ -211,6 +228,7 @@ void checker_close(struct checker *checker)
         free(checker->first);
         free(checker->items);
         free(checker->seen);
+        free(checker->moving);
         free(checker);
     }
 }
@@ -246,15 +264,66 @@ static double nearest(struct checker *checker, tahr_vec3 p, tahr_vec3 q, double 
     return best;
 }
 
-int checker_crosses(struct checker *checker, tahr_vec3 from, tahr_vec3 to)
+/* Seen from a mover, one step goes from where the start was on it to where the end is. */
+static int crosses_mover(const struct moving *moving, tahr_vec3 from, tahr_vec3 to)
 {
-    return nearest(checker, from, to, 0, HUGE_VAL, 0) <= 0;
+    tahr_vec3 there = vec_turn_back(moving->before.orientation, vec_sub(from, moving->before.position));
+    tahr_vec3 start = vec_add(moving->now.position, vec_turn(moving->now.orientation, there));
+    for (int i = 0; i < LEVEL_BOX_CORNERS; i += 3) {
+        if (segment_crosses(start, to, &moving->corners[i])) {
+            return 1;
+        }
+    }
+    return 0;
 }
 
-double checker_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up)
+int checker_crosses(struct checker *checker, tahr_vec3 from, tahr_vec3 to)
+{
+    int crosses = nearest(checker, from, to, 0, HUGE_VAL, 0) <= 0;
+    for (size_t i = 0; i < checker->level->mover_count && !crosses; i++) {
+        crosses = crosses_mover(&checker->moving[i], from, to);
+    }
+    return crosses;
+}
+
+static double nearest_mover(const struct checker *checker, tahr_vec3 p, tahr_vec3 q, double radius)
+{
+    double best = CHECK_REACH;
+    for (size_t i = 0; i < checker->level->mover_count; i++) {
+        const struct level_mover *mover = &checker->level->movers[i];
+        double far = vec_length(mover->half_extents) + vec_length(vec_sub(q, p)) + radius + CHECK_REACH;
+        if (vec_length(vec_sub(p, checker->moving[i].now.position)) > far) {
+            continue;
+        }
+        for (int k = 0; k < LEVEL_BOX_CORNERS; k += 3) {
+            best = least(best, triangle_distance(p, q, &checker->moving[i].corners[k]) - radius);
+        }
+    }
+    return best;
+}
+
+/* The capsule that stands for a shape: the ends of its axis. Returns its radius. */
+static double axis_of(const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up, tahr_vec3 ends[2])
 {
     double radius = shape->type == TAHR_SHAPE_BOX ? least(shape->half_x, shape->half_y) : shape->radius;
     radius = least(radius, shape->half_height);
     tahr_vec3 axis = vec_scale(up, shape->half_height - radius);
-    return nearest(checker, vec_sub(position, axis), vec_add(position, axis), radius + CHECK_REACH, CHECK_REACH, radius);
+    ends[0] = vec_sub(position, axis);
+    ends[1] = vec_add(position, axis);
+    return radius;
+}
+
+double checker_mover_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up)
+{
+    tahr_vec3 ends[2];
+    double radius = axis_of(shape, position, up, ends);
+    return nearest_mover(checker, ends[0], ends[1], radius);
+}
+
+double checker_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up)
+{
+    tahr_vec3 ends[2];
+    double radius = axis_of(shape, position, up, ends);
+    double still = nearest(checker, ends[0], ends[1], radius + CHECK_REACH, CHECK_REACH, radius);
+    return least(still, nearest_mover(checker, ends[0], ends[1], radius));
 }

@@ -15,11 +15,18 @@ struct checker;
 struct checker *checker_open(const struct level *level);
 void checker_close(struct checker *checker);
 
-/* 1 if the segment between two centres crosses a triangle, or touches the inside of a round body. */
+/* Where movers are: at the begin and at the end of the step that is looked at from now on. */
+void checker_time(struct checker *checker, double before, double now);
+
+/* 1 if the segment between two centres crosses a triangle, or touches the inside of a round body, or crosses
+ * a mover as seen from it. */
 int checker_crosses(struct checker *checker, tahr_vec3 from, tahr_vec3 to);
 
 /* Signed distance from a capsule or sphere to the nearest surface, at most CHECK_REACH. Negative: an overlap, and how
  * far the shape's axis would have to be moved away from that surface. Boxes are taken as their inner capsule. */
 double checker_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up);
+
+/* The same to the nearest mover alone. */
+double checker_mover_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up);
 
 #endif

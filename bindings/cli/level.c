@@ -5,6 +5,7 @@
 
 #include "say.h"
 #include "vec.h"
+#include "wander.h"
 
 #include <stdlib.h>
 
@@ -59,30 +60,87 @@ void level_add_mesh(struct level *level, double *vertices, uint32_t vertex_count
     }
 }
 
-static tahr_vec3 rotate(tahr_quat q, tahr_vec3 v)
+void level_box_corners(const tahr_pose *pose, tahr_vec3 half_extents, tahr_vec3 corners[LEVEL_BOX_CORNERS])
 {
-    tahr_vec3 axis = {q.x, q.y, q.z};
-    tahr_vec3 t = vec_scale(vec_cross(axis, v), 2);
-    return vec_add(vec_add(v, vec_scale(t, q.w)), vec_cross(axis, t));
+    /* Corner i has bit 0 for +x, bit 1 for +y, bit 2 for +z; two triangles per face. */
+    static const int faces[LEVEL_BOX_CORNERS] = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                                 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+    tahr_vec3 corner[8];
+    for (int i = 0; i < 8; i++) {
+        tahr_vec3 local = {i & 1 ? half_extents.x : -half_extents.x, i & 2 ? half_extents.y : -half_extents.y,
+                           i & 4 ? half_extents.z : -half_extents.z};
+        corner[i] = vec_add(pose->position, vec_turn(pose->orientation, local));
+    }
+    for (int i = 0; i < LEVEL_BOX_CORNERS; i++) {
+        corners[i] = corner[faces[i]];
+    }
 }
 
 void level_add_box(struct level *level, tahr_vec3 center, tahr_vec3 half_extents, tahr_quat orientation)
 {
-    /* Corner i has bit 0 for +x, bit 1 for +y, bit 2 for +z; two triangles per face. */
-    static const int faces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-    tahr_vec3 corner[8];
+    tahr_vec3 corners[LEVEL_BOX_CORNERS];
     tahr_body_desc *body = add_body(level, TAHR_BODY_BOX);
     body->pose = (tahr_pose){center, orientation};
     body->half_extents = half_extents;
-    for (int i = 0; i < 8; i++) {
-        tahr_vec3 local = {i & 1 ? half_extents.x : -half_extents.x, i & 2 ? half_extents.y : -half_extents.y,
-                           i & 4 ? half_extents.z : -half_extents.z};
-        corner[i] = vec_add(center, rotate(orientation, local));
+    level_box_corners(&body->pose, half_extents, corners);
+    for (int i = 0; i < LEVEL_BOX_CORNERS; i += 3) {
+        add_triangle(level, corners[i], corners[i + 1], corners[i + 2]);
     }
-    for (int i = 0; i < 12; i++) {
-        add_triangle(level, corner[faces[i][0]], corner[faces[i][1]], corner[faces[i][2]]);
+}
+
+void level_add_belt(struct level *level, tahr_vec3 center, tahr_vec3 half_extents, tahr_vec3 velocity)
+{
+    level_add_box(level, center, half_extents, (tahr_quat){0, 0, 0, 1});
+    level->bodies[level->body_count - 1].surface_velocity = velocity;
+}
+
+void level_add_pool(struct level *level, tahr_vec3 center, tahr_vec3 half_extents)
+{
+    tahr_body_desc *body = add_body(level, TAHR_BODY_BOX);
+    body->flags = TAHR_BODY_FLUID;
+    body->pose.position = center;
+    body->half_extents = half_extents;
+    level->pools = memory_grow(level->pools, &level->pool_capacity, level->pool_count + 1, sizeof *level->pools);
+    level->pools[level->pool_count++] = (struct level_pool){center, half_extents};
+}
+
+void level_add_mover(struct level *level, const struct level_mover *mover)
+{
+    tahr_body_desc *body = add_body(level, TAHR_BODY_BOX);
+    body->flags = TAHR_BODY_MOVABLE;
+    body->pose = level_mover_pose(mover, 0);
+    body->half_extents = mover->half_extents;
+    level->movers = memory_grow(level->movers, &level->mover_capacity, level->mover_count + 1, sizeof *level->movers);
+    level->movers[level->mover_count] = *mover;
+    level->movers[level->mover_count++].body = (uint32_t)level->body_count - 1;
+}
+
+static double fraction(double x)
+{
+    return x - floor(x);
+}
+
+/* Smooth between the ends: (1 - cos) / 2 of half a turn. */
+static double part_of_swing(const struct level_mover *mover, double time)
+{
+    double half = mover->period / 2, t = fraction(time / mover->period) * mover->period;
+    double back = t >= half, within = t - back * half;
+    double part = clamp((within - mover->pause) / (half - mover->pause), 0, 1);
+    double smooth = (1 - unit_vector(part / 2).x) / 2;
+    return back > 0 ? 1 - smooth : smooth;
+}
+
+tahr_pose level_mover_pose(const struct level_mover *mover, double time)
+{
+    tahr_pose pose = {mover->center, {0, 0, 0, 1}};
+    if (mover->period > 0) {
+        pose.position = vec_add(pose.position, vec_scale(mover->swing, part_of_swing(mover, time)));
     }
+    if (mover->turns != 0) {
+        tahr_vec3 half_turn = unit_vector(fraction(time * mover->turns / 2));
+        pose.orientation = (tahr_quat){0, 0, half_turn.y, half_turn.x};
+    }
+    return pose;
 }
 
 static void add_round(struct level *level, tahr_vec3 a, tahr_vec3 b, double radius)
@@ -120,6 +178,8 @@ void level_close(struct level *level)
     free(level->bodies);
     free(level->corners);
     free(level->rounds);
+    free(level->movers);
+    free(level->pools);
     free(level->name);
     *level = (struct level){0};
 }

@@ -12,6 +12,21 @@ struct level_round {
     double radius;
 };
 
+/* A box that moves: there and back along `swing` with `pause` seconds at both ends, and round the vertical. */
+struct level_mover {
+    uint32_t body;
+    tahr_vec3 half_extents, center; /* m; center: where it begins */
+    tahr_vec3 swing;                /* m, from one end to the other */
+    double period;                  /* s there and back, with the pauses */
+    double pause;                   /* s */
+    double turns;                   /* per second, counter-clockwise seen from above */
+};
+
+/* A box of water. */
+struct level_pool {
+    tahr_vec3 center, half_extents;
+};
+
 /* What the plot writes on the map. */
 struct level_label {
     const char *text;
@@ -26,6 +41,10 @@ struct level {
     size_t triangle_count, corner_capacity;
     struct level_round *rounds;
     size_t round_count, round_capacity;
+    struct level_mover *movers; /* neither among the triangles nor in the bounds */
+    size_t mover_count, mover_capacity;
+    struct level_pool *pools;
+    size_t pool_count, pool_capacity;
     const struct level_label *labels; /* static memory */
     size_t label_count;
     tahr_bounds bounds;
@@ -35,8 +54,11 @@ struct level {
  * mesh body, because the winding of level files cannot be relied on. 0, or -1 after a message that names the file. */
 int level_load(struct level *level, const char *path, char up_axis);
 
-/* The bundled level: about 60 x 40 m of everything that a character meets. */
+/* The bundled level: about 60 x 54 m of everything that a character meets. */
 void level_playground(struct level *level);
+
+/* Switches on what the bundled level has places for: wall jumps, ledges to hang on, forgiving jumps. */
+void playground_feel(tahr_config *config);
 
 /* Adding bodies; the level owns the arrays of a mesh from then on. */
 void level_add_mesh(struct level *level, double *vertices, uint32_t vertex_count, uint32_t *indices,
@@ -44,6 +66,19 @@ void level_add_mesh(struct level *level, double *vertices, uint32_t vertex_count
 void level_add_box(struct level *level, tahr_vec3 center, tahr_vec3 half_extents, tahr_quat orientation);
 void level_add_capsule(struct level *level, tahr_vec3 center, double radius, double half_height);
 void level_add_sphere(struct level *level, tahr_vec3 center, double radius);
+
+/* body of *mover is filled in. */
+void level_add_mover(struct level *level, const struct level_mover *mover);
+void level_add_pool(struct level *level, tahr_vec3 center, tahr_vec3 half_extents);
+/* A conveyor: a box whose top moves. */
+void level_add_belt(struct level *level, tahr_vec3 center, tahr_vec3 half_extents, tahr_vec3 velocity);
+
+/* Where a mover is at a time, s; the same bits on every machine. */
+tahr_pose level_mover_pose(const struct level_mover *mover, double time);
+
+/* The 12 triangles of a box, outward. */
+enum { LEVEL_BOX_CORNERS = 36 };
+void level_box_corners(const tahr_pose *pose, tahr_vec3 half_extents, tahr_vec3 corners[LEVEL_BOX_CORNERS]);
 
 void level_close(struct level *level);
 

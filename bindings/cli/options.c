@@ -57,7 +57,7 @@ void options_help(void)
           "  --seconds S        simulated time (10)\n"
           "  --rate HZ          steps per second, 1 to 100000 (60)\n"
           "  --seed K           of spawn points and headings (1)\n"
-          "  --preset NAME      settings of the characters: precise\n"
+          "  --preset NAME      settings of the characters: precise, unreal (precise)\n"
           "  --backend NAME     collision engine, one of",
           stdout);
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
@@ -68,7 +68,8 @@ void options_help(void)
           "                     {\"start\": [x, y, z], \"inputs\": [{\"time\": 0, \"move\": [1, 0, 0], \"jump\": "
           "true}, ...]}\n"
           "                     or the list alone. An entry holds until the next one; what it does not name is off.\n"
-          "                     move: direction, length 0 to 1; jump; facing: direction; start: centre of the capsule\n"
+          "                     move: direction, length 0 to 1; jump, crouch; facing: direction; start: centre of the\n"
+          "                     capsule; once, when the entry begins: launch: velocity to add; mode: its name\n"
           "  --csv FILE         one row per character and step\n"
           "  --plot FILE        .svg or .png: the level from above with the paths, and the heights below\n"
           "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling (from 5 Hz up)\n"

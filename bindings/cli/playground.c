@@ -1,81 +1,15 @@
 /* SPDX-License-Identifier: MIT
- * playground.c: the bundled level: 60 x 40 m of stairs, ramps, gaps, walls, creases, ledges, low ceilings, pillars and
- * rough ground, made of meshes, boxes, spheres and capsules, written by this project. */
+ * playground.c: the bundled level: 60 x 54 m of stairs, ramps, gaps, walls, creases, ledges, low ceilings, pillars and
+ * rough ground, and of things that move, made of meshes, boxes, spheres and capsules, written by this project. */
 #include "level.h"
+#include "rides.h"
 #include "say.h"
+#include "sketch.h"
 #include "vec.h"
 
-#include <string.h>
-
 #define HALF_X 30.0 /* m */
-#define HALF_Y 20.0
-
-/* A mesh under construction. Vertices need not be welded: the library does that. */
-struct sketch {
-    double *vertices;
-    uint32_t *indices;
-    size_t vertex_count, index_count, vertex_capacity, index_capacity;
-};
-
-/* Faces look up, as the spawn points and the plot prefer them. */
-static void draw_triangle(struct sketch *sketch, tahr_vec3 a, tahr_vec3 b, tahr_vec3 c)
-{
-    if (vec_cross(vec_sub(b, a), vec_sub(c, a)).z < 0) {
-        draw_triangle(sketch, a, c, b);
-        return;
-    }
-    const double v[9] = {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
-    sketch->vertices =
-        memory_grow(sketch->vertices, &sketch->vertex_capacity, 3 * sketch->vertex_count + 9, sizeof(double));
-    sketch->indices = memory_grow(sketch->indices, &sketch->index_capacity, sketch->index_count + 3, sizeof(uint32_t));
-    memcpy(sketch->vertices + 3 * sketch->vertex_count, v, sizeof v);
-    for (int k = 0; k < 3; k++) {
-        sketch->indices[sketch->index_count++] = (uint32_t)sketch->vertex_count++;
-    }
-}
-
-static void draw_quad(struct sketch *sketch, tahr_vec3 a, tahr_vec3 b, tahr_vec3 c, tahr_vec3 d)
-{
-    draw_triangle(sketch, a, b, c);
-    draw_triangle(sketch, a, c, d);
-}
-
-static void finish(struct sketch *sketch, struct level *level)
-{
-    level_add_mesh(level, sketch->vertices, (uint32_t)sketch->vertex_count, sketch->indices,
-                   (uint32_t)(sketch->index_count / 3));
-}
-
-struct corner {
-    double x, z;
-};
-
-/* A profile of heights over x, drawn out from y0 to y1, with side walls down to `bottom`. Two corners over each other
- * are a riser. */
-static void draw_profile(struct sketch *sketch, const struct corner *profile, size_t count, double y0, double y1,
-                         double bottom)
-{
-    for (size_t i = 0; i + 1 < count; i++) {
-        struct corner a = profile[i], b = profile[i + 1];
-        draw_quad(sketch, (tahr_vec3){a.x, y0, a.z}, (tahr_vec3){b.x, y0, b.z}, (tahr_vec3){b.x, y1, b.z},
-                  (tahr_vec3){a.x, y1, a.z});
-        for (int side = 0; side < 2 && b.x > a.x; side++) {
-            double y = side ? y1 : y0;
-            if (a.z > bottom) {
-                draw_triangle(sketch, (tahr_vec3){a.x, y, bottom}, (tahr_vec3){b.x, y, b.z}, (tahr_vec3){a.x, y, a.z});
-            }
-            if (b.z > bottom) {
-                draw_triangle(sketch, (tahr_vec3){a.x, y, bottom}, (tahr_vec3){b.x, y, bottom}, (tahr_vec3){b.x, y, b.z});
-            }
-        }
-    }
-}
-
-#define DRAW_PROFILE(sketch, y0, y1, bottom, ...)                                           \
-    do {                                                                                    \
-        const struct corner profile_[] = {__VA_ARGS__};                                     \
-        draw_profile(sketch, profile_, sizeof profile_ / sizeof *profile_, y0, y1, bottom); \
-    } while (0)
+#define SOUTH (-20.0)
+#define NORTH 34.0
 
 /* The patch of rough ground, for which the flat floor leaves a hole. */
 #define ROUGH_X0 2.0
@@ -105,30 +39,25 @@ static void add_ground(struct level *level)
     struct sketch flat = {0}, rough = {0};
     const double cell = 2;
     for (double x = -HALF_X; x < HALF_X; x += cell) {
-        for (double y = -HALF_Y; y < HALF_Y; y += cell) {
-            if (x < ROUGH_X0 || x >= ROUGH_X1 || y < ROUGH_Y0 || y >= ROUGH_Y1) {
-                draw_quad(&flat, (tahr_vec3){x, y, 0}, (tahr_vec3){x + cell, y, 0}, (tahr_vec3){x + cell, y + cell, 0},
-                          (tahr_vec3){x, y + cell, 0});
+        for (double y = SOUTH; y < NORTH; y += cell) {
+            int rough_here = x >= ROUGH_X0 && x < ROUGH_X1 && y >= ROUGH_Y0 && y < ROUGH_Y1;
+            int pool_here = x >= POOL_X0 && x < POOL_X1 && y >= POOL_Y0 && y < POOL_Y1;
+            if (!rough_here && !pool_here) {
+                sketch_quad(&flat, (tahr_vec3){x, y, 0}, (tahr_vec3){x + cell, y, 0},
+                            (tahr_vec3){x + cell, y + cell, 0}, (tahr_vec3){x, y + cell, 0});
             }
         }
     }
     for (double x = ROUGH_X0; x < ROUGH_X1; x += ROUGH_CELL) {
         for (double y = ROUGH_Y0; y < ROUGH_Y1; y += ROUGH_CELL) {
             double e = ROUGH_CELL;
-            draw_quad(&rough, (tahr_vec3){x, y, rough_height(x, y)}, (tahr_vec3){x + e, y, rough_height(x + e, y)},
-                      (tahr_vec3){x + e, y + e, rough_height(x + e, y + e)},
-                      (tahr_vec3){x, y + e, rough_height(x, y + e)});
+            sketch_quad(&rough, (tahr_vec3){x, y, rough_height(x, y)}, (tahr_vec3){x + e, y, rough_height(x + e, y)},
+                        (tahr_vec3){x + e, y + e, rough_height(x + e, y + e)},
+                        (tahr_vec3){x, y + e, rough_height(x, y + e)});
         }
     }
-    finish(&flat, level);
-    finish(&rough, level);
-}
-
-/* A box that stands on height z0. */
-static void add_block(struct level *level, double x0, double x1, double y0, double y1, double z0, double z1)
-{
-    level_add_box(level, (tahr_vec3){(x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2},
-                  (tahr_vec3){(x1 - x0) / 2, (y1 - y0) / 2, (z1 - z0) / 2}, (tahr_quat){0, 0, 0, 1});
+    sketch_finish(&flat, level);
+    sketch_finish(&rough, level);
 }
 
 /* A wall of boxes along a line from (x, y) in the direction (c, s), which is the cosine and sine of its angle. */
@@ -143,14 +72,14 @@ static void add_wall(struct level *level, double x, double y, double c, double s
 /* Sheets without thickness, so that nobody begins on top of them; higher than what can be jumped from any platform. */
 static void add_border(struct level *level)
 {
-    const tahr_vec3 corners[4] = {{-HALF_X, -HALF_Y, 0}, {HALF_X, -HALF_Y, 0}, {HALF_X, HALF_Y, 0}, {-HALF_X, HALF_Y, 0}};
-    const tahr_vec3 up = {0, 0, 4};
+    const tahr_vec3 corners[4] = {{-HALF_X, SOUTH, 0}, {HALF_X, SOUTH, 0}, {HALF_X, NORTH, 0}, {-HALF_X, NORTH, 0}};
+    const tahr_vec3 up = {0, 0, 9};
     struct sketch sketch = {0};
     for (int i = 0; i < 4; i++) {
         tahr_vec3 a = corners[i], b = corners[(i + 1) % 4];
-        draw_quad(&sketch, a, b, vec_add(b, up), vec_add(a, up));
+        sketch_quad(&sketch, a, b, vec_add(b, up), vec_add(a, up));
     }
-    finish(&sketch, level);
+    sketch_finish(&sketch, level);
 }
 
 #define STEP 0.3 /* m, rise and run */
@@ -174,7 +103,7 @@ static void add_stairs(struct level *level)
         up[n++] = (struct corner){x + STEP * (i + 1), top - STEP * i - bevel};
         up[n++] = (struct corner){x + STEP * (i + 1), top - STEP * (i + 1)};
     }
-    draw_profile(&sketch, up, n, 13, 16.5, 0);
+    sketch_profile(&sketch, up, n, 13, 16.5, 0);
     n = 0;
     up[n++] = (struct corner){x0, 0};
     for (int i = 1; i <= STEPS; i++) {
@@ -182,8 +111,8 @@ static void add_stairs(struct level *level)
         up[n++] = (struct corner){x0 + 0.4 * i, 0.15 * i};
     }
     up[n++] = (struct corner){x0 + 0.4 * STEPS + 3.5, 0};
-    draw_profile(&sketch, up, n, 8, 11, 0);
-    finish(&sketch, level);
+    sketch_profile(&sketch, up, n, 8, 11, 0);
+    sketch_finish(&sketch, level);
 }
 
 /* Up and down at 20, 35, 45 and 60 degrees; the last is too steep to walk. Runs are height over tangent. */
@@ -194,36 +123,36 @@ static void add_ramps(struct level *level)
     const double middle = -8, height = 2;
     for (int i = 0; i < 4; i++) {
         double run = height / tangent[i], y = 6.5 + 3.3 * i;
-        DRAW_PROFILE(&sketch, y, y + 2.5, 0, {middle - 1 - run, 0}, {middle - 1, height}, {middle + 1, height},
-                     {middle + 1 + run, 0});
+        SKETCH_PROFILE(&sketch, y, y + 2.5, 0, {middle - 1 - run, 0}, {middle - 1, height}, {middle + 1, height},
+                       {middle + 1 + run, 0});
     }
-    finish(&sketch, level);
+    sketch_finish(&sketch, level);
 }
 
 /* A walkway 1 m above the ground with gaps of 0.5, 1 and 2 m, and a ramp at each end. */
 static void add_gaps(struct level *level)
 {
     struct sketch sketch = {0};
-    DRAW_PROFILE(&sketch, 13.5, 16.5, 0, {2, 0}, {4.5, 1}, {8, 1}, {8, 0});
-    DRAW_PROFILE(&sketch, 13.5, 16.5, 0, {8.5, 0}, {8.5, 1}, {12, 1}, {12, 0});
-    DRAW_PROFILE(&sketch, 13.5, 16.5, 0, {13, 0}, {13, 1}, {17, 1}, {17, 0});
-    DRAW_PROFILE(&sketch, 13.5, 16.5, 0, {19, 0}, {19, 1}, {22, 1}, {24.5, 0});
-    finish(&sketch, level);
+    SKETCH_PROFILE(&sketch, 13.5, 16.5, 0, {2, 0}, {4.5, 1}, {8, 1}, {8, 0});
+    SKETCH_PROFILE(&sketch, 13.5, 16.5, 0, {8.5, 0}, {8.5, 1}, {12, 1}, {12, 0});
+    SKETCH_PROFILE(&sketch, 13.5, 16.5, 0, {13, 0}, {13, 1}, {17, 1}, {17, 0});
+    SKETCH_PROFILE(&sketch, 13.5, 16.5, 0, {19, 0}, {19, 1}, {22, 1}, {24.5, 0});
+    sketch_finish(&sketch, level);
     /* Narrow beams, 0.3 and 0.1 m wide. */
-    add_block(level, 4, 10, 9.85, 10.15, 0, 0.35);
-    add_block(level, 12, 18, 9.95, 10.05, 0, 0.35);
-    add_block(level, 20, 26, 9, 11, 0, 0.1);
-    add_block(level, 21, 25, 9.4, 10.6, 0.1, 0.2);
+    sketch_block(level, 4, 10, 9.85, 10.15, 0, 0.35);
+    sketch_block(level, 12, 18, 9.95, 10.05, 0, 0.35);
+    sketch_block(level, 20, 26, 9, 11, 0, 0.1);
+    sketch_block(level, 21, 25, 9.4, 10.6, 0.1, 0.2);
 }
 
 /* Inner and outer corners, and wedges of 30 and 12 degrees that end in a point. */
 static void add_walls(struct level *level)
 {
     const double c15 = 0.9659258262890683, s15 = 0.25881904510252074, c6 = 0.9945218953682733, s6 = 0.10452846326765347;
-    add_block(level, -28, -22, 4, 4.3, 0, 2.5);
-    add_block(level, -28, -27.7, 0, 4, 0, 2.5);
-    add_block(level, -22.3, -22, 1.5, 4, 0, 2.5);
-    add_block(level, -25.5, -24.5, -0.5, 1.5, 0, 2.5);
+    sketch_block(level, -28, -22, 4, 4.3, 0, 2.5);
+    sketch_block(level, -28, -27.7, 0, 4, 0, 2.5);
+    sketch_block(level, -22.3, -22, 1.5, 4, 0, 2.5);
+    sketch_block(level, -25.5, -24.5, -0.5, 1.5, 0, 2.5);
     add_wall(level, -20, 2.5, c15, s15, 4.5, 0.2);
     add_wall(level, -20, 2.5, c15, -s15, 4.5, 0.2);
     add_wall(level, -20, -2, c6, s6, 4.5, 0.2);
@@ -241,19 +170,19 @@ static void add_creases(struct level *level)
     const tahr_vec3 top_left = {-10, 1.9, 2.6}, top = {-6, 4.9, 2.6}, top_right = {-2, 1.9, 2.6};
     const tahr_vec3 back_left = {-10, 5.6, 2.6}, back_right = {-2, 5.6, 2.6};
     const tahr_vec3 heel_left = {-10, 5.6, 0}, heel_right = {-2, 5.6, 0};
-    draw_quad(&sketch, left, foot, top, top_left);
-    draw_quad(&sketch, foot, right, top_right, top);
-    draw_triangle(&sketch, top_left, top, back_left);
-    draw_triangle(&sketch, back_left, top, back_right);
-    draw_triangle(&sketch, top, top_right, back_right);
-    draw_quad(&sketch, left, top_left, back_left, heel_left);
-    draw_quad(&sketch, right, heel_right, back_right, top_right);
-    draw_quad(&sketch, heel_left, back_left, back_right, heel_right);
+    sketch_quad(&sketch, left, foot, top, top_left);
+    sketch_quad(&sketch, foot, right, top_right, top);
+    sketch_triangle(&sketch, top_left, top, back_left);
+    sketch_triangle(&sketch, back_left, top, back_right);
+    sketch_triangle(&sketch, top, top_right, back_right);
+    sketch_quad(&sketch, left, top_left, back_left, heel_left);
+    sketch_quad(&sketch, right, heel_right, back_right, top_right);
+    sketch_quad(&sketch, heel_left, back_left, back_right, heel_right);
     const tahr_vec3 peak = {-6, -3.5, 2}, base[4] = {{-7.4, -4.9, 0}, {-4.6, -4.9, 0}, {-4.6, -2.1, 0}, {-7.4, -2.1, 0}};
     for (int i = 0; i < 4; i++) {
-        draw_triangle(&sketch, base[i], base[(i + 1) % 4], peak);
+        sketch_triangle(&sketch, base[i], base[(i + 1) % 4], peak);
     }
-    finish(&sketch, level);
+    sketch_finish(&sketch, level);
 }
 
 static void add_pillars(struct level *level)
@@ -274,15 +203,15 @@ static void add_ceilings(struct level *level)
     const double clear[2] = {1.9, 1.7};
     for (int i = 0; i < 2; i++) {
         double x = -28 + 5.5 * i;
-        add_block(level, x, x + 4, -14, -9, clear[i], clear[i] + 0.25);
-        add_block(level, x, x + 0.25, -14, -13.75, 0, clear[i]);
-        add_block(level, x, x + 0.25, -9.25, -9, 0, clear[i]);
-        add_block(level, x + 3.75, x + 4, -14, -13.75, 0, clear[i]);
-        add_block(level, x + 3.75, x + 4, -9.25, -9, 0, clear[i]);
+        sketch_block(level, x, x + 4, -14, -9, clear[i], clear[i] + 0.25);
+        sketch_block(level, x, x + 0.25, -14, -13.75, 0, clear[i]);
+        sketch_block(level, x, x + 0.25, -9.25, -9, 0, clear[i]);
+        sketch_block(level, x + 3.75, x + 4, -14, -13.75, 0, clear[i]);
+        sketch_block(level, x + 3.75, x + 4, -9.25, -9, 0, clear[i]);
     }
-    draw_quad(&sketch, (tahr_vec3){-27, -19, 0}, (tahr_vec3){-21, -19, 2.6}, (tahr_vec3){-21, -16, 2.6},
-              (tahr_vec3){-27, -16, 0});
-    finish(&sketch, level);
+    sketch_quad(&sketch, (tahr_vec3){-27, -19, 0}, (tahr_vec3){-21, -19, 2.6}, (tahr_vec3){-21, -16, 2.6},
+                (tahr_vec3){-27, -16, 0});
+    sketch_finish(&sketch, level);
 }
 
 /* A channel between faces of 60 degrees that can only be stood in by touching both. Open at both ends, with
@@ -297,18 +226,18 @@ static void add_gutter(struct level *level)
                   rim1 = {x + side * half, y1, z};
         tahr_vec3 out0 = {x + side * 2.2, y0, z}, out1 = {x + side * 2.2, y1, z};
         tahr_vec3 foot0 = {x + side * 4.6, y0, 0}, foot1 = {x + side * 4.6, y1, 0};
-        draw_quad(&sketch, low0, low1, rim1, rim0);
-        draw_quad(&sketch, rim0, rim1, out1, out0);
-        draw_quad(&sketch, out0, out1, foot1, foot0);
+        sketch_quad(&sketch, low0, low1, rim1, rim0);
+        sketch_quad(&sketch, rim0, rim1, out1, out0);
+        sketch_quad(&sketch, out0, out1, foot1, foot0);
         for (int end = 0; end < 2; end++) {
             double y = end ? y1 : y0;
             tahr_vec3 bed = {x, y, 0}, low = end ? low1 : low0, rim = end ? rim1 : rim0, out = end ? out1 : out0;
             tahr_vec3 foot = end ? foot1 : foot0;
-            draw_quad(&sketch, bed, foot, out, rim);
-            draw_triangle(&sketch, bed, rim, low);
+            sketch_quad(&sketch, bed, foot, out, rim);
+            sketch_triangle(&sketch, bed, rim, low);
         }
     }
-    finish(&sketch, level);
+    sketch_finish(&sketch, level);
 }
 
 /* Blocks that can just be stepped on, and just not; and a pyramid of ledges. */
@@ -317,11 +246,11 @@ static void add_ledges(struct level *level)
     static const double heights[5] = {0.2, 0.39, 0.41, 0.6, 1.2};
     for (int i = 0; i < 5; i++) {
         double x = -5 + 2.6 * i;
-        add_block(level, x, x + 1.8, -11, -9, 0, heights[i]);
+        sketch_block(level, x, x + 1.8, -11, -9, 0, heights[i]);
     }
     for (int i = 0; i < 4; i++) {
         double inset = 0.7 * i;
-        add_block(level, -4 + inset, 3 - inset, -18.5 + inset, -13 - inset, 0, 0.35 * (i + 1));
+        sketch_block(level, -4 + inset, 3 - inset, -18.5 + inset, -13 - inset, 0, 0.35 * (i + 1));
     }
 }
 
@@ -329,16 +258,16 @@ static void add_ledges(struct level *level)
 static void add_thin_walls(struct level *level)
 {
     struct sketch sketch = {0};
-    add_block(level, 11, 15, -10.01, -9.99, 0, 2.5);
-    draw_quad(&sketch, (tahr_vec3){11, -13, 0}, (tahr_vec3){15, -13, 0}, (tahr_vec3){15, -13, 2.5},
-              (tahr_vec3){11, -13, 2.5});
-    draw_quad(&sketch, (tahr_vec3){11, -17, 0}, (tahr_vec3){15, -14.5, 0}, (tahr_vec3){15, -14.5, 2.5},
-              (tahr_vec3){11, -17, 2.5});
-    finish(&sketch, level);
-    add_block(level, 18, 24, -12, -11, 0, 2.5);
-    add_block(level, 18, 24, -13.8, -12.8, 0, 2.5);
-    add_block(level, 18, 24, -15.45, -14.52, 0, 2.5);
-    add_block(level, 26, 28, -19, -9, 0, 0.3);
+    sketch_block(level, 11, 15, -10.01, -9.99, 0, 2.5);
+    sketch_quad(&sketch, (tahr_vec3){11, -13, 0}, (tahr_vec3){15, -13, 0}, (tahr_vec3){15, -13, 2.5},
+                (tahr_vec3){11, -13, 2.5});
+    sketch_quad(&sketch, (tahr_vec3){11, -17, 0}, (tahr_vec3){15, -14.5, 0}, (tahr_vec3){15, -14.5, 2.5},
+                (tahr_vec3){11, -17, 2.5});
+    sketch_finish(&sketch, level);
+    sketch_block(level, 18, 24, -12, -11, 0, 2.5);
+    sketch_block(level, 18, 24, -13.8, -12.8, 0, 2.5);
+    sketch_block(level, 18, 24, -15.45, -14.52, 0, 2.5);
+    sketch_block(level, 26, 28, -19, -9, 0, 0.3);
 }
 
 static const struct level_label labels[] = {
@@ -365,6 +294,14 @@ static const struct level_label labels[] = {
     {"thin walls", 13, -9.2},
     {"passages 0.8 and 0.72 m", 21, -10.5},
     {"kerb 0.3 m", 27, -8.5},
+    {"lift, tower 3 m", -24.5, 27.2},
+    {"turntable", -13, 21.6},
+    {"shuttle", -12.5, 32.8},
+    {"press", -3, 21.8},
+    {"pool, beach", 7, 23.2},
+    {"conveyor", 17, 25.6},
+    {"crawl space 1.3 m", 16.5, 31.4},
+    {"wall-jump shaft", 23.8, 30.6},
 };
 
 void level_playground(struct level *level)
@@ -383,4 +320,5 @@ void level_playground(struct level *level)
     add_gutter(level);
     add_ledges(level);
     add_thin_walls(level);
+    rides_add(level);
 }

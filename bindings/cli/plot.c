@@ -38,12 +38,18 @@ struct picture {
     uint32_t path_count; /* drawn */
 };
 
-/* Ten colours that stay apart on the light ground of the map, also for most colour-blind people. */
-static const double palette[10][3] = {{0.12, 0.37, 0.75}, {0.84, 0.33, 0.00}, {0.00, 0.50, 0.36}, {0.60, 0.22, 0.58},
-                                      {0.75, 0.08, 0.24}, {0.30, 0.30, 0.30}, {0.00, 0.55, 0.68}, {0.55, 0.40, 0.06},
-                                      {0.35, 0.24, 0.75}, {0.42, 0.56, 0.04}};
+/* One colour per mode; they stay apart on the light ground of the map, also for most colour-blind people. */
+static const struct mode_style {
+    double colour[3];
+    int dashed;
+} styles[TAHR_MODE_CUSTOM + 1] = {
+    [TAHR_MODE_NONE] = {{0.45, 0.45, 0.45}, 0},    [TAHR_MODE_WALKING] = {{0.12, 0.37, 0.75}, 0},
+    [TAHR_MODE_FALLING] = {{0.84, 0.33, 0.00}, 1}, [TAHR_MODE_SWIMMING] = {{0.00, 0.58, 0.55}, 0},
+    [TAHR_MODE_FLYING] = {{0.60, 0.22, 0.58}, 0},  [TAHR_MODE_HANGING] = {{0.75, 0.08, 0.24}, 0},
+    [TAHR_MODE_CUSTOM] = {{0.42, 0.35, 0.04}, 0},
+};
 
-enum { SHAPE_UP, SHAPE_DOWN, SHAPE_DOT, SHAPE_CROSS, SHAPE_RING };
+enum { SHAPE_UP, SHAPE_DOWN, SHAPE_DOT, SHAPE_SQUARE, SHAPE_CROSS, SHAPE_RING };
 
 /* Later kinds are drawn over earlier ones. */
 static const struct kind {
@@ -56,6 +62,12 @@ static const struct kind {
     {TAHR_EVENT_STEPPED_UP, SHAPE_DOT, 1.7, {0.10, 0.12, 0.16}, "step up"},
     {TAHR_EVENT_LANDED, SHAPE_DOWN, 3.4, {1, 1, 1}, "landing"},
     {TAHR_EVENT_JUMPED, SHAPE_UP, 3.9, {1, 0.85, 0.2}, "jump"},
+    {TAHR_EVENT_WALL_JUMPED, SHAPE_UP, 4.4, {0.95, 0.45, 0.1}, "wall jump"},
+    {TAHR_EVENT_GRABBED, SHAPE_SQUARE, 3.6, {0.75, 0.08, 0.24}, "hangs on an edge"},
+    {TAHR_EVENT_BASE, SHAPE_SQUARE, 3.0, {0.35, 0.75, 0.35}, "another base"},
+    {TAHR_EVENT_SHAPE, SHAPE_DOT, 2.6, {0.62, 0.62, 0.70}, "crouches, or stands up"},
+    {TAHR_EVENT_LAUNCHED, SHAPE_UP, 4.6, {0.60, 0.22, 0.58}, "launched"},
+    {TAHR_EVENT_CRUSHED, SHAPE_CROSS, 4, {0.4, 0.0, 0.4}, "crushed"},
     {TRACE_FELL_OUT, SHAPE_CROSS, 5, {0.8, 0.05, 0.1}, "fell out"},
     {TRACE_STUCK, SHAPE_RING, 6, {0.8, 0.05, 0.1}, "stuck for good"},
     {TRACE_TUNNEL, SHAPE_RING, 9, {0.9, 0, 0.6}, "tunnelled"},
@@ -78,6 +90,8 @@ static void draw_symbol(cairo_t *cairo, const struct kind *kind, double x, doubl
         cairo_line_to(cairo, x - size, y - up * size * 0.7);
         cairo_line_to(cairo, x + size, y - up * size * 0.7);
         cairo_close_path(cairo);
+    } else if (kind->shape == SHAPE_SQUARE) {
+        cairo_rectangle(cairo, x - size * 0.85, y - size * 0.85, size * 1.7, size * 1.7);
     } else {
         cairo_arc(cairo, x, y, size, 0, 6.283185307179586);
     }
@@ -91,19 +105,14 @@ static void draw_symbol(cairo_t *cairo, const struct kind *kind, double x, doubl
     cairo_stroke(cairo);
 }
 
-static int by_mode(const struct picture *picture)
-{
-    return picture->plot->trace->character_count == 1;
-}
-
-static void set_path_style(const struct picture *picture, uint32_t character, uint32_t mode)
+static void set_path_style(const struct picture *picture, uint32_t mode)
 {
     static const double dashes[2] = {3.5, 2.5};
-    int falling = mode == TAHR_MODE_FALLING, crowded = picture->path_count > 40;
-    const double *colour = palette[by_mode(picture) ? falling : (int)(character % 10)];
-    cairo_set_source_rgba(picture->cairo, colour[0], colour[1], colour[2], crowded ? 0.6 : 0.9);
-    cairo_set_line_width(picture->cairo, crowded ? 0.8 : by_mode(picture) ? 2 : 1.4);
-    cairo_set_dash(picture->cairo, dashes, falling ? 2 : 0, 0);
+    int crowded = picture->path_count > 40;
+    const struct mode_style *style = &styles[mode <= TAHR_MODE_CUSTOM ? mode : TAHR_MODE_NONE];
+    cairo_set_source_rgba(picture->cairo, style->colour[0], style->colour[1], style->colour[2], crowded ? 0.6 : 0.9);
+    cairo_set_line_width(picture->cairo, crowded ? 0.8 : 1.4);
+    cairo_set_dash(picture->cairo, dashes, style->dashed ? 2 : 0, 0);
 }
 
 /* One path in one of the two diagrams. Points closer than half a point of the picture are left out. */
@@ -129,7 +138,7 @@ static void draw_path(const struct picture *picture, const struct axes *axes, ui
             last_y = y;
         }
         if ((own != mode && mode != TAHR_MODE_NONE) || p->mode == TAHR_MODE_NONE || i + 1 == path->count) {
-            set_path_style(picture, character, mode == TAHR_MODE_NONE ? own : mode);
+            set_path_style(picture, mode == TAHR_MODE_NONE ? own : mode);
             cairo_stroke(picture->cairo);
             cairo_move_to(picture->cairo, x, y);
         }
@@ -164,7 +173,7 @@ static void draw_start(const struct picture *picture, const struct axes *axes, u
 {
     const struct trace_path *path = &picture->plot->trace->paths[character];
     if (path->count > 0 && axes == &picture->map) {
-        set_path_style(picture, character, TAHR_MODE_WALKING);
+        set_path_style(picture, TAHR_MODE_WALKING);
         cairo_arc(picture->cairo, axes_x(axes, (double)path->points[0].x), axes_y(axes, (double)path->points[0].y),
                   picture->path_count > 40 ? 2 : 4, 0, 6.283185307179586);
         cairo_fill_preserve(picture->cairo);
@@ -213,10 +222,52 @@ static void draw_relief(const struct picture *picture)
     free(relief.pixels);
 }
 
+/* A box from above; where it is drawn twice, the second time is the other end of its way. */
+static void trace_box(const struct picture *picture, const tahr_pose *pose, tahr_vec3 half)
+{
+    static const double signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (int i = 0; i < 4; i++) {
+        tahr_vec3 p = vec_turn(pose->orientation, (tahr_vec3){signs[i][0] * half.x, signs[i][1] * half.y, 0});
+        double x = axes_x(&picture->map, pose->position.x + p.x), y = axes_y(&picture->map, pose->position.y + p.y);
+        i == 0 ? cairo_move_to(picture->cairo, x, y) : cairo_line_to(picture->cairo, x, y);
+    }
+    cairo_close_path(picture->cairo);
+}
+
+/* Water, and what moves: where it begins, and dashed where it goes to. */
+static void draw_rides(const struct picture *picture)
+{
+    static const double dashes[2] = {4, 3};
+    const struct level *level = picture->plot->level;
+    cairo_t *cairo = picture->cairo;
+    cairo_set_line_width(cairo, 1.2);
+    for (size_t i = 0; i < level->pool_count; i++) {
+        const tahr_pose pose = {level->pools[i].center, {0, 0, 0, 1}};
+        trace_box(picture, &pose, level->pools[i].half_extents);
+        cairo_set_source_rgba(cairo, 0.25, 0.60, 0.80, 0.35);
+        cairo_fill(cairo);
+    }
+    for (size_t i = 0; i < level->mover_count; i++) {
+        const struct level_mover *mover = &level->movers[i];
+        tahr_pose pose = level_mover_pose(mover, 0);
+        trace_box(picture, &pose, mover->half_extents);
+        cairo_set_source_rgba(cairo, 0.35, 0.75, 0.35, 0.35);
+        cairo_fill_preserve(cairo);
+        cairo_set_source_rgb(cairo, 0.15, 0.40, 0.15);
+        cairo_stroke(cairo);
+        cairo_set_dash(cairo, dashes, 2, 0);
+        pose.position = vec_add(pose.position, mover->swing);
+        trace_box(picture, &pose, mover->half_extents);
+        cairo_stroke(cairo);
+        cairo_set_dash(cairo, NULL, 0, 0);
+    }
+}
+
 static void draw_map(const struct picture *picture)
 {
     const struct level *level = picture->plot->level;
     draw_relief(picture);
+    draw_rides(picture);
     axes_grid(&picture->map);
     draw_data(picture, &picture->map);
     for (size_t i = 0; i < level->label_count; i++) {
@@ -235,7 +286,7 @@ static void draw_profile(const struct picture *picture)
 
 static double legend_line(const struct picture *picture, double x, double y, uint32_t mode, const char *text)
 {
-    set_path_style(picture, 0, mode);
+    set_path_style(picture, mode);
     cairo_set_line_width(picture->cairo, 1.6);
     cairo_move_to(picture->cairo, x, y - 4);
     cairo_rel_line_to(picture->cairo, 26, 0);
@@ -268,13 +319,29 @@ static size_t count_marks(const struct trace *trace, uint32_t type)
     return count;
 }
 
+static int has_mode(const struct trace *trace, uint32_t mode)
+{
+    for (uint32_t c = 0; c < trace->character_count; c++) {
+        for (size_t i = 0; i < trace->paths[c].count; i++) {
+            if (trace->paths[c].points[i].mode == mode) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
 static void draw_legend(const struct picture *picture)
 {
-    static const double low[3] = {0.85, 0.89, 0.93}, high[3] = {0.99, 0.93, 0.80}, steep[3] = {0.50, 0.52, 0.55};
+    static const double low[3] = {0.85, 0.89, 0.93}, high[3] = {0.99, 0.93, 0.80}, steep[3] = {0.50, 0.52, 0.55},
+                        water[3] = {0.66, 0.81, 0.89}, moving[3] = {0.70, 0.86, 0.70};
     double x = picture->map.left + picture->map.width + 18, y = picture->map.top + 12;
     char text[80];
-    y = legend_line(picture, x, y, TAHR_MODE_WALKING, "walking");
-    y = legend_line(picture, x, y, TAHR_MODE_FALLING, "falling");
+    for (uint32_t mode = TAHR_MODE_WALKING; mode <= TAHR_MODE_CUSTOM; mode++) {
+        if (mode <= TAHR_MODE_FALLING || has_mode(picture->plot->trace, mode)) {
+            y = legend_line(picture, x, y, mode, tahr_mode_name(mode));
+        }
+    }
     for (size_t k = 0; k < KIND_COUNT; k++) {
         size_t count = count_marks(picture->plot->trace, kinds[k].type);
         if (count > 0) {
@@ -289,10 +356,15 @@ static void draw_legend(const struct picture *picture)
     y = legend_patch(picture, x, y, high, "walkable, high");
     snprintf(text, sizeof text, "steeper than %.0f\302\260", picture->plot->walkable_angle * 57.29577951308232);
     y = legend_patch(picture, x, y, steep, text);
-    text_at(picture->cairo, x, y + 8, 11, 0, by_mode(picture) ? "" : "one colour per character");
+    if (picture->plot->level->pool_count > 0) {
+        y = legend_patch(picture, x, y, water, "water");
+    }
+    if (picture->plot->level->mover_count > 0) {
+        y = legend_patch(picture, x, y, moving, "moving (dashed: to)");
+    }
     if (picture->path_count < picture->plot->trace->character_count) {
         snprintf(text, sizeof text, "first %u of %u drawn", picture->path_count, picture->plot->trace->character_count);
-        text_at(picture->cairo, x, y + 26, 11, 0, text);
+        text_at(picture->cairo, x, y + 8, 11, 0, text);
     }
 }
 
@@ -306,7 +378,7 @@ static void draw_picture(const struct picture *picture)
     text_at(cairo, picture->map.left, 32, 18, 0, picture->plot->caption);
     cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     text_at(cairo, picture->map.left, 54, 12, 0,
-            "The level from above with the way of every character from its dot on;"
+            "The level from above with the way of every character from its dot on, coloured by mode;"
             " below, the height of the feet over time.");
     draw_map(picture);
     draw_profile(picture);

@@ -16,10 +16,18 @@ void progress_start(struct progress *progress, const tahr_state *state, double t
     *progress = (struct progress){.anchor = state->position, .since = time};
 }
 
+tahr_shape shape_now(const tahr_config *config, const tahr_state *state)
+{
+    tahr_shape shape = config->shape;
+    shape.radius = state->radius;
+    shape.half_height = state->half_height;
+    return shape;
+}
+
 /* With margin 0: whether the true shape could go there. */
 static int could_move(tahr_world *world, const tahr_config *config, const tahr_state *state)
 {
-    tahr_sweep query = {.shape = config->shape,
+    tahr_sweep query = {.shape = shape_now(config, state),
                         .position = state->position,
                         .up = state->up,
                         .orientation = state->orientation,

@@ -12,6 +12,9 @@ struct progress {
     uint32_t headings;
 };
 
+/* The shape of a character now. */
+tahr_shape shape_now(const tahr_config *config, const tahr_state *state);
+
 void progress_start(struct progress *progress, const tahr_state *state, double time);
 
 /* After a step that ended at time; heading_is_new if the wish changed with it. 1: stuck for good, and counted anew from

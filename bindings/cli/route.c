@@ -46,6 +46,18 @@ static int read_vector(const struct place *place, const char *key, const json_t 
     return 0;
 }
 
+static int read_mode(const struct place *place, const json_t *value, struct route_entry *entry)
+{
+    const char *name = json_string_value(value);
+    entry->has_mode = 1;
+    while (name != NULL && strcmp(tahr_mode_name(entry->mode), name) != 0) {
+        if (strcmp(tahr_mode_name(++entry->mode), "?") == 0) {
+            name = NULL;
+        }
+    }
+    return name != NULL ? 0 : complain(place, "mode", "expected the name of a mode, as \"flying\"");
+}
+
 static int read_key(const struct place *place, const char *key, const json_t *value, struct route_entry *entry)
 {
     if (strcmp(key, "time") == 0) {
@@ -63,7 +75,18 @@ static int read_key(const struct place *place, const char *key, const json_t *va
         entry->jump = json_is_true(value);
         return json_is_boolean(value) ? 0 : complain(place, key, "expected true or false");
     }
-    return complain(place, key, "unknown; known are time, move, jump, facing");
+    if (strcmp(key, "crouch") == 0) {
+        entry->crouch = json_is_true(value);
+        return json_is_boolean(value) ? 0 : complain(place, key, "expected true or false");
+    }
+    if (strcmp(key, "launch") == 0) {
+        entry->has_launch = 1;
+        return read_vector(place, key, value, &entry->launch);
+    }
+    if (strcmp(key, "mode") == 0) {
+        return read_mode(place, value, entry);
+    }
+    return complain(place, key, "unknown; known are time, move, jump, crouch, facing, launch, mode");
 }
 
 static int read_entry(const struct place *place, json_t *object, struct route_entry *entry)
@@ -148,8 +171,10 @@ int route_input(struct route *route, double time, tahr_input *input)
 {
     int jump = 0;
     size_t before = route->next;
+    const struct route_entry *once = NULL;
     while (route->next < route->count && route->entries[route->next].time <= time + 1e-9) {
         jump |= route->entries[route->next].jump;
+        once = &route->entries[route->next];
         route->next++;
     }
     if (route->next == 0) {
@@ -160,6 +185,15 @@ int route_input(struct route *route, double time, tahr_input *input)
     input->facing = entry->facing;
     input->flags = entry->has_facing ? TAHR_INPUT_FACING : 0;
     input->jump = (uint32_t)(jump || entry->jump);
+    input->crouch = (uint32_t)entry->crouch;
+    if (once != NULL && once->has_launch) {
+        input->launch = once->launch;
+        input->flags |= TAHR_INPUT_LAUNCH;
+    }
+    if (once != NULL && once->has_mode) {
+        input->mode = once->mode;
+        input->flags |= TAHR_INPUT_MODE;
+    }
     return route->next != before;
 }
 

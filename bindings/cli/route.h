@@ -9,6 +9,9 @@
 struct route_entry {
     double time; /* s */
     tahr_vec3 move, facing;
+    int crouch, has_launch, has_mode;
+    tahr_vec3 launch; /* m/s, in the first step of the entry */
+    uint32_t mode;    /* likewise */
     int jump, has_facing;
 };
 

@@ -37,6 +37,7 @@ struct run {
     tahr_world *world;
     tahr_config config;
     struct character *characters;
+    tahr_body_pose *poses; /* of the level's movers */
     struct route route;
     struct checker *checker; /* NULL: off */
     struct trace trace;
@@ -100,6 +101,7 @@ static int create_characters(struct run *run)
         struct character *character = &run->characters[i];
         character->spawn = places[i];
         wander_start(&character->wander, o->seed, i);
+        character->wander.crouches = o->level == NULL;
         place_character(run, character, 0);
         tahr_status status = tahr_mover_create(run->world, &run->config, &character->mover);
         if (status < 0) {
@@ -129,6 +131,10 @@ static int open_run(struct run *run)
     run->result.load_seconds = (double)(clock_ns() - before) * 1e-9;
     tahr_config_init(&run->config, sizeof run->config, o->preset);
     run->config.max_speed = WANDER_SPEED;
+    if (o->level == NULL) {
+        playground_feel(&run->config);
+    }
+    run->poses = memory_new(run->level.mover_count, sizeof *run->poses);
     if (open_world(run) != 0 || create_characters(run) != 0) {
         return -1;
     }
@@ -153,6 +159,7 @@ static void close_run(struct run *run)
         tahr_mover_destroy(run->characters[i].mover);
     }
     free(run->characters);
+    free(run->poses);
     if (run->csv != NULL) {
         fclose(run->csv); /* of a run that ended early */
     }
@@ -177,12 +184,7 @@ static void count_events(struct run *run, const struct moment *m)
     struct result *r = &run->result;
     for (uint32_t i = 0; i < m->report.event_count; i++) {
         const tahr_event *event = &m->events[i];
-        r->climbed += event->type == TAHR_EVENT_STEPPED_UP;
-        r->descended += event->type == TAHR_EVENT_STEPPED_DOWN;
-        r->jumps += event->type == TAHR_EVENT_JUMPED;
-        r->landings += event->type == TAHR_EVENT_LANDED;
-        r->depenetrated += event->type == TAHR_EVENT_DEPENETRATED;
-        r->crushed += event->type == TAHR_EVENT_CRUSHED;
+        r->events[event->type < EVENT_TYPES ? event->type : 0]++;
         if (run->options->plot != NULL) {
             trace_mark(&run->trace, m->index, event->type, m->time + event->time, event->position);
         }
@@ -193,7 +195,7 @@ static void count_report(struct run *run, const struct moment *m, const tahr_sta
 {
     struct result *r = &run->result;
     const tahr_report *report = &m->report;
-    uint32_t queries = report->sweeps + report->contact_queries + report->rays;
+    uint32_t queries = report->sweeps + report->contact_queries + report->rays + report->fluid_queries;
     r->steps++;
     r->sweeps += report->sweeps;
     r->contact_queries += report->contact_queries;
@@ -202,7 +204,7 @@ static void count_report(struct run *run, const struct moment *m, const tahr_sta
     r->gathers += report->gathers;
     r->escapes += report->escapes;
     r->most_queries = queries > r->most_queries ? queries : r->most_queries;
-    r->grounded += state->mode == TAHR_MODE_WALKING;
+    r->modes[state->mode < MODES ? state->mode : TAHR_MODE_NONE]++;
     r->unknown += (report->flags & TAHR_REPORT_UNKNOWN) != 0;
     if (report->flags & TAHR_REPORT_QUERY_CAP) {
         r->query_caps++;
@@ -225,7 +227,16 @@ static void check_step(struct run *run, const struct moment *m, const tahr_state
         add_finding(run, m, "tunnelled", m->before);
         trace_mark(&run->trace, m->index, TRACE_TUNNEL, m->time, state->position);
     }
-    double clearance = checker_clearance(run->checker, &run->config.shape, state->position, state->up);
+    const tahr_shape shape = shape_now(&run->config, state);
+    double clearance = checker_clearance(run->checker, &shape, state->position, state->up);
+    if (m->report.flags & TAHR_REPORT_CRUSHED) { /* there was no room, which only a mover can bring about */
+        r->crushed++;
+        if (checker_mover_clearance(run->checker, &shape, state->position, state->up) >= CHECK_REACH) {
+            r->crushed_alone++;
+            add_finding(run, m, "crushed by nothing that moves", state->position);
+        }
+        return;
+    }
     r->least_clearance = least(r->least_clearance, clearance);
     if (-clearance > run->options->backend->penetration_allowed) {
         add_finding(run, m, "penetration", state->position);
@@ -271,6 +282,27 @@ static void watch_step(struct run *run, const struct moment *m, struct character
     bring_back(run, m, character);
 }
 
+/* Everything that moves by itself goes first: characters see it where it is at the end of the step. */
+static int move_bodies(struct run *run, double begin)
+{
+    const struct level *level = &run->level;
+    tahr_body_pose pose = {0};
+    for (size_t i = 0; i < level->mover_count; i++) {
+        run->poses[i] = pose;
+        run->poses[i].body = level->movers[i].body;
+        run->poses[i].pose = level_mover_pose(&level->movers[i], begin + run->dt);
+    }
+    tahr_status status = tahr_world_move(run->world, run->poses, (uint32_t)level->mover_count, run->dt);
+    if (status < 0) {
+        say_error("cannot move the bodies of '%s': %s", level->name, tahr_status_message(status));
+        return -1;
+    }
+    if (run->checker != NULL) {
+        checker_time(run->checker, begin, begin + run->dt);
+    }
+    return 0;
+}
+
 static int step_character(struct run *run, struct moment *m)
 {
     struct character *character = &run->characters[m->index];
@@ -297,8 +329,8 @@ static void show_progress(const struct run *run, uint64_t step)
     const struct result *r = &run->result;
     fprintf(stderr, "\r%3.0f %%  %.1f of %.1f s, %llu steps climbed, %llu jumps, %llu fell out, %llu tunnelled ",
             100.0 * (double)step / (double)run->step_count, (double)step * run->dt, run->options->seconds,
-            (unsigned long long)r->climbed, (unsigned long long)r->jumps, (unsigned long long)r->fell_out,
-            (unsigned long long)r->tunnels);
+            (unsigned long long)r->events[TAHR_EVENT_STEPPED_UP], (unsigned long long)r->events[TAHR_EVENT_JUMPED],
+            (unsigned long long)r->fell_out, (unsigned long long)r->tunnels);
 }
 
 static int walk(struct run *run)
@@ -308,6 +340,9 @@ static int walk(struct run *run)
     uint64_t began = clock_ns(), next = began;
     for (moment.step = 0; moment.step < run->step_count; moment.step++) {
         moment.time = (double)moment.step * run->dt;
+        if (run->level.mover_count > 0 && move_bodies(run, moment.time) != 0) {
+            return -1;
+        }
         for (moment.index = 0; moment.index < run->options->characters; moment.index++) {
             if (step_character(run, &moment) != 0) {
                 return -1;
@@ -359,7 +394,8 @@ static int finish(struct run *run)
     struct result *r = &run->result;
     r->state_hash = hash_states(run);
     r->world_bytes = tahr_world_memory(run->world);
-    r->failed = r->tunnels > 0 || r->bad_states > 0 || r->stuck > 0 || r->deepest > o->backend->penetration_allowed;
+    r->failed = r->tunnels > 0 || r->crushed_alone > 0 || r->bad_states > 0 || r->stuck > 0 ||
+                r->deepest > o->backend->penetration_allowed;
     FILE *csv = run->csv;
     run->csv = NULL;
     if (csv != NULL && output_close(csv, "csv", o->csv) != 0) {

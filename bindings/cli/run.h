@@ -17,7 +17,7 @@ struct finding {
     tahr_vec3 position; /* of the character's centre, m */
 };
 
-enum { MAX_FINDINGS = 20 };
+enum { MAX_FINDINGS = 20, MODES = TAHR_MODE_CUSTOM + 1, EVENT_TYPES = TAHR_EVENT_GRABBED + 1 };
 
 /* What a run found. */
 struct result {
@@ -26,13 +26,14 @@ struct result {
     double clock_cost; /* ns, taken off every step's time */
     uint64_t sweeps, contact_queries, rays, triangle_tests, gathers, escapes;
     uint32_t most_queries; /* in one step */
-    uint64_t grounded;     /* steps that ended walking */
-    uint64_t climbed, descended, jumps, landings, fell_out, stuck, bad_states;
-    uint64_t depenetrated, crushed, unknown, query_caps;
+    uint64_t modes[MODES]; /* steps that ended in each mode */
+    uint64_t events[EVENT_TYPES];
+    uint64_t fell_out, stuck, bad_states, unknown, query_caps;
     double time_lost; /* s */
     uint64_t checked, tunnels;
-    double least_clearance; /* m; CHECK_REACH if nothing came closer */
-    double deepest;         /* m, deepest penetration of the true shape */
+    uint64_t crushed, crushed_alone; /* of the steps looked at; alone: with no mover near */
+    double least_clearance;          /* m; CHECK_REACH if nothing came closer */
+    double deepest;                  /* m, deepest penetration of the true shape */
     uint64_t state_hash;
     uint64_t world_bytes;
     double load_seconds, open_seconds, wall_seconds;

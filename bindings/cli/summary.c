@@ -40,9 +40,9 @@ static void words_oddities(const struct result *r)
     if (r->bad_states) {
         printf("  BAD        %" PRIu64 " steps ended in a state that is not finite\n", r->bad_states);
     }
-    if (r->unknown || r->crushed || r->query_caps || r->depenetrated) {
+    if (r->unknown || r->events[TAHR_EVENT_CRUSHED] || r->query_caps || r->events[TAHR_EVENT_DEPENETRATED]) {
         printf("  odd        %" PRIu64 " pushed out of overlaps, %" PRIu64 " crushed, %" PRIu64 " undecided\n",
-               r->depenetrated, r->crushed, r->unknown);
+               r->events[TAHR_EVENT_DEPENETRATED], r->events[TAHR_EVENT_CRUSHED], r->unknown);
         printf("             %" PRIu64 " stopped at the query cap, %.3g s not simulated\n", r->query_caps, r->time_lost);
     }
 }
@@ -72,7 +72,8 @@ void summary_words(const struct options *o, const struct level *level, const str
            per_step(r, r->sweeps), per_step(r, r->contact_queries), per_step(r, r->triangle_tests), r->most_queries);
     printf("  movement   %.1f %% on the ground, %" PRIu64 " steps climbed, %" PRIu64 " descended, %" PRIu64
            " jumps, %" PRIu64 " landings\n",
-           100 * per_step(r, r->grounded), r->climbed, r->descended, r->jumps, r->landings);
+           100 * per_step(r, r->modes[TAHR_MODE_WALKING]), r->events[TAHR_EVENT_STEPPED_UP],
+           r->events[TAHR_EVENT_STEPPED_DOWN], r->events[TAHR_EVENT_JUMPED], r->events[TAHR_EVENT_LANDED]);
     printf("  trouble    %" PRIu64 " fell out of the level, %" PRIu64 " stuck for good\n", r->fell_out, r->stuck);
     words_oddities(r);
     words_check(o, r);
@@ -143,16 +144,16 @@ static void put_behaviour(json_t *object, const struct result *r)
 {
     char hash[17];
     snprintf(hash, sizeof hash, "%016" PRIx64, r->state_hash);
-    put_real(object, "grounded", per_step(r, r->grounded));
-    put_count(object, "steps_climbed", r->climbed);
-    put_count(object, "steps_descended", r->descended);
-    put_count(object, "jumps", r->jumps);
-    put_count(object, "landings", r->landings);
+    put_real(object, "grounded", per_step(r, r->modes[TAHR_MODE_WALKING]));
+    put_count(object, "steps_climbed", r->events[TAHR_EVENT_STEPPED_UP]);
+    put_count(object, "steps_descended", r->events[TAHR_EVENT_STEPPED_DOWN]);
+    put_count(object, "jumps", r->events[TAHR_EVENT_JUMPED]);
+    put_count(object, "landings", r->events[TAHR_EVENT_LANDED]);
     put_count(object, "fell_out", r->fell_out);
     put_count(object, "stuck", r->stuck);
     put_count(object, "bad_states", r->bad_states);
-    put_count(object, "depenetrated", r->depenetrated);
-    put_count(object, "crushed", r->crushed);
+    put_count(object, "depenetrated", r->events[TAHR_EVENT_DEPENETRATED]);
+    put_count(object, "crushed", r->events[TAHR_EVENT_CRUSHED]);
     put_count(object, "unknown", r->unknown);
     put_count(object, "query_caps", r->query_caps);
     put_real(object, "time_lost", r->time_lost);
@@ -162,6 +163,20 @@ static void put_behaviour(json_t *object, const struct result *r)
     put_real(object, "least_clearance", r->least_clearance);
     put_text(object, "state_hash", hash);
     json_object_set_new(object, "ok", json_boolean(!r->failed));
+}
+
+/* Every mode's part of the steps, and how often everything happened. */
+static void put_counts(json_t *object, const struct result *r)
+{
+    json_t *modes = json_object(), *events = json_object();
+    for (uint32_t i = 0; i < MODES; i++) {
+        put_real(modes, tahr_mode_name(i), per_step(r, r->modes[i]));
+    }
+    for (uint32_t i = 1; i < EVENT_TYPES; i++) {
+        put_count(events, tahr_event_name(i), r->events[i]);
+    }
+    json_object_set_new(object, "modes", modes);
+    json_object_set_new(object, "events", events);
 }
 
 static void put_findings(json_t *object, const struct result *r)
@@ -188,6 +203,7 @@ void summary_json(const struct options *options, const struct level *level, cons
     put_run(object, options, level);
     put_cost(object, result);
     put_behaviour(object, result);
+    put_counts(object, result);
     put_findings(object, result);
     json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
     putchar('\n');

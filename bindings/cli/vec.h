@@ -36,6 +36,18 @@ static inline double vec_length(tahr_vec3 a)
     return sqrt(vec_dot(a, a));
 }
 
+static inline tahr_vec3 vec_turn(tahr_quat q, tahr_vec3 v)
+{
+    tahr_vec3 axis = {q.x, q.y, q.z};
+    tahr_vec3 t = vec_scale(vec_cross(axis, v), 2);
+    return vec_add(vec_add(v, vec_scale(t, q.w)), vec_cross(axis, t));
+}
+
+static inline tahr_vec3 vec_turn_back(tahr_quat q, tahr_vec3 v)
+{
+    return vec_turn((tahr_quat){-q.x, -q.y, -q.z, q.w}, v);
+}
+
 static inline int vec_finite(tahr_vec3 a)
 {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);

@@ -8,6 +8,9 @@
 #define HEADING_MAX 2.0
 #define JUMP_CHANCE 0.05
 
+/* Where there is something to crawl through. */
+#define CROUCH_CHANCE 0.15
+
 /* PCG32 (XSH RR 64/32), M. E. O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms for
  * Random Number Generation", 2014: a 64-bit linear congruential generator whose high bits are shifted and rotated
  * out. */
@@ -78,8 +81,10 @@ int wander_input(struct wander *wander, double time, tahr_input *input)
         wander->heading = unit_vector(pcg_unit(&wander->random));
         wander->next_change += HEADING_MIN + (HEADING_MAX - HEADING_MIN) * pcg_unit(&wander->random);
         input->jump |= pcg_unit(&wander->random) < JUMP_CHANCE;
+        wander->crouch = wander->crouches && pcg_unit(&wander->random) < CROUCH_CHANCE;
         changed = 1;
     }
     input->move = wander->heading;
+    input->crouch = wander->crouch;
     return changed;
 }

@@ -14,6 +14,8 @@ struct wander {
     struct pcg random;
     double next_change; /* s */
     tahr_vec3 heading;
+    int crouches; /* 1: may go crouched for the time of a heading */
+    uint32_t crouch;
 };
 
 void pcg_start(struct pcg *random, uint64_t seed, uint64_t stream);
@@ -25,7 +27,7 @@ tahr_vec3 unit_vector(double turn);
 
 void wander_start(struct wander *wander, uint64_t seed, uint32_t character);
 
-/* Fills move and jump for the step that begins at time. 1: the heading is new. */
+/* Fills move, jump and crouch for the step that begins at time. 1: the heading is new. */
 int wander_input(struct wander *wander, double time, tahr_input *input);
 
 #endif

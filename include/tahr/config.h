@@ -29,7 +29,8 @@ enum { TAHR_SLIDE_JOINT = 1, TAHR_SLIDE_TWO_WALLS = 2 };
 enum { TAHR_SEPARATION_MARGIN = 1, TAHR_SEPARATION_PULL_BACK = 2 };
 
 /* What looks for the floor. WHOLE: the shape with its skin. SHRUNK: a shorter shape without a skin, a thinner one where that
- * touched the rim, then a ray: finds the depth of what is overlapped, and needs up to 3 queries. */
+ * touched the rim, then a ray: finds the depth of what is overlapped, and needs up to 3 queries (6 with a perch). The
+ * clearance band is then one along up, not along the normal: made for PULL_BACK. */
 enum { TAHR_FLOOR_PROBE_WHOLE = 1, TAHR_FLOOR_PROBE_SHRUNK = 2 };
 
 /* How overlaps are left. JOINT: the least motion that frees of all surfaces together. SINGLE: the depth of one surface at
@@ -40,7 +41,8 @@ enum { TAHR_DEPENETRATION_JOINT = 1, TAHR_DEPENETRATION_SINGLE = 2 };
  * down after this frame's motion. */
 enum { TAHR_STEP_BY_TREAD = 1, TAHR_STEP_BY_CONTACT = 2 };
 
-/* Which velocity of a base goes with a character that leaves it. */
+/* Which velocity of a base goes with a character that leaves it: across up; along up, also downward, so that a jump is as
+ * high above a lift that sinks as above the ground; and of the base's turning. */
 enum { TAHR_IMPART_LEVEL = 1 << 0, TAHR_IMPART_UP = 1 << 1, TAHR_IMPART_TURN = 1 << 2 };
 
 /* Defaults in brackets are those of TAHR_PRESET_PRECISE, and after a bar those of TAHR_PRESET_UNREAL where they differ.
@@ -65,16 +67,18 @@ typedef struct tahr_config {
     uint32_t floor_probe;   /* TAHR_FLOOR_PROBE_* [WHOLE | SHRUNK] */
     uint32_t depenetration; /* TAHR_DEPENETRATION_* [JOINT | SINGLE] */
     uint32_t step_rule;     /* TAHR_STEP_BY_* [TREAD | CONTACT] */
-    uint32_t flat_base; /* [0] 1, with SHRUNK: a round shape looks for the floor with a box: does not sink at edges */
+    uint32_t flat_base; /* [0] 1, with SHRUNK: a round shape looks for the floor with a box (0.707 of the radius), if the
+                         * backend has boxes: does not sink at edges; rests higher over slopes, up to 10 queries */
     uint32_t keep_level_speed; /* [0 | 1] 1: the speed asked for is the level one on ramps; 0: the one along the surface */
 
     /* Collision */
     uint32_t mask;       /* [all bits] bodies this character meets; 0: none */
     uint32_t max_slides; /* [8] sweeps of one slice of walking or falling, then the rest of the motion is dropped; 1..16 */
     double skin;         /* m [0.01 | 0.019] distance kept from everything that blocks (PULL_BACK: from floors) */
-    double pull_back;    /* m [0.001] PULL_BACK: least distance taken back; 1.25 of it is added to every push out */
-    double max_depenetration;           /* m [1.0 | 5.0] longest push out of an overlap per step */
-    double max_depenetration_character; /* m [1.0] the same, out of a body with TAHR_BODY_CHARACTER */
+    double pull_back; /* m [0.001] PULL_BACK: least distance taken back, 0.004 of it the shortest motion; SINGLE: 1.25 of
+                          * it is added to every push, where a shape larger by it fits */
+    double max_depenetration; /* m [1.0 | 5.0] JOINT: longest way out of overlaps per step; SINGLE: longest push */
+    double max_depenetration_character; /* m [1.0] SINGLE: the same, out of a body with TAHR_BODY_CHARACTER */
     tahr_vec3 plane;                    /* [0] unit normal: motion stays across it (a side-scroller); zero: none */
     double mass;                        /* kg [80 | 100] */
     double push_force;                  /* N [500 | 500] most that is reported as a push against a body with a mass */

@@ -59,9 +59,10 @@ enum {
 /* The body that carries the character. */
 typedef struct tahr_base {
     uint32_t body; /* or TAHR_NO_BODY */
-    uint32_t reserved;
+    uint32_t seen; /* low half of the world's revision in the last step while bodies move, else 0 */
     tahr_pose pose;     /* of the body, as the last step saw it */
-    tahr_vec3 velocity; /* m/s, world: of the body at the foot; after it was left, what of it the character still has */
+    tahr_vec3 velocity; /* m/s, world: of the body at the foot, or what it was until it stopped (config.lift_momentum);
+                         * after it was left, what of it the character still has */
 } tahr_base;
 
 enum { TAHR_MAX_TOUCHED = 8 };
@@ -71,7 +72,7 @@ enum { TAHR_MAX_TOUCHED = 8 };
  * orientation and mode between steps; the floor is looked for again wherever position is not floor_position. */
 typedef struct tahr_state {
     tahr_vec3 position;    /* m, world, centre of the shape */
-    tahr_vec3 velocity;    /* m/s, world */
+    tahr_vec3 velocity;    /* m/s, along the world's axes; on a base (base.body) relative to it */
     tahr_quat orientation; /* its z axis is up (keep it so when you write it); yaw follows input.facing */
     tahr_vec3 up;
     uint32_t mode;  /* TAHR_MODE_* */
@@ -83,7 +84,7 @@ typedef struct tahr_state {
     double radius;            /* m, of the shape now: config.shape unless crouched or changed */
     double half_height;       /* m */
     tahr_base base;
-    uint32_t touched[TAHR_MAX_TOUCHED]; /* sensors that it is inside of, by ascending id, then TAHR_NO_BODY */
+    uint32_t touched[TAHR_MAX_TOUCHED]; /* sensors that it overlaps, the lowest ids, ascending, then TAHR_NO_BODY */
     uint32_t touched_count;
     uint32_t jump_count;   /* jumps since it last stood */
     double coyote_left;    /* s for which a jump may still start after the floor ended */
@@ -145,7 +146,10 @@ enum {
     TAHR_EVENT_CRUSHED = 10,     /* value: depth that is left, m */
     TAHR_EVENT_STUCK = 11,
     TAHR_EVENT_MODE = 12,          /* value: the new mode */
-    TAHR_EVENT_OVERLAP_BEGIN = 13, /* of a sensor; in one step with its end: passed through */
+    /* Of a sensor, a fluid too; both in one step: passed through. At the time and the place at which the shape met or left
+     * it; what came, went or is not met any more without a motion of the character's: at the start of the step. What does
+     * not fit into state.touched begins when there is room for it. */
+    TAHR_EVENT_OVERLAP_BEGIN = 13,
     TAHR_EVENT_OVERLAP_END = 14,
     TAHR_EVENT_BASE = 15,     /* stands on another body (or TAHR_NO_BODY) */
     TAHR_EVENT_SHAPE = 16,    /* value: the new half height, m */
@@ -225,7 +229,8 @@ typedef struct tahr_decision {
 
 enum { TAHR_QUERY_SWEEP = 1, TAHR_QUERY_CONTACTS = 2, TAHR_QUERY_RAY = 3, TAHR_QUERY_FLUID = 4 };
 
-/* One query as it was asked and answered, for debugging. Frozen. */
+/* One query as it was asked and answered, for debugging; also those of motions that were taken back. Sweeps for sensors
+ * have a margin of 0 and count sensors, all others count what blocks. Frozen. */
 typedef struct tahr_query_record {
     uint32_t type;  /* TAHR_QUERY_* */
     uint32_t count; /* of answers; the first one below */
@@ -247,7 +252,7 @@ enum {
     TAHR_REPORT_STUCK = 1 << 1,
     TAHR_REPORT_CRUSHED = 1 << 2,
     TAHR_REPORT_QUERY_CAP = 1 << 3,
-    TAHR_REPORT_TRUNCATED = 1 << 4,  /* events or decisions were lost: see the counts */
+    TAHR_REPORT_TRUNCATED = 1 << 4,  /* events, decisions or queries were lost: see the counts */
     TAHR_REPORT_UP_REFUSED = 1 << 5, /* the new up direction would have overlapped something; the old one stays */
     TAHR_REPORT_CACHED_FLOOR = 1 << 6,
     TAHR_REPORT_ASLEEP = 1 << 7, /* a step like the last one, which changed nothing: not computed, no queries counted */
@@ -259,6 +264,10 @@ enum {
 
 /* The most queries one step may ask, whatever the world answers; then it stops where it is and says so. */
 #define TAHR_MAX_QUERIES_PER_STEP 256u
+
+/* And the most sweeps for sensors on top of them: none while no sensor is near, one for every straight piece of the way
+ * inside of a sensor, two where one is entered. */
+#define TAHR_MAX_SENSOR_QUERIES_PER_STEP 64u
 
 /* What a step did. Set struct_size and the three arrays (NULL allowed); everything else is written by the step. */
 typedef struct tahr_report {
@@ -326,7 +335,9 @@ TAHR_API void tahr_mover_destroy(tahr_mover *mover);
  * state not finite or out of range; the log names the field), TAHR_E_BACKEND, TAHR_E_REENTRANT.
  * Allocates nothing. Pure: the result depends on world, config, input, dt and state only. Different movers may step on
  * different threads at once. Queries: at most TAHR_MAX_QUERIES_PER_STEP; on flat ground 2 sweeps moving, 1 standing, 0
- * standing on a cached floor or asleep. Since 0.1. */
+ * standing on a cached floor or asleep; on a base that moves 1 more (3 where it tilts); for every body that moves near the
+ * character 1 or 2, and 12 more while it pushes; near sensors those of TAHR_MAX_SENSOR_QUERIES_PER_STEP besides. A report
+ * with decisions or queries keeps the step awake. Since 0.1. */
 TAHR_API tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report);
 

@@ -44,8 +44,10 @@ typedef struct tahr_shape {
     double half_y;      /* m, boxes only */
 } tahr_shape;
 
-/* Sweep flags. LEAVE_OVERLAP: a surface that is overlapped at the start blocks only a motion that goes deeper in. */
-enum { TAHR_SWEEP_LEAVE_OVERLAP = 1 };
+/* Sweep flags. LEAVE_OVERLAP: a surface that is overlapped at the start blocks only a motion that goes deeper in.
+ * ONLY_BODY: the other way round: nothing is there but ignore_body (asked only of bodies that tahr_world_move moves).
+ * SENSORS: only sensors are there, and nothing blocks; a motion of zero asks what the shape is inside of. */
+enum { TAHR_SWEEP_LEAVE_OVERLAP = 1, TAHR_SWEEP_ONLY_BODY = 2, TAHR_SWEEP_SENSORS = 4 };
 
 /* "How far can this shape go along this motion before the distance to something falls to margin?"
  * The margin is a distance between surfaces along their normal (metres, >= 0), not extra motion. With d0 the signed
@@ -59,10 +61,13 @@ typedef struct tahr_sweep {
     tahr_vec3 motion;      /* m, world */
     double margin;         /* m */
     uint32_t mask;         /* bodies with (body.mask & mask) == 0 are not there */
-    uint32_t ignore_body;  /* one body that is not there, or TAHR_NO_BODY */
+    uint32_t ignore_body;  /* one body that is not there (ONLY_BODY: that alone is), or TAHR_NO_BODY */
     uint32_t flags;        /* TAHR_SWEEP_* */
     uint32_t reserved;
 } tahr_sweep;
+
+/* Contact query flags. SOLID: sensors are not there. */
+enum { TAHR_CONTACTS_SOLID = 1 };
 
 /* "What is within margin of this shape here?" */
 typedef struct tahr_contact_query {
@@ -73,7 +78,7 @@ typedef struct tahr_contact_query {
     double margin; /* m, >= 0; 0 = overlap and penetration only */
     uint32_t mask;
     uint32_t ignore_body;
-    uint32_t flags; /* 0 */
+    uint32_t flags; /* TAHR_CONTACTS_* */
     uint32_t reserved;
 } tahr_contact_query;
 

@@ -16,7 +16,7 @@ struct tahr_backend;
 enum { TAHR_BODY_MESH = 1, TAHR_BODY_BOX = 2, TAHR_BODY_SPHERE = 3, TAHR_BODY_CAPSULE = 4 };
 
 enum {
-    TAHR_BODY_SENSOR = 1 << 0,    /* reported, never blocks */
+    TAHR_BODY_SENSOR = 1 << 0,    /* reported, never blocks; a mesh is met at its surface, other bodies inside too */
     TAHR_BODY_TWO_SIDED = 1 << 1, /* mesh triangles block from behind too */
     TAHR_BODY_MOVABLE = 1 << 2,   /* will be placed again with tahr_world_set or _move; others never move */
     TAHR_BODY_FLUID = 1 << 3,     /* a volume to swim in: a sensor too; boxes, spheres, capsules */
@@ -112,9 +112,12 @@ typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *qu
  * hit; only surface_normal is derived. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_ray_fn)(void *user, const tahr_ray *query, tahr_hit *hit);
 
-/* [in] query, [out] hits (capacity of them, zeroed) and *count: the sensors that a motion passes or ends in, ordered by
- * (fraction, body, feature), each with fraction, body and feature. The motion is one that was found free. Statuses and
- * threads as for tahr_sweep_fn. */
+/* [in] query, [out] hits (capacity of them, zeroed) and *count (0 before the call, at most capacity): the sensors that a
+ * motion passes, ends in or begins in, one record each, ordered by (fraction, body), with body, feature, surface and
+ * fraction, at which the distance falls to query->margin; those that the shape overlaps at the start (distance < 0) with
+ * start_overlap and fraction 0. A motion of zero asks for those alone. What stays zero is derived: normal from the motion (the
+ * true one makes the times of events in a fall exact), surface_normal from normal, point from the position.
+ * Return TAHR_TRUNCATED if there are more. Other statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_sensors_fn)(void *user, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
                                        uint32_t *count);
 /* [in] body, one that your hits name, [out] motion (at rest at the origin before the call). Return TAHR_E_NOT_FOUND for a
@@ -173,12 +176,16 @@ TAHR_API void tahr_world_close(tahr_world *world);
 TAHR_API tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint32_t count);
 
 /* Moves movable bodies to new poses within dt seconds (> 0, up to 10), and advances the revision. All or nothing. Needs
- * exclusive access. In their next step characters are carried by what they stand on, by the exact difference of its
- * poses, and pushed by what moves into them; bodies that are not named come to rest. Statuses as for tahr_world_set, and
- * TAHR_E_ARGUMENT (dt). Since 0.1. */
+ * exclusive access. Call it once before the steps of a tick, with every body that moves in it: bodies that are not named,
+ * or are where they were, come to rest. In their next step characters are carried by what they stand on, by the exact
+ * difference of its poses, and pushed by what moves into them, straight and turning evenly (by less than half a turn). A
+ * body named twice goes to its last pose. poses[i].flags: TAHR_POSE_TELEPORT. For a rollback put the bodies back with
+ * tahr_world_set and move them again: all bits repeat. Statuses as for tahr_world_set, and TAHR_E_ARGUMENT (dt; flags
+ * unknown). Since 0.1. */
 TAHR_API tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *poses, uint32_t count, double dt);
 
-/* How a body moves now. [out] motion, untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND, TAHR_E_BACKEND
+/* How a body moves now: its speeds are those of the last tahr_world_move, on the way to this pose. World frame, SI units.
+ * [out] motion, untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND, TAHR_E_BACKEND
  * (an invalid answer of a callback). Allocates nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_world_body(tahr_world *world, uint32_t body, tahr_body_motion *motion);
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "scene_level.h"
+#include "scene_motion.h"
 
 static int bad(scene *s, const char *what, const char *where)
 {
@@ -157,6 +158,19 @@ static void read_flags(json_t *item, tahr_body_desc *body)
 {
     body->flags |= json_is_true(json_object_get(item, "sensor")) ? (uint32_t)TAHR_BODY_SENSOR : 0u;
     body->flags |= json_is_true(json_object_get(item, "two_sided")) ? (uint32_t)TAHR_BODY_TWO_SIDED : 0u;
+    body->flags |= json_is_true(json_object_get(item, "fluid")) ? (uint32_t)TAHR_BODY_FLUID : 0u;
+    body->flags |= json_is_true(json_object_get(item, "no_base")) ? (uint32_t)TAHR_BODY_NO_BASE : 0u;
+    body->flags |= json_is_true(json_object_get(item, "no_step")) ? (uint32_t)TAHR_BODY_NO_STEP : 0u;
+    body->flags |= json_is_true(json_object_get(item, "character")) ? (uint32_t)TAHR_BODY_CHARACTER : 0u;
+}
+
+/* "flow": surface velocity, m/s; "mass", kg; "friction" of a fluid, 1/s. */
+static int read_matter(scene *s, json_t *item, tahr_body_desc *body)
+{
+    json_t *flow = json_object_get(item, "flow");
+    body->mass = number(s, item, "mass", 0);
+    body->fluid_friction = number(s, item, "friction", 0);
+    return !flow || scene_vec3(s, flow, &body->surface_velocity);
 }
 
 int scene_bodies_read(scene *s)
@@ -176,7 +190,8 @@ int scene_bodies_read(scene *s)
         }
         read_pose(s, item, &body->pose);
         read_flags(item, body);
-        if (!read_walkable(s, item, body)) {
+        if (!read_walkable(s, item, body) || !read_matter(s, item, body) ||
+            !scene_motion_read(s, item, s->body_count - 1)) {
             return 0;
         }
     }

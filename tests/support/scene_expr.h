@@ -3,7 +3,7 @@
 #ifndef TAHR_TEST_SCENE_EXPR_H
 #define TAHR_TEST_SCENE_EXPR_H
 
-#define SCENE_MAX_NAMES 16
+#define SCENE_MAX_NAMES 24
 
 typedef struct scene_name {
     char name[24];

@@ -2,57 +2,12 @@
  * scene_file.c: reads movement scenes from JSON. */
 #include "scene_file.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "scene_bodies.h"
-
-#define FIELD(kind, name)                        \
-    {                                            \
-#name, offsetof(tahr_config, name), kind \
-    }
-
-enum { REAL, WORD };
-
-static const struct {
-    const char *name;
-    size_t offset;
-    int kind;
-} CONFIG_FIELDS[] = {
-    FIELD(WORD, max_slides),
-    FIELD(REAL, skin),
-    FIELD(REAL, max_depenetration),
-    FIELD(REAL, walkable_angle),
-    FIELD(REAL, walkable_hysteresis),
-    FIELD(REAL, floor_target),
-    FIELD(REAL, floor_max),
-    FIELD(REAL, step_height),
-    FIELD(REAL, snap_distance),
-    FIELD(REAL, perch_threshold),
-    FIELD(REAL, perch_extra),
-    FIELD(REAL, edge_tolerance),
-    FIELD(WORD, cached_floor),
-    FIELD(WORD, walk_off_ledges),
-    FIELD(REAL, max_speed),
-    FIELD(REAL, acceleration),
-    FIELD(REAL, turn_friction),
-    FIELD(REAL, braking_deceleration),
-    FIELD(REAL, braking_drag),
-    FIELD(REAL, jump_speed),
-    FIELD(REAL, jump_hold_time),
-    FIELD(REAL, terminal_speed),
-    FIELD(REAL, air_control),
-    FIELD(REAL, air_turn_friction),
-    FIELD(REAL, arc_tolerance),
-    FIELD(REAL, max_dt),
-    FIELD(REAL, turn_rate),
-    FIELD(WORD, sleep),
-    {"radius", offsetof(tahr_config, shape) + offsetof(tahr_shape, radius), REAL},
-    {"half_height", offsetof(tahr_config, shape) + offsetof(tahr_shape, half_height), REAL},
-    {"half_x", offsetof(tahr_config, shape) + offsetof(tahr_shape, half_x), REAL},
-    {"half_y", offsetof(tahr_config, shape) + offsetof(tahr_shape, half_y), REAL},
-};
+#include "scene_config.h"
+#include "scene_input.h"
 
 static int bad(scene *s, const char *what, const char *where)
 {
@@ -144,80 +99,6 @@ static int read_names(scene *s, int variant)
     return 1;
 }
 
-/* "shape": "capsule", "box" (as wide and high as the preset's capsule) or "sphere" (of its radius); other fields may
- * change it afterwards. */
-static int read_shape(scene *s, json_t *value)
-{
-    tahr_shape *shape = &s->config.shape;
-    const char *name = json_string_value(value);
-    name = name ? name : "?";
-    if (strcmp(name, "box") == 0) {
-        *shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.35, .half_y = 0.35};
-    } else if (strcmp(name, "sphere") == 0) {
-        *shape = (tahr_shape){.type = TAHR_SHAPE_SPHERE, .radius = 0.35, .half_height = 0.35};
-    } else if (strcmp(name, "capsule") != 0) {
-        return bad(s, "no such shape", name);
-    }
-    return 1;
-}
-
-static int read_config(scene *s)
-{
-    json_t *value;
-    const char *name, *field = NULL;
-    tahr_config_init(&s->config, sizeof s->config, TAHR_PRESET_PRECISE);
-    json_object_foreach(json_object_get(s->root, "config"), name, value)
-    {
-        size_t i = 0, count = sizeof CONFIG_FIELDS / sizeof CONFIG_FIELDS[0];
-        double number;
-        if (strcmp(name, "shape") == 0) {
-            if (!read_shape(s, value)) {
-                return 0;
-            }
-            continue;
-        }
-        while (i < count && strcmp(CONFIG_FIELDS[i].name, name) != 0) {
-            i++;
-        }
-        if (i == count) {
-            return bad(s, "no such config field", name);
-        }
-        if (!scene_number(s, value, &number)) {
-            return 0;
-        }
-        char *at = (char *)&s->config + CONFIG_FIELDS[i].offset;
-        if (CONFIG_FIELDS[i].kind == REAL) {
-            memcpy(at, &number, sizeof number);
-        } else {
-            uint32_t word = (uint32_t)number;
-            memcpy(at, &word, sizeof word);
-        }
-    }
-    return tahr_config_check(&s->config, &field) == TAHR_OK
-               ? 1
-               : bad(s, "rejected by tahr_config_check", field ? field : "?");
-}
-
-/* "move": [x, y, z], or "heading": degrees from +x toward +y with "size" (1). */
-static int read_input(scene *s, json_t *item, scene_input *in)
-{
-    json_t *heading = json_object_get(item, "heading"), *move = json_object_get(item, "move");
-    double angle = 0, size = 1;
-    in->input.struct_size = sizeof in->input;
-    in->input.jump = json_is_true(json_object_get(item, "jump"));
-    if (!scene_number(s, json_object_get(item, "at"), &in->time)) {
-        return 0;
-    }
-    if (json_object_get(item, "size") && !scene_number(s, json_object_get(item, "size"), &size)) {
-        return 0;
-    }
-    if (heading && scene_number(s, heading, &angle)) {
-        in->input.move.x = size * cos(angle * 0.017453292519943295);
-        in->input.move.y = size * sin(angle * 0.017453292519943295);
-    }
-    return move ? scene_vec3(s, move, &in->input.move) : 1;
-}
-
 static int read_inputs(scene *s)
 {
     size_t i;
@@ -227,7 +108,7 @@ static int read_inputs(scene *s)
         if (s->input_count == SCENE_MAX_INPUTS) {
             return bad(s, "too many", "inputs");
         }
-        if (!read_input(s, item, &s->inputs[s->input_count++])) {
+        if (!scene_input_read(s, item, &s->inputs[s->input_count++])) {
             return 0;
         }
     }
@@ -258,6 +139,8 @@ static int read_start(scene *s)
     json_t *start = json_object_get(s->root, "start"), *settle = json_object_get(start, "settle");
     json_t *velocity = json_object_get(start, "velocity");
     s->settle = !json_is_false(settle);
+    s->may_be_crushed = json_string_value(json_object_get(s->root, "allow")) != NULL &&
+                        strcmp(json_string_value(json_object_get(s->root, "allow")), "crushed") == 0;
     return scene_vec3(s, json_object_get(start, "position"), &s->position) &&
            (!velocity || scene_vec3(s, velocity, &s->velocity)) &&
            scene_number(s, json_object_get(s->root, "duration"), &s->duration);
@@ -265,7 +148,7 @@ static int read_start(scene *s)
 
 static int known_keys(scene *s)
 {
-    static const char *const KEYS = " about vary let config bodies start inputs duration rates expect ";
+    static const char *const KEYS = " about vary let config bodies start inputs duration rates expect allow ";
     const char *name;
     json_t *value;
     json_object_foreach(s->root, name, value)
@@ -287,7 +170,7 @@ int scene_read(scene *s, const char *path, int variant)
     snprintf(s->name, sizeof s->name, "%.*s", (int)strcspn(file, "."), file);
     s->root = load(path, s->error, sizeof s->error);
     s->expect = json_object_get(s->root, "expect");
-    return s->root && known_keys(s) && read_names(s, variant) && read_config(s) && scene_bodies_read(s) &&
+    return s->root && known_keys(s) && read_names(s, variant) && scene_config_read(s) && scene_bodies_read(s) &&
            read_start(s) && read_inputs(s) && read_rates(s);
 }
 

@@ -16,6 +16,14 @@ typedef struct scene_input {
     tahr_input input;
 } scene_input;
 
+/* How a body moves: offsets from its place as formulas of "t". */
+enum { SCENE_PATH = 5 }; /* x y z, yaw and tilt in degrees */
+typedef struct scene_path {
+    int moves;
+    json_t *along[SCENE_PATH]; /* borrowed */
+    double teleport;           /* s at which it jumps, or < 0 */
+} scene_path;
+
 typedef struct scene {
     char name[128]; /* file, and the values of what is varied */
     char error[256];
@@ -25,9 +33,11 @@ typedef struct scene {
     tahr_config config;
     tahr_body_desc bodies[SCENE_MAX_BODIES];
     scene_mesh meshes[SCENE_MAX_BODIES];
+    scene_path paths[SCENE_MAX_BODIES];
     uint32_t body_count;
     tahr_vec3 position, velocity;
-    int settle; /* stand still first until the floor is found */
+    int settle;         /* stand still first until the floor is found */
+    int may_be_crushed; /* "allow": "crushed" */
     double duration;
     scene_input inputs[SCENE_MAX_INPUTS];
     int input_count;

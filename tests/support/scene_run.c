@@ -6,6 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene_input.h"
+#include "scene_motion.h"
+
 enum { EVENTS_PER_STEP = 64, SETTLE_STEPS = 30 };
 
 typedef struct runner {
@@ -30,12 +33,6 @@ tahr_vec3 scene_turn(tahr_quat q, tahr_vec3 v)
 tahr_vec3 scene_turn_back(tahr_quat q, tahr_vec3 v)
 {
     return scene_turn((tahr_quat){-q.x, -q.y, -q.z, q.w}, v);
-}
-
-static tahr_quat after(tahr_quat a, tahr_quat b)
-{
-    return (tahr_quat){a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-                       a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
 void scene_record_cut(scene_record *r, double time)
@@ -82,9 +79,12 @@ static double clearance(runner *run)
     enum { CONTACTS = 64 };
     tahr_contact contacts[CONTACTS];
     const tahr_config *c = &run->scene->config;
+    tahr_shape shape = c->shape;
     uint32_t count = 0;
+    shape.radius = run->state.radius;
+    shape.half_height = run->state.half_height;
     double nearest = 2 * c->skin;
-    tahr_contact_query query = {.shape = c->shape,
+    tahr_contact_query query = {.shape = shape,
                                 .position = run->state.position,
                                 .up = run->state.up,
                                 .orientation = run->state.orientation,
@@ -117,7 +117,7 @@ static void keep(runner *run, double time, double dt, const tahr_report *report,
     }
     sample->input = *input;
     sample->sweeps = report->sweeps;
-    sample->queries = report->sweeps + report->contact_queries + report->rays;
+    sample->queries = report->sweeps + report->contact_queries + report->rays + report->fluid_queries;
     sample->flags = report->flags;
     sample->step_offset = report->step_offset;
     for (uint32_t i = 0; i < report->event_count; i++) {
@@ -131,7 +131,14 @@ static int take_step(runner *run, const tahr_input *input, double dt, double tim
 {
     tahr_report report = {.struct_size = sizeof report, .events = run->events, .event_capacity = EVENTS_PER_STEP};
     tahr_input turned = *input;
-    turned.move = scene_turn(run->frame->orientation, input->move);
+    tahr_vec3 *vectors[] = {&turned.move,   &turned.facing,  &turned.gravity,
+                            &turned.launch, &turned.impulse, &turned.drive};
+    for (size_t i = 0; i < sizeof vectors / sizeof vectors[0]; i++) {
+        *vectors[i] = scene_turn(run->frame->orientation, *vectors[i]);
+    }
+    if (!settling && scene_motion_move(run->scene, run->world, run->frame, time, time + dt) < 0) {
+        return fail(run->record, time, "moving bodies", "refused");
+    }
     tahr_status status = tahr_mover_step(run->mover, &turned, dt, &run->state, &report);
     if (status < 0) {
         return fail(run->record, time, "step", tahr_status_name(status));
@@ -161,16 +168,6 @@ static int settle(runner *run)
     return 1;
 }
 
-static const tahr_input *input_at(const scene *s, double time)
-{
-    static const tahr_input NONE = {.struct_size = sizeof NONE};
-    const tahr_input *input = &NONE;
-    for (int i = 0; i < s->input_count && s->inputs[i].time <= time + 1e-9; i++) {
-        input = &s->inputs[i].input;
-    }
-    return input;
-}
-
 static int walk(runner *run, double rate)
 {
     const scene_record *r = run->record;
@@ -187,7 +184,8 @@ static int walk(runner *run, double rate)
         } else {
             tick++;
         }
-        if (!take_step(run, input_at(run->scene, time), next - time, time, 0)) {
+        tahr_input input = scene_input_at(run->scene, time);
+        if (!take_step(run, &input, next - time, time, 0)) {
             return 0;
         }
         time = next;
@@ -207,8 +205,7 @@ static tahr_status open_scene(runner *run, const scene_backend *backend)
     tahr_body_desc bodies[SCENE_MAX_BODIES];
     for (uint32_t i = 0; i < s->body_count; i++) {
         bodies[i] = s->bodies[i];
-        bodies[i].pose.position = into(run->frame, bodies[i].pose.position);
-        bodies[i].pose.orientation = after(run->frame->orientation, bodies[i].pose.orientation);
+        bodies[i].pose = scene_motion_pose_in(run->scene, i, 0, run->frame);
     }
     return scene_backend_open(backend, bodies, s->body_count, NULL, &run->world);
 }

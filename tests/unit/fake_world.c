@@ -279,6 +279,11 @@ static void fill_hit(const fake_world *w, uint32_t i, const probe *p, double t, 
     }
 }
 
+static int is_asked(uint32_t body, uint32_t named, uint32_t flags)
+{
+    return (body == named) == ((flags & TAHR_SWEEP_ONLY_BODY) != 0);
+}
+
 tahr_status fake_sweep(void *user, const tahr_sweep *query, tahr_hit *hit)
 {
     fake_world *w = user;
@@ -290,6 +295,9 @@ tahr_status fake_sweep(void *user, const tahr_sweep *query, tahr_hit *hit)
         w->on_sweep(w);
     }
     for (uint32_t i = 0; i < w->count; i++) {
+        if (!is_asked(i, query->ignore_body, query->flags)) {
+            continue;
+        }
         answer a = distance_to(&w->solids[i], &p, p.at);
         int approaches = dot3(a.normal, p.motion) < 0;
         if (a.distance < 0) {
@@ -321,7 +329,7 @@ tahr_status fake_contacts(void *user, const tahr_contact_query *query, tahr_cont
     for (uint32_t i = 0; i < w->count; i++) {
         tahr_hit hit;
         answer a = distance_to(&w->solids[i], &p, p.at);
-        if (a.distance > query->margin) {
+        if (a.distance > query->margin || !is_asked(i, query->ignore_body, 0)) {
             continue;
         }
         p.motion = fake_vec(-a.normal.x, -a.normal.y, -a.normal.z);

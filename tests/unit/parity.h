@@ -67,13 +67,14 @@ void parity_put(parity *p, double x, double y, double z);
 /* A floor at this distance (cm) with this normal; flags TAHR_FLOOR_*. */
 void parity_floor(parity *p, double distance, tahr_vec3 normal, uint32_t flags);
 
-/* A table of rows; rows with one id after each other (on several backends) are one row. A number that is wrong is printed
- * with its row, and the end fails. */
+/* A table of rows; one id is one row, however often and on how many backends it runs. A number that is wrong is printed with
+ * its row, and the end fails. */
+enum { PARITY_ROWS = 64 };
 typedef struct parity_table {
-    const char *name;
-    const char *row, *where;
-    uint32_t rows, red;
-    int row_is_red;
+    const char *name, *where;
+    const char *ids[PARITY_ROWS];
+    uint8_t is_red[PARITY_ROWS];
+    uint32_t rows, now; /* now: the row that runs */
 } parity_table;
 
 void parity_begin(parity_table *table, const char *name);

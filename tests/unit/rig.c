@@ -47,12 +47,18 @@ void rig_open_callbacks(rig *r, const tahr_callbacks *callbacks, const tahr_conf
 
 void rig_open_bodies(rig *r, const tahr_body_desc *bodies, uint32_t count, const tahr_config *config, tahr_vec3 at)
 {
+    rig_open_bodies_on(r, tahr_backend_v1_native(), bodies, count, config, at);
+}
+
+void rig_open_bodies_on(rig *r, const tahr_backend *backend, const tahr_body_desc *bodies, uint32_t count,
+                        const tahr_config *config, tahr_vec3 at)
+{
     tahr_world_desc desc;
     tahr_log log;
     describe(r, &desc, &log);
     desc.bodies = bodies;
     desc.body_count = count;
-    assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &r->world), TAHR_OK);
+    assert_int_equal(tahr_world_open(backend, &desc, &r->world), TAHR_OK);
     put_mover(r, config, at);
 }
 

@@ -35,6 +35,9 @@ void rig_open(rig *r, fake_world *world, const tahr_config *config, tahr_vec3 at
 void rig_open_callbacks(rig *r, const tahr_callbacks *callbacks, const tahr_config *config, tahr_vec3 at);
 /* Bodies of the native backend, for what no half-space or box can show. */
 void rig_open_bodies(rig *r, const tahr_body_desc *bodies, uint32_t count, const tahr_config *config, tahr_vec3 at);
+/* The same on another backend. */
+void rig_open_bodies_on(rig *r, const tahr_backend *backend, const tahr_body_desc *bodies, uint32_t count,
+                        const tahr_config *config, tahr_vec3 at);
 /* Makes the backend too; the character is the preset's, 5 cm over the backend's plane z = 0. */
 void rig_open_backend(rig *r, fake_backend *backend, uint32_t capabilities);
 /* rig_open, and lets it fall until it stands. */

@@ -204,6 +204,12 @@ static void sweep_lists_sensors_before_the_blocking_hit(void **state)
     q.ignore_body = 0;
     assert_int_equal(tahr_world_sweep(world, &q, hits, 1, &count), TAHR_OK);
     assert_int_equal(count, 0);
+    q.flags = TAHR_SWEEP_ONLY_BODY; /* now the other way round */
+    assert_int_equal(tahr_world_sweep(world, &q, hits, 4, &count), TAHR_OK);
+    assert_true(count == 1 && hits[0].body == 0);
+    q.ignore_body = TAHR_NO_BODY;
+    assert_int_equal(tahr_world_sweep(world, &q, hits, 1, &count), TAHR_OK);
+    assert_int_equal(count, 0);
     tahr_world_close(world);
 }
 

@@ -19,6 +19,7 @@ static tahr__step begin(rig *r)
     step.config = &r->mover->config;
     step.limits = &r->mover->limits;
     step.world = r->world;
+    step.ignore_body = TAHR_NO_BODY;
     step.input = &r->input;
     step.pull = &r->mover->limits.pull;
     step.state = r->state;

@@ -277,12 +277,44 @@ static void sensors_come_before_the_blocking_hit(void **state)
     native_close(&f);
 }
 
+/* Of two flat faces that meet without a margin no point is the nearest; the hit still names the upper face, and a point of
+ * it under the box, also where the side of the ledge is met at the same time. */
+static void box_without_a_margin_names_the_face_it_lands_on(void **unused)
+{
+    (void)unused;
+    for (uint32_t precision = TAHR_NATIVE_FLOAT; precision <= TAHR_NATIVE_DOUBLE; precision++) {
+        double tolerance = precision == TAHR_NATIVE_FLOAT ? 2e-6 : 1e-9;
+        oracle_random r = {91};
+        for (int i = 0; i < 300; i++) {
+            fixture f;
+            double edge = oracle_uniform(&r, -0.5, 0.2), half_yaw = oracle_uniform(&r, 0, 3),
+                   drop = oracle_uniform(&r, 0.01, 2);
+            tahr_body_desc ledge = native_box(v_make(edge + 3, 0, -1), v_make(3, 4, 1));
+            tahr_sweep q =
+                fixture_sweep(fixture_shape(TAHR_SHAPE_BOX, 0.25, 0.6), v_make(0, 0, 0.6 + drop), v_make(0, 0, -3), 0);
+            native_open(&f, &ledge, 1, precision, i % 2);
+            q.orientation = (tahr_quat){0, 0, sin(half_yaw), cos(half_yaw)};
+            tahr_hit hit = fixture_hit(&f, &q);
+            assert_true(hit.blocking && !hit.start_overlap);
+            assert_true(fabs(hit.fraction * 3 - drop) <= tolerance);
+            assert_true(hit.surface_normal.z > 1 - 1e-9 && hit.normal.z > 1 - 1e-9);
+            assert_true(fabs(hit.point.z) <= tolerance && hit.point.x >= edge - tolerance);
+            assert_true(hypot(hit.point.x, hit.point.y) <= 0.25 * sqrt(2.0) + tolerance);
+            native_close(&f);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sweeps_are_exact_in_double), cmocka_unit_test(sweeps_are_within_two_micrometres_in_float),
-        cmocka_unit_test(start_follows_the_contract), cmocka_unit_test(a_hair_does_not_decide_which_surface_is_met),
-        cmocka_unit_test(ties_go_to_the_lowest_body), cmocka_unit_test(sensors_come_before_the_blocking_hit),
+        cmocka_unit_test(sweeps_are_exact_in_double),
+        cmocka_unit_test(sweeps_are_within_two_micrometres_in_float),
+        cmocka_unit_test(start_follows_the_contract),
+        cmocka_unit_test(a_hair_does_not_decide_which_surface_is_met),
+        cmocka_unit_test(box_without_a_margin_names_the_face_it_lands_on),
+        cmocka_unit_test(ties_go_to_the_lowest_body),
+        cmocka_unit_test(sensors_come_before_the_blocking_hit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -27,6 +27,7 @@ static void lies_of_a_sweep_end_the_step_and_are_named(void **unused)
             report.struct_size = sizeof report;
             report.events = NULL;
             report.decisions = NULL;
+            report.queries = NULL;
             kept = report;
             b.lie = lie;
             r.log.count = 0;

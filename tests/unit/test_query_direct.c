@@ -259,7 +259,7 @@ static void direct_contacts_answer_and_check(void **unused)
     q.reserved = 1;
     assert_int_equal(tahr_world_contacts(r.world, &q, out, 4, &count), TAHR_E_ARGUMENT);
     assert_non_null(strstr(r.log.text, "reserved"));
-    q.reserved = 0, q.flags = 1;
+    q.reserved = 0, q.flags = 1u << 30;
     assert_int_equal(tahr_world_contacts(r.world, &q, out, 4, &count), TAHR_E_ARGUMENT);
     assert_non_null(strstr(r.log.text, "flags"));
     q.flags = 0;

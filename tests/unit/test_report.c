@@ -91,6 +91,7 @@ static void unused_report_words_are_written_not_added_to(void **unused)
     report.struct_size = sizeof report;
     report.events = NULL;
     report.decisions = NULL;
+    report.queries = NULL;
     assert_int_equal(tahr_mover_step(r.mover, &r.input, 1.0 / 60, &r.state, &report), TAHR_OK);
     assert_true(report.sweeps == 1 && report.slices == 1 && report.flags == 0 && report.reserved == 0 &&
                 report.step_offset == 0);
@@ -127,8 +128,38 @@ static void events_never_run_backward(void **unused)
     for (int i = 0; i < 5; i++) {
         step.time = 0.5 * times[i];
         step.ahead = 0.5 * times[i];
-        tahr__event(&step, TAHR_EVENT_HIT, NULL, 0);
+        tahr__event(&step, TAHR_EVENT_APEX, NULL, 0);
         assert_true(events[i].time == reported[i]);
+    }
+}
+
+/* Whatever comes in at its place, what is kept is the earliest part of all. */
+static void an_event_that_is_told_late_goes_where_its_time_belongs(void **unused)
+{
+    const double times[] = {0.3, 0.1, 0.2, 0.1, 0.4, 0};
+    const uint32_t sorted[] = {5, 1, 3, 2, 0, 4};
+    (void)unused;
+    for (uint32_t room = 0; room <= 6; room++) {
+        tahr_event events[7];
+        tahr__step step;
+        memset(&step, 0, sizeof step);
+        memset(events, 0x12, sizeof events);
+        step.report.events = events;
+        step.report.event_capacity = room;
+        for (uint32_t i = 0; i < 6; i++) {
+            tahr_event e = {.type = TAHR_EVENT_OVERLAP_BEGIN, .body = i, .time = times[i]};
+            tahr__event_at(&step, &e);
+        }
+        assert_true(step.report.event_count == room && step.report.events_lost == 6 - room);
+        assert_int_equal((step.report.flags & TAHR_REPORT_TRUNCATED) != 0, room < 6);
+        for (uint32_t i = 0; i < room; i++) {
+            assert_int_equal(events[i].body, sorted[i]);
+        }
+        assert_int_equal(((unsigned char *)&events[room])[0], 0x12);
+        step.report.events = NULL;
+        tahr_event e = {.type = TAHR_EVENT_OVERLAP_END};
+        tahr__event_at(&step, &e);
+        assert_int_equal(step.report.events_lost, 6 - room); /* nobody asked */
     }
 }
 
@@ -139,6 +170,7 @@ int main(void)
                                        cmocka_unit_test(decisions_that_do_not_fit_are_counted),
                                        cmocka_unit_test(unused_report_words_are_written_not_added_to),
                                        cmocka_unit_test(events_never_run_backward),
+                                       cmocka_unit_test(an_event_that_is_told_late_goes_where_its_time_belongs),
                                        cmocka_unit_test(mode_none_rests_and_takes_its_time)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -154,6 +154,13 @@ static double sinking(const tahr_config *config, double off)
     return height_at_edge(config, -100) - height_at_edge(config, off);
 }
 
+static double sinking_on_flat_base(const tahr_config *config, double off)
+{
+    tahr_config c = *config;
+    c.flat_base = c.preset == TAHR_PRESET_UNREAL;
+    return sinking(&c, off);
+}
+
 /* After the first frame that runs into the wall. No steps: trying one creeps on. */
 static double gap_at_wall(const tahr_config *config, double speed)
 {
@@ -216,29 +223,68 @@ static double ledge_guard(const tahr_config *config, double hz)
 #define START_EXACT 40.96
 #define TURN_EXACT 0.44932896411722156
 #define SECOND_EXACT 512.109375
-#define SAME(x)            \
-    {                      \
-        x, x, x, x, x, x   \
+#define SAME(x)          \
+    {                    \
+        x, x, x, x, x, x \
     }
 
 static const line lines[] = {
-    {"1", "jump held 0.3 s, highest", "Hz", held_jump, 6, {10, 20, 30, 60, 120, 240},
-     {164.2, 188.9, 197.6, 206.7, 211.3, 213.6}, 0.05, SAME(HOLD_EXACT), 1e-6},
-    {"1", "the same, no gravity while held", "Hz", held_jump_without_gravity, 6, {10, 20, 30, 60, 120, 240},
-     SAME(HOLD_EXACT), 1e-6, SAME(HOLD_EXACT), 1e-6},
-    {"1", "plain jump, highest", "Hz", highest_jump, 6, {10, 20, 30, 60, 120, 240}, SAME(JUMP_EXACT), 1e-6,
-     SAME(JUMP_EXACT), 1e-6},
-    {"1", "the same without apex sub-step", "Hz", jump_without_apex, 1, {20}, {89.775}, 5e-4, {JUMP_EXACT}, 1e-6},
-    {"2", "stopping distance from 600 cm/s", "Hz", stopping_distance, 5, {20, 30, 60, 120, 1000},
-     {6.704, 11.535, 15.623, 19.530, 23.086}, 5e-4, SAME(STOP_EXACT), 1e-6},
-    {"4", "way from rest in 0.2 s", "Hz", way_from_rest, 3, {20, 30, 60}, {51.2, 47.8, 44.4}, 0.05, SAME(START_EXACT),
+    {"1",
+     "jump held 0.3 s, highest",
+     "Hz",
+     held_jump,
+     6,
+     {10, 20, 30, 60, 120, 240},
+     {164.2, 188.9, 197.6, 206.7, 211.3, 213.6},
+     0.05,
+     SAME(HOLD_EXACT),
      1e-6},
+    {"1",
+     "the same, no gravity while held",
+     "Hz",
+     held_jump_without_gravity,
+     6,
+     {10, 20, 30, 60, 120, 240},
+     SAME(HOLD_EXACT),
+     1e-6,
+     SAME(HOLD_EXACT),
+     1e-6},
+    {"1", "plain jump, highest", "Hz", highest_jump, 6, {10, 20, 30, 60, 120, 240}, SAME(JUMP_EXACT), 1e-6, SAME(JUMP_EXACT), 1e-6},
+    {"1", "the same without apex sub-step", "Hz", jump_without_apex, 1, {20}, {89.775}, 5e-4, {JUMP_EXACT}, 1e-6},
+    {"2",
+     "stopping distance from 600 cm/s",
+     "Hz",
+     stopping_distance,
+     5,
+     {20, 30, 60, 120, 1000},
+     {6.704, 11.535, 15.623, 19.530, 23.086},
+     5e-4,
+     SAME(STOP_EXACT),
+     1e-6},
+    {"4", "way from rest in 0.2 s", "Hz", way_from_rest, 3, {20, 30, 60}, {51.2, 47.8, 44.4}, 0.05, SAME(START_EXACT), 1e-6},
     {"4", "turn: part left after 0.1 s", "Hz", turn_residual, 2, {20, 60}, {0.36, 0.424}, 5e-4, SAME(TURN_EXACT), 1e-9},
-    {"5", "way from rest in one frame", "ms", way_of_one_frame, 2, {50, 51}, {5.12, 3.995136}, 1e-6,
-     {2.56, 2.663424}, 1e-6},
+    {"5", "way from rest in one frame", "ms", way_of_one_frame, 2, {50, 51}, {5.12, 3.995136}, 1e-6, {2.56, 2.663424}, 1e-6},
     {"5", "way from rest in 1 s", "Hz", way_of_one_second, 2, {1, 60}, {526.8, 517.04}, 1e-6, SAME(SECOND_EXACT), 1e-6},
-    {"6", "sinking on a ledge", "cm beyond it", sinking, 4, {17, 20.001, 30, 33.849}, {4.555, 6.50, 18.0, 30.8}, 0.05,
-     {4.406, FALLS, FALLS, FALLS}, 0.001},
+    {"6",
+     "sinking on a ledge",
+     "cm beyond it",
+     sinking,
+     4,
+     {17, 20.001, 30, 33.849},
+     {4.555, 6.50, 18.0, 30.8},
+     0.05,
+     {4.406, FALLS, FALLS, FALLS},
+     0.001},
+    {"6",
+     "the same, unreal with flat_base",
+     "cm beyond it",
+     sinking_on_flat_base,
+     3,
+     {17, 20.001, 30},
+     SAME(0),
+     1e-3,
+     {4.406, FALLS, FALLS},
+     0.001},
     {"21", "gap to a wall at 60 Hz", "cm/s", gap_at_wall, 2, {60, 3000}, {0.101, 1.05}, 5e-4, SAME(1.0), 1e-6},
     {"22", "ledge guard", "Hz", ledge_guard, 3, {60, 120, 240}, {10, 5, 2.5}, 1e-9, SAME(0.001), 1e-5},
 };

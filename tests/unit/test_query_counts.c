@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: MIT
+ * test_query_counts.c: the unreal preset asks what is promised: exactly so many queries in nominal scenes, and never more
+ * than the most for each function. Those of moves, slides and floors are in test_parity_*.c. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "dice.h"
+#include "landing.h"
+#include "move_along_floor.h"
+#include "parity.h"
+#include "rig.h"
+#include "slide.h"
+#include "step_up.h"
+#include "walk_two_walls.h"
+
+static uint32_t asked(const rig *r)
+{
+    return r->report.sweeps + r->report.contact_queries + r->report.rays;
+}
+
+static void expect_each(rig *r, int steps, uint32_t expected)
+{
+    for (int i = 0; i < steps; i++) {
+        rig_step(r, 1.0 / 60);
+        assert_int_equal(asked(r), expected);
+        assert_int_equal(r->report.sweeps, expected);
+    }
+}
+
+static void walking_on_flat_ground_asks_two_standing_one_cached_none(void **unused)
+{
+    (void)unused;
+    for (uint32_t cached = 0; cached < 2; cached++) {
+        fake_world w;
+        rig r;
+        tahr_config c = parity_config();
+        c.cached_floor = cached;
+        c.sleep = 0;
+        fake_world_flat(&w);
+        rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
+        expect_each(&r, 20, cached ? 0 : 1);
+        r.input.move = fake_vec(1, 0, 0);
+        expect_each(&r, 60, 2);
+        r.input.move = fake_vec(0, 0, 0);
+        rig_steps(&r, 60, 1.0 / 60);
+        expect_each(&r, 20, cached ? 0 : 1);
+        rig_close(&r);
+    }
+}
+
+/* 0.5 s in one step: 8 slices. */
+static void every_slice_of_a_long_step_asks_as_a_step(void **unused)
+{
+    fake_world w;
+    rig r;
+    tahr_config c = parity_config();
+    (void)unused;
+    fake_world_flat(&w);
+    rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
+    r.input.move = fake_vec(1, 0, 0);
+    rig_step(&r, 0.5);
+    assert_int_equal(asked(&r), 16);
+    rig_step(&r, 0.051);
+    assert_int_equal(asked(&r), 4);
+    rig_close(&r);
+}
+
+/* Down a slope of which the floor is 3 mm lower than the ramp says: the height is put right by one more. */
+static void a_correction_of_the_height_asks_one_more(void **unused)
+{
+    fake_world w;
+    rig r;
+    tahr_config c = parity_config();
+    (void)unused;
+    fake_world_flat(&w);
+    fake_add_box(&w, fake_vec(-5, -5, -1), fake_vec(0.2, 5, 0.01));
+    rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
+    r.state.velocity = fake_vec(6, 0, 0);
+    r.input.move = fake_vec(1, 0, 0);
+    uint32_t twos = 0, threes = 0;
+    for (int i = 0; i < 20; i++) {
+        rig_step(&r, 1.0 / 60);
+        twos += asked(&r) == 2;
+        threes += asked(&r) == 3;
+    }
+    assert_int_equal(twos + threes, 20);
+    assert_true(threes >= 1 && threes < 8);
+    rig_close(&r);
+}
+
+static void falling_free_asks_one_and_landing_three(void **unused)
+{
+    fake_world w;
+    rig r;
+    tahr_config c = parity_config();
+    (void)unused;
+    fake_world_flat(&w);
+    rig_open(&r, &w, &c, fake_vec(0, 0, 2));
+    while (r.state.mode == TAHR_MODE_FALLING) {
+        assert_true(r.time < 2);
+        rig_step(&r, 1.0 / 60);
+        if (r.state.mode == TAHR_MODE_FALLING) {
+            assert_int_equal(asked(&r), 1);
+        }
+    }
+    /* The fall, nothing for the landing spot, the floor on entry, its height; then the rest of the time standing: 1. */
+    assert_true(asked(&r) >= 3 && asked(&r) <= 4);
+    rig_close(&r);
+}
+
+static void an_apex_asks_one_more(void **unused)
+{
+    fake_world w;
+    rig r;
+    tahr_config c = parity_config();
+    (void)unused;
+    fake_world_flat(&w);
+    rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
+    r.input.jump = 1;
+    int apexes = 0;
+    for (int i = 0; i < 40; i++) {
+        rig_step(&r, 1.0 / 60);
+        int apex = rig_event(&r, TAHR_EVENT_APEX) != NULL;
+        assert_int_equal(asked(&r), apex ? 2 : 1);
+        apexes += apex;
+    }
+    assert_int_equal(apexes, 1);
+    rig_close(&r);
+}
+
+static void put_on_floor(parity *p, double x, double y, double z)
+{
+    tahr_floor floor;
+    parity_put(p, x, y, z);
+    p->step.state.mode = TAHR_MODE_WALKING;
+    tahr__find_floor(&p->step, p->config.snap_distance, NULL, &floor);
+    tahr__keep_floor(&p->step, &floor);
+    p->step.queries = 0;
+}
+
+static void ledges_ask_one_or_two_on_each_side(void **unused)
+{
+    static const struct {
+        double x, y;
+        uint32_t queries;
+    } rows[] = {{0, 0, 2}, {140, -140, 4}, {140, 140, 2}, {0, -200, 4}};
+    parity_scene scene = {.count = 0};
+    parity p;
+    (void)unused;
+    parity_box(&scene, fake_vec(-150, -150, -50), fake_vec(150, 150, 0));
+    parity_open(&p, &scene, PARITY_FAKE, NULL, 0, 0, 90.15);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        put_on_floor(&p, rows[i].x, rows[i].y, 90.15);
+        tahr__ledge_move(&p.step, p.step.state.position, parity_vec(100, 0, 0)); /* to the right is -y */
+        assert_int_equal(p.step.queries, rows[i].queries);
+    }
+    parity_close(&p);
+}
+
+static void steps_ask_three_and_refusals_none(void **unused)
+{
+    parity_scene scene = {.count = 0};
+    parity p;
+    tahr__swept obstacle;
+    int found;
+    (void)unused;
+    parity_plane(&scene, 0, 0, 1, 0);
+    parity_box(&scene, fake_vec(35, -300, -10), fake_vec(300, 300, 20));
+    for (int backend = 0; backend < PARITY_BACKENDS; backend++) {
+        if (!parity_has(backend)) {
+            continue;
+        }
+        parity_open(&p, &scene, backend, NULL, 0, 0, 90.15);
+        put_on_floor(&p, 0, 0, 90.15);
+        tahr__move_updated(&p.step, parity_vec(30, 0, 0), 0, &obstacle);
+        assert_true(obstacle.hit.blocking);
+        p.step.queries = 0;
+        assert_true(tahr__step_up_by_contact(&p.step, parity_vec(25, 0, 0), &obstacle, &found));
+        assert_true(found);
+        assert_int_equal(p.step.queries, 3);
+        obstacle.hit.blocking = 0; /* not a hit at all */
+        assert_false(tahr__step_up_by_contact(&p.step, parity_vec(25, 0, 0), &obstacle, &found));
+        obstacle.hit.blocking = 1;
+        obstacle.hit.point = add(p.step.state.position, parity_vec(34, 0, 60)); /* over the cap */
+        assert_false(tahr__step_up_by_contact(&p.step, parity_vec(25, 0, 0), &obstacle, &found));
+        p.step.state.mode = TAHR_MODE_FALLING;
+        assert_false(tahr__step_up_by_contact(&p.step, parity_vec(25, 0, 0), &obstacle, &found));
+        assert_int_equal(p.step.queries, 3);
+        parity_close(&p);
+    }
+}
+
+/* The most of each function, without and with an overlap to leave on the way (a safe move asks up to 7 then). */
+enum { STEP_UP = 9, STEP_UP_WORST = 21, ALONG_FLOOR = 13, ALONG_FLOOR_WORST = 7 + 7 + 21 + 14 };
+enum { LANDING_SPOT = 6, LEDGE = 4 };
+
+static void make_clutter(parity_scene *scene)
+{
+    parity_plane(scene, 0, 0, 1, 0);
+    parity_plane(scene, 1, 0, 0.2, -300);
+    parity_plane(scene, -0.4, -0.3, 1, -60);
+    parity_box(scene, fake_vec(60, -300, -10), fake_vec(120, 300, 25));
+    parity_box(scene, fake_vec(-120, 40, -10), fake_vec(0, 120, 44));
+    parity_box(scene, fake_vec(-120, 110, -10), fake_vec(20, 300, 200));
+    parity_box(scene, fake_vec(-60, -200, 185), fake_vec(40, -60, 260));
+    parity_box(scene, fake_vec(115, -40, -10), fake_vec(140, 60, 300));
+}
+
+static uint32_t since(parity *p, uint32_t *overlapped)
+{
+    uint32_t queries = p->step.queries;
+    *overlapped = p->step.report.contact_queries > 0; /* asked by ResolvePenetration alone */
+    p->step.queries = p->step.report.contact_queries = 0;
+    return queries;
+}
+
+static void no_function_asks_more_than_its_most(void **unused)
+{
+    parity_scene scene = {.count = 0};
+    parity p;
+    oracle_random dice = {5};
+    uint32_t most[4] = {0, 0, 0, 0}, overlaps = 0, overlapped;
+    (void)unused;
+    make_clutter(&scene);
+    parity_open(&p, &scene, PARITY_DOUBLE, NULL, 0, 0, 90.15);
+    for (int i = 0; i < 20000; i++) {
+        double x = oracle_uniform(&dice, -150, 150), y = oracle_uniform(&dice, -150, 150);
+        double z = oracle_uniform(&dice, 80, 150), way = oracle_uniform(&dice, 0.1, 60);
+        vec3 d = dice_direction(&dice);
+        vec3 level = scale(unit(vec(d.x, d.y, 0)), way / 100);
+        put_on_floor(&p, x, y, i % 2 ? 90.15 : z);
+        p.step.state.velocity = scale(level, 60);
+        since(&p, &overlapped);
+        tahr__move_along_floor(&p.step, level, 1.0 / 60);
+        uint32_t n = since(&p, &overlapped);
+        assert_true(n <= (overlapped ? ALONG_FLOOR_WORST : ALONG_FLOOR));
+        most[0] = n > most[0] ? n : most[0];
+        overlaps += overlapped;
+
+        put_on_floor(&p, x, y, z);
+        tahr__swept swept;
+        tahr__move_updated(&p.step, level, 0, &swept);
+        int found;
+        since(&p, &overlapped);
+        tahr__step_up_by_contact(&p.step, level, &swept, &found);
+        n = since(&p, &overlapped);
+        assert_true(n <= (overlapped ? STEP_UP_WORST : STEP_UP));
+        most[1] = n > most[1] ? n : most[1];
+
+        tahr__ledge_move(&p.step, p.step.state.position, level);
+        n = since(&p, &overlapped);
+        assert_true(n >= 1 && n <= LEDGE);
+        most[2] = n > most[2] ? n : most[2];
+
+        p.step.state.mode = TAHR_MODE_FALLING;
+        tahr__move_updated(&p.step, scale(d, way / 100), 0, &swept);
+        since(&p, &overlapped);
+        tahr__is_valid_landing_spot(&p.step, &swept);
+        n = since(&p, &overlapped);
+        assert_true(n <= LANDING_SPOT);
+        most[3] = n > most[3] ? n : most[3];
+        assert_int_equal(p.step.error, TAHR_OK);
+    }
+    print_message("most queries: along the floor %u, step up %u, ledge %u, landing spot %u; %u overlaps\n", most[0],
+                  most[1], most[2], most[3], overlaps);
+    assert_true(most[0] > 6 && most[1] > 4 && most[2] == LEDGE && most[3] >= 1 && overlaps > 1000);
+    parity_close(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(walking_on_flat_ground_asks_two_standing_one_cached_none),
+        cmocka_unit_test(every_slice_of_a_long_step_asks_as_a_step),
+        cmocka_unit_test(a_correction_of_the_height_asks_one_more),
+        cmocka_unit_test(falling_free_asks_one_and_landing_three),
+        cmocka_unit_test(an_apex_asks_one_more),
+        cmocka_unit_test(ledges_ask_one_or_two_on_each_side),
+        cmocka_unit_test(steps_ask_three_and_refusals_none),
+        cmocka_unit_test(no_function_asks_more_than_its_most),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
