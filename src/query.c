@@ -518,6 +518,7 @@ tahr_fluid tahr__fluid(tahr__step *step, vec3 position)
     if (step->report.queries) {
         record_fluid(step, &q, &fluid);
     }
+    fluid.velocity = step_constrained(step, fluid.velocity);
     return fluid;
 }
 
