@@ -30,6 +30,7 @@ static void a_fall_ends_where_the_water_carries_at_its_exact_time(void **unused)
                 assert_true(at < 0 && e->value == TAHR_MODE_SWIMMING);
                 at = k * dt + e->time;
                 assert_near(e->position.z, LINE, 1e-8);
+                assert_true(rig_rates[i] < 100 || r.report.fluid_queries <= 6); /* a level surface is found by one look */
             }
         }
         assert_near(at, truth, 1e-8);
@@ -123,19 +124,21 @@ static void add_shore(pool *p)
     fake_add_plane(&p->world, fake_vec(0.25 / size, 0, 1 / size), 0);
 }
 
+/* At half the speed, and while it still accelerates. */
 static void a_walk_into_the_sea_swims_where_it_is_deep_enough(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RIG_RATES; i++) {
+    for (int n = 0; n < 2 * RIG_RATES; n++) {
+        int i = n / 2;
         pool p;
         rig r;
         double dt = 1 / rig_rates[i];
         int found = 0;
         pool_init(&p);
         add_shore(&p);
-        pool_open(&r, &p, NULL, fake_vec(-4, 0, 2.5));
+        pool_open(&r, &p, NULL, n % 2 ? fake_vec(4.62, 0, 0) : fake_vec(-4, 0, 2.5));
         rig_settle(&r);
-        r.input.move = fake_vec(0.5, 0, 0);
+        r.input.move = fake_vec(n % 2 ? 1 : 0.5, 0, 0);
         for (int k = 0; k < (int)(6 * rig_rates[i]) && !found; k++) {
             rig_step(&r, dt);
             const tahr_event *e = rig_event(&r, TAHR_EVENT_MODE), *left = rig_event(&r, TAHR_EVENT_LEFT_GROUND);
@@ -212,6 +215,28 @@ static void a_swimmer_steps_up_on_a_low_ledge_and_walks_on(void **unused)
         pool_run(&r, 3, 1 / rig_rates[i]);
         assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
         assert_true(r.state.position.x > 2.5);
+        rig_close(&r);
+    }
+}
+
+static void a_step_in_the_deep_is_a_wall_to_a_swimmer(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < RIG_RATES; i++) {
+        tahr_config c = rig_config();
+        pool p;
+        rig r;
+        c.buoyancy = 0.9;
+        pool_init(&p);
+        fake_add_plane(&p.world, fake_vec(0, 0, 1), -8);
+        fake_add_box(&p.world, fake_vec(2, -50, -50), fake_vec(50, 50, -7.62)); /* a walker would take it */
+        pool_open(&r, &p, &c, fake_vec(0, 0, -7.09));
+        r.state.mode = TAHR_MODE_SWIMMING;
+        r.input.move = fake_vec(1, 0, 0);
+        assert_int_equal(pool_run(&r, 3, 1 / rig_rates[i]), 0);
+        assert_near(r.state.position.x, 2 - 0.36, 1e-6);
+        assert_near(r.state.position.z, -8 + 0.91, 1e-6);
+        assert_true(r.report.step_offset == 0 && r.state.floor.flags == 0);
         rig_close(&r);
     }
 }
@@ -324,6 +349,7 @@ int main(void)
         cmocka_unit_test(a_swim_to_the_shore_walks_there_and_changes_its_mode_once),
         cmocka_unit_test(nobody_swaps_between_two_modes_in_the_shallows),
         cmocka_unit_test(a_swimmer_steps_up_on_a_low_ledge_and_walks_on),
+        cmocka_unit_test(a_step_in_the_deep_is_a_wall_to_a_swimmer),
         cmocka_unit_test(water_that_ends_sideways_is_left_there),
         cmocka_unit_test(a_fluid_without_rhyme_leaves_a_finite_character),
         cmocka_unit_test(a_pool_that_is_drained_lets_the_swimmer_fall),
