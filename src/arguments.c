@@ -16,8 +16,11 @@ static int is_within(vec3 v, double most)
 }
 
 /* The fields that only count with their flags. */
-static const char *bad_request(const tahr_input *in)
+static const char *bad_request(const tahr_input *in, const tahr_shape *shape)
 {
+    tahr_shape asked = *shape;
+    asked.radius = in->radius;
+    asked.half_height = in->half_height;
     const uint32_t known = (TAHR_INPUT_DRIVE_LEVEL << 1) - 1;
     if (in->flags & ~known) {
         return "input.flags";
@@ -28,7 +31,7 @@ static const char *bad_request(const tahr_input *in)
     if ((in->flags & TAHR_INPUT_SHAPE) && !(in->half_height >= 1e-6 && in->half_height <= 1e4)) {
         return "input.half_height";
     }
-    if ((in->flags & TAHR_INPUT_SHAPE) && !(in->radius >= 0 && in->radius <= in->half_height)) {
+    if ((in->flags & TAHR_INPUT_SHAPE) && tahr__shape_check(&asked)) { /* of boxes 0, of spheres the half height */
         return "input.radius";
     }
     if ((in->flags & TAHR_INPUT_LAUNCH) && !is_within(in->launch, 1e5)) {
@@ -40,7 +43,7 @@ static const char *bad_request(const tahr_input *in)
     return (in->flags & TAHR_INPUT_DRIVE) && !is_within(in->drive, 1e5) ? "input.drive" : NULL;
 }
 
-static const char *bad_input(const tahr_input *in)
+static const char *bad_input(const tahr_input *in, const tahr_shape *shape)
 {
     if (!is_within(in->move, 1e6)) {
         return "input.move";
@@ -54,7 +57,7 @@ static const char *bad_input(const tahr_input *in)
     if (in->reserved) {
         return "input.reserved";
     }
-    return in->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING) ? bad_request(in) : NULL;
+    return in->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING) ? bad_request(in, shape) : NULL;
 }
 
 static int all_zero(const uint8_t tail[sizeof((tahr_state *)0)->reserved])
@@ -207,7 +210,7 @@ tahr_status tahr__check_arguments(const tahr_mover *mover, const tahr_input *inp
         return tahr__complain_value(log, TAHR_E_ARGUMENT, "tahr_mover_step", "dt", dt,
                                     "must be within 0 and config.max_dt");
     }
-    const char *bad = bad_input(input);
+    const char *bad = bad_input(input, &mover->config.shape);
     bad = bad ? bad : bad_state(state, &mover->config.shape);
     bad = bad ? bad : bad_rest(state, mover);
     return bad ? tahr__complain(log, TAHR_E_ARGUMENT, "tahr_mover_step", bad, "is out of range or not finite") : TAHR_OK;

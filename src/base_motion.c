@@ -8,6 +8,7 @@
 #include "body_motion.h"
 #include "elementary.h"
 #include "move.h"
+#include "plane.h"
 #include "push.h"
 #include "report.h"
 #include "slide.h"
@@ -19,6 +20,7 @@ double tahr__go_along(tahr__step *step, vec3 motion)
 {
     tahr__plane planes[4];
     uint32_t count = 0;
+    motion = along_plane(step->limits, motion);
     const vec3 goal = add(step->state.position, motion);
     tahr_hit hit;
     for (int i = 0; i < 4 && step->error >= 0; i++) {
@@ -27,6 +29,9 @@ double tahr__go_along(tahr__step *step, vec3 motion)
             break;
         }
         tahr__move(step, left, &hit);
+        if (!hit.blocking && count == 0) {
+            step->state.position = goal; /* PULL_BACK skips what is too short to sweep: a slow base would slip away */
+        }
         if (!hit.blocking || hit.unknown || hit.start_overlap) {
             break;
         }

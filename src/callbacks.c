@@ -184,17 +184,17 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
     return status;
 }
 
+static tahr_status body_motion(void *self, uint32_t body, tahr_body_motion *motion)
+{
+    const tahr_callbacks *user = self;
+    return user->body ? user->body(user->user, body, motion) : TAHR_E_NOT_FOUND;
+}
+
 static tahr_status fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *answer)
 {
     const tahr_callbacks *user = self;
     (void)context;
     return user->fluid ? user->fluid(user->user, query, answer) : TAHR_OK;
-}
-
-static tahr_status body_motion(void *self, uint32_t body, tahr_body_motion *motion)
-{
-    const tahr_callbacks *user = self;
-    return user->body ? user->body(user->user, body, motion) : TAHR_E_NOT_FOUND;
 }
 
 const tahr_backend tahr__callbacks_backend = {
@@ -208,6 +208,6 @@ const tahr_backend tahr__callbacks_backend = {
     .sweep = sweep,
     .contacts = contacts,
     .ray = ray,
-    .fluid = fluid,
     .body_motion = body_motion,
+    .fluid = fluid,
 };

@@ -77,9 +77,12 @@ typedef struct tahr__limits {
     double walkable_hysteresis; /* the same for a floor that was walkable */
     double width;               /* m, half width of the shape: what perch and edge rules measure against */
     double around;              /* m, radius of the circle around the shape seen along its axis */
+    double speed;               /* m/s that a whole stick asks for on ground */
     double axis;                /* m, half of the segment that rounding makes a capsule, or half the height of a box */
-    tahr__pull pull;            /* of config.gravity */
+    tahr__pull pull;            /* of config.gravity, in the plane */
     tahr__foot foot;            /* of the whole shape */
+    vec3 plane;                 /* config.plane, exactly unit; zero: none */
+    uint32_t in_plane;          /* 1: there is one */
 } tahr__limits;
 
 /* Events of a step that can be repeated; a step with more is computed again. */
@@ -109,8 +112,8 @@ struct tahr_mover {
     void *cache;
     size_t cache_size;
     uint32_t busy;
-    tahr__custom custom;
     tahr_state blank; /* what a state remembers that has nothing to remember: from radius on */
+    tahr__custom custom;
     tahr__sleep sleep;
 };
 
@@ -130,6 +133,9 @@ struct tahr__step {
     struct tahr__trail *trail; /* NULL in a world without sensors (trail.h) */
     tahr_query_context context;
     tahr__limits own_limits;  /* what limits points to while the shape is not the config's */
+    tahr_input own_input;     /* what input points to while it is held in a plane, */
+    const tahr_input *given;  /* instead of the caller's, */
+    vec3 began;               /* and where the character was before */
     uint32_t ignore_body;     /* not there for this step's queries now, or TAHR_NO_BODY */
     uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */
     uint32_t frame_body;      /* what state.velocity is relative to in this step, or TAHR_NO_BODY (base_motion.c) */
@@ -172,13 +178,6 @@ static inline vec3 step_level(const tahr__step *step, vec3 v)
 static inline uint32_t world_body_flags(const tahr_world *world, uint32_t body)
 {
     return body < world->body_count && world->bodies ? world->bodies[body].flags : 0;
-}
-
-/* The part that config.plane lets through. */
-static inline vec3 step_constrained(const tahr__step *step, vec3 v)
-{
-    vec3 n = step->config->plane;
-    return length_squared(n) > 0 ? reject(v, unit(n)) : v; /* a config's is a unit to nine digits */
 }
 
 #endif

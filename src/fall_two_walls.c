@@ -4,6 +4,7 @@
 #include "fall_two_walls.h"
 
 #include "landing.h"
+#include "launch.h"
 #include "overlap.h"
 #include "report.h"
 #include "slide.h"
@@ -28,6 +29,7 @@ typedef struct fall {
     vec3 free;    /* velocity at its end without air control */
     vec3 control; /* m/s2: the rest of it */
     int controls; /* somebody steers */
+    int floats;   /* a drive says how fast it falls */
     double apex;  /* s into the slice at which the rise ends; < 0: not in it */
     tahr__swept swept;
 } fall;
@@ -50,16 +52,18 @@ static double held_time(const tahr__step *step)
 static vec3 advance(const tahr__step *step, const fall *f, const tahr__law *law, double h, vec3 *motion)
 {
     const tahr_config *c = step->config;
-    double rise = rise_of(step, f->before), hold = held_time(step), v;
+    double rise = rise_of(step, f->before), hold = held_time(step), v = rise;
     vec3 level = add_scaled(f->before, step->state.up, -rise);
     if (c->integrator == TAHR_INTEGRATOR_EXACT) {
         tahr__motion m = tahr__law_advance(law, level, h);
-        double height = tahr__fall_advance(rise, step->pull->size, c->terminal_speed, hold, h, &v);
+        double height = f->floats ? rise * h : tahr__fall_advance(rise, step->pull->size, c->terminal_speed, hold, h, &v);
         *motion = add_scaled(m.displacement, step->state.up, height);
         return add_scaled(m.velocity, step->state.up, v);
     }
     vec3 after = add_scaled(tahr__calc_velocity(c, law, 0, level, h), step->state.up, rise);
-    after = tahr__new_fall_velocity(step->pull, c->terminal_speed, after, h - min_of(hold, h));
+    if (!f->floats) {
+        after = tahr__new_fall_velocity(step->pull, c->terminal_speed, after, h - min_of(hold, h));
+    }
     *motion = scale(add(f->before, after), 0.5 * h);
     return after;
 }
@@ -94,14 +98,28 @@ static void end_at_apex(tahr__step *step, fall *f, const tahr__law *law, double 
     step->apexes++;
 }
 
+/* What a drive makes of a slice: its velocity, and without gravity where it says how fast to rise. */
+static void drive_slice(tahr__step *step, fall *f, tahr__law *law)
+{
+    vec3 drive = drive_of(step), level = step_level(step, drive), up = step->state.up;
+    f->floats = !(step->input->flags & TAHR_INPUT_DRIVE_LEVEL);
+    f->before = add_scaled(level, up, rise_of(step, f->floats ? drive : f->before));
+    *law = drive_law(level);
+}
+
 static void begin_slice(tahr__step *step, fall *f)
 {
     tahr_state *s = &step->state;
     vec3 unused;
-    tahr__law law = tahr__falling_law(step), idle = law;
+    tahr__law law = tahr__falling_law(step);
     step->just_teleported = 0;
     f->from = s->position;
     f->before = s->velocity;
+    f->floats = 0;
+    if (is_driven(step)) {
+        drive_slice(step, f, &law);
+    }
+    tahr__law idle = law;
     idle.wish = vec(0, 0, 0);
     idle.speed = idle.acceleration = 0;
     f->controls = law.acceleration > 0 && length_squared(law.wish) > 0;
@@ -115,6 +133,9 @@ static void begin_slice(tahr__step *step, fall *f)
         f->free = add_scaled(after, f->control, -f->h);
     }
     s->velocity = after;
+    if (is_drifting(step)) {
+        f->motion = add_scaled(f->motion, drive_of(step), f->h);
+    }
 }
 
 /* The rise has ended by itself, not at a ceiling. */
@@ -138,9 +159,11 @@ static vec3 limit_control(const tahr__step *step, vec3 control, const tahr_hit *
     return limits ? reject(control, unit(step_level(step, hit->normal))) : control;
 }
 
-static void take_velocity(tahr__step *step, const fall *f, vec3 motion)
+static void take_velocity(tahr__step *step, const fall *f, vec3 motion, vec3 normal)
 {
-    if (f->rest > SHORT_SLICE && !step->just_teleported) {
+    if (is_drifting(step)) { /* the motion is not the velocity's alone */
+        step->state.velocity = tahr__slide_vector(step, step->state.velocity, 1, normal);
+    } else if (f->rest > SHORT_SLICE && !step->just_teleported) {
         step->state.velocity = scale(motion, 1.0 / f->rest);
     }
 }
@@ -208,7 +231,7 @@ static int meet_second(tahr__step *step, fall *f, const tahr_hit *first, vec3 mo
             delta = add_scaled(delta, gained, f->rest);
         }
     }
-    take_velocity(step, f, delta);
+    take_velocity(step, f, delta, second.normal);
     double fallen = dot(delta, up), level = 1e-3 * step->config->pull_back; /* 1e-4 cm */
     int ditch = dot(first->surface_normal, up) > 0 && dot(second.surface_normal, up) > 0 && fallen <= level &&
                 fallen >= -level && dot(second.surface_normal, first->surface_normal) < 0;
@@ -239,9 +262,12 @@ static int meet(tahr__step *step, fall *f)
     if (f->controls) {
         motion = scale(add_scaled(f->free, limit_control(step, f->control, &first), f->h), f->h);
     }
+    if (is_drifting(step)) {
+        motion = add_scaled(motion, drive_of(step), f->h);
+    }
     vec3 slide = tahr__slide_vector(step, motion, 1 - first.fraction, first.normal);
     step->report.slides++;
-    take_velocity(step, f, slide);
+    take_velocity(step, f, slide, first.normal);
     double time = f->rest;
     if (time <= SHORT_SLICE || dot(slide, motion) <= 0 || !move_on(step, f, slide)) {
         return GOES_ON;

@@ -6,6 +6,7 @@
 #include "base_motion.h"
 #include "fall_two_walls.h"
 #include "floor.h"
+#include "launch.h"
 #include "move.h"
 #include "overlap.h"
 #include "query.h"
@@ -21,6 +22,8 @@ typedef struct arc {
     vec3 level;    /* velocity across the axis */
     double rise;   /* velocity along it */
     double gravity, terminal, hold;
+    int drifts; /* 1: a drive comes on top of the velocity */
+    vec3 drift; /* m/s, with drifts */
 } arc;
 
 typedef struct fall {
@@ -28,6 +31,20 @@ typedef struct fall {
     tahr__plane planes[TAHR__MAX_PLANES];
     uint32_t plane_count;
 } fall;
+
+/* The drive is the velocity, and gravity acts where the drive leaves falling alone. */
+static void drive_arc(const tahr__step *step, arc *a)
+{
+    vec3 drive = drive_of(step);
+    double rise = dot(drive, a->axis);
+    a->level = add_scaled(drive, a->axis, -rise);
+    a->law = drive_law(a->level);
+    if (!(step->input->flags & TAHR_INPUT_DRIVE_LEVEL)) {
+        a->rise = rise;
+        a->gravity = a->hold = 0;
+        a->terminal = max_of(a->terminal, -rise);
+    }
+}
 
 static arc arc_of(const tahr__step *step)
 {
@@ -50,6 +67,13 @@ static arc arc_of(const tahr__step *step)
     a.level = add_scaled(step->state.velocity, a.axis, -a.rise);
     int holds = (step->state.flags & TAHR_STATE_JUMPING) && step->input->jump && !c->jump_hold_gravity;
     a.hold = holds ? step->state.jump_hold : 0;
+    a.drifts = is_drifting(step);
+    if (a.drifts) {
+        a.drift = drive_of(step);
+    }
+    if (is_driven(step)) {
+        drive_arc(step, &a);
+    }
     return a;
 }
 
@@ -59,7 +83,8 @@ static vec3 arc_at(const arc *a, double t, vec3 *velocity)
     double rise = tahr__fall_advance(a->rise, a->gravity, a->terminal, a->hold, t, &v);
     tahr__motion m = tahr__law_advance(&a->law, a->level, t);
     *velocity = add_scaled(m.velocity, a->axis, v);
-    return add_scaled(m.displacement, a->axis, rise);
+    vec3 way = add_scaled(m.displacement, a->axis, rise);
+    return a->drifts ? add_scaled(way, a->drift, t) : way;
 }
 
 /* s until the arc is highest; 0 if it is past that. A rise of less than a nanosecond is the rounding of an apex that
@@ -82,7 +107,7 @@ static double meeting_time(const arc *a, vec3 normal, vec3 touch, double t)
     for (int i = 0; i < 24; i++) {
         vec3 v;
         double value = dot(normal, arc_at(a, s, &v)) - goal;
-        double slope = dot(normal, v);
+        double slope = dot(normal, a->drifts ? add(v, a->drift) : v);
         *(value > 0 ? &low : &high) = s;
         double next = slope < 0 ? s - value / slope : 0.5 * (low + high);
         next = next >= low && next <= high ? next : 0.5 * (low + high);
@@ -122,7 +147,7 @@ static double meet_on_arc(tahr__step *step, const arc *a, vec3 chord, double dur
 static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
 {
     double up = dot(hit->normal, step->state.up);
-    vec3 v = step->state.velocity;
+    vec3 v = whole_velocity(step);
     /* A slide along the face leaves a speed of rounding against it, of either sign. */
     int leaves = dot(v, hit->normal) > 1e-9 * length(v);
     if (up < 1e-3 || leaves || step->error < 0) { /* 1e-3: a wall */
@@ -138,7 +163,7 @@ static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
 static tahr__next land(tahr__step *step, const tahr_hit *hit, const tahr_floor *floor, double left)
 {
     tahr__land_on(step, floor->body);
-    double speed = -dot(step->state.velocity, step->state.up);
+    double speed = -dot(whole_velocity(step), step->state.up);
     tahr__event(step, TAHR_EVENT_LANDED, hit, max_of(speed, 0));
     step->state.velocity = step_level(step, step->state.velocity);
     step->state.flags &= ~(uint32_t)TAHR_STATE_JUMPING;
@@ -278,7 +303,7 @@ static tahr__next fall_slice(tahr__step *step, double time)
             return land(step, &hit, &floor, f.left);
         }
         tahr__plane plane = tahr__plane_of(step, &hit);
-        double speed = max_of(-dot(step->state.velocity, hit.normal), 0);
+        double speed = max_of(-dot(whole_velocity(step), hit.normal), 0);
         tahr__event(step, TAHR_EVENT_HIT, &hit, speed);
         tahr__planes_add(f.planes, &f.plane_count, &plane);
         step->state.velocity = slide_in_air(step, &f, step->state.velocity);

@@ -10,6 +10,7 @@
 #include "floor_distance.h"
 #include "foot.h"
 #include "perch.h"
+#include "plane.h"
 #include "report.h"
 
 /* Faces this close to vertical are never a floor, whatever an override says. */
@@ -147,8 +148,7 @@ static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied,
     tahr__decide(step, TAHR_RULE_FLOOR, ok, &hit, floor->distance, range, "floor distance");
 }
 
-/* May the body that holds the character move without a change of the world's revision being all there is to see of it?
- * What the core knows nothing of may, if anything of its world does. */
+/* The field's dynamic base. Of a body that the core was not told of it is enough that bodies of its world move. */
 static int may_move(const tahr_world *world, uint32_t body)
 {
     if (world->bodies && body < world->body_count) {
@@ -315,7 +315,7 @@ static double adjust_whole(tahr__step *step)
     const tahr_floor *floor = &step->state.floor;
     double target = c->floor_target * c->skin;
     double gap = floor->distance;
-    if (!floor_is_walkable(floor) || floor_is_in_band(step)) {
+    if (!floor_is_walkable(floor) || floor_is_in_band(step) || !may_rise(step)) {
         return 0;
     }
     vec3 before = step->state.position;

@@ -3,6 +3,7 @@
 #include "jump.h"
 
 #include "modes.h"
+#include "plane.h"
 #include "report.h"
 #include "swimming.h"
 #include "walking.h"
@@ -33,7 +34,7 @@ void tahr__begin_jump(tahr__step *step)
         tahr__jump_from_water(step);
         return;
     }
-    if (held || s->mode != TAHR_MODE_WALKING) {
+    if (held || s->mode != TAHR_MODE_WALKING || !may_rise(step)) {
         hold_jump(step);
         return;
     }

@@ -4,6 +4,7 @@
 
 #include "base_motion.h"
 #include "floor_distance.h"
+#include "launch.h"
 #include "modes.h"
 #include "report.h"
 
@@ -61,7 +62,7 @@ void tahr__process_landed(tahr__step *step, const tahr_hit *hit)
     tahr_floor floor;
     tahr_state *s = &step->state;
     tahr__land_on(step, hit->body);
-    tahr__event(step, TAHR_EVENT_LANDED, hit, max_of(-dot(s->velocity, s->up), 0));
+    tahr__event(step, TAHR_EVENT_LANDED, hit, max_of(-dot(whole_velocity(step), s->up), 0));
     s->velocity = step_level(step, s->velocity);
     s->flags &= ~(uint32_t)TAHR_STATE_JUMPING;
     s->jump_hold = 0;

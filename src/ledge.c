@@ -4,6 +4,7 @@
 
 #include "floor.h"
 #include "move.h"
+#include "plane.h"
 #include "report.h"
 #include "slide.h"
 
@@ -40,7 +41,8 @@ static int hold_at_ledge(tahr__step *step, tahr__path *w)
                         .anchor = step->state.position,
                         .body = floor.body,
                         .feature = floor.feature};
-    if (length_squared(edge.normal) == 0) {
+    int faces_out = is_in_plane(step) && !tahr__plane_surface(step, &edge.normal, &edge.offset);
+    if (length_squared(edge.normal) == 0 || faces_out) {
         edge.normal = unit(scale(step_level(step, w->wish), -1));
     }
     /* A thousandth of a skin inward, so that going on along the edge does not lose the floor to rounding. */

@@ -4,6 +4,7 @@
 
 #include "elementary.h"
 #include "foot.h"
+#include "plane.h"
 #include "shape.h"
 
 tahr__pull tahr__pull_of(vec3 gravity)
@@ -23,8 +24,11 @@ tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t
     int box = s->type == TAHR_SHAPE_BOX;
     limits.width = shape_width(s);
     limits.around = box ? sqrt(s->half_x * s->half_x + s->half_y * s->half_y) : s->radius;
+    limits.speed = s->half_height < c->shape.half_height ? c->crouched_speed : c->max_speed;
     limits.axis = s->half_height - (box ? 0 : s->radius);
-    limits.pull = tahr__pull_of(c->gravity);
+    limits.plane = unit(c->plane);
+    limits.in_plane = length_squared(c->plane) > 0;
+    limits.pull = tahr__pull_of(along_plane(&limits, c->gravity));
     limits.foot = tahr__foot_of(s, capabilities);
     return limits;
 }

@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "plane.h"
 #include "push.h"
 #include "query.h"
 #include "report.h"
@@ -69,7 +70,7 @@ int tahr__move_updated(tahr__step *step, vec3 motion, uint32_t flags, tahr__swep
     tahr_hit *hit = &swept->hit;
     double least = least_motion(c);
     swept->start = step->state.position;
-    swept->motion = motion = step_constrained(step, motion);
+    swept->motion = motion = along_plane(step->limits, motion);
     double size2 = length_squared(motion);
     if (size2 <= least * least) {
         skip(swept);
@@ -155,7 +156,7 @@ static double deepest(const tahr_contact *contacts, uint32_t count)
 }
 
 /* The shortest push that leaves `skin` to everything, or the least-squares one. Returns 1 if it suffices. */
-static int joint_push(const tahr_contact *contacts, uint32_t count, double skin, vec3 *push)
+static int joint_push(const tahr__step *step, const tahr_contact *contacts, uint32_t count, double skin, vec3 *push)
 {
     tahr__plane planes[TAHR__MAX_PLANES];
     uint32_t used = 0;
@@ -164,7 +165,9 @@ static int joint_push(const tahr_contact *contacts, uint32_t count, double skin,
                              .offset = skin - contacts[i].distance,
                              .body = contacts[i].body,
                              .feature = contacts[i].feature};
-        tahr__planes_add(planes, &used, &plane);
+        if (!is_in_plane(step) || tahr__plane_surface(step, &plane.normal, &plane.offset)) {
+            tahr__planes_add(planes, &used, &plane);
+        }
     }
     return tahr__project(planes, used, vec(0, 0, 0), push);
 }
@@ -226,7 +229,7 @@ int tahr__depenetrate(tahr__step *step)
     double depth = deepest(contacts, count);
     for (int round = 0; round < TAHR__DEPENETRATION_ROUNDS && depth > TOUCHING && step->push_left > 0; round++) {
         vec3 push, before = step->state.position;
-        int frees = joint_push(contacts, count, skin, &push);
+        int frees = joint_push(step, contacts, count, skin, &push);
         double fixed = 0;
         if (squeezes) {
             fixed = tahr__fixed_depth(step, contacts, count);

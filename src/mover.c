@@ -11,6 +11,7 @@
 #include "message.h"
 #include "modes.h"
 #include "overlap.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 #include "request.h"
@@ -83,7 +84,7 @@ void tahr_mover_destroy(tahr_mover *mover)
 }
 
 /* Everything that the step is expected to ask about: its motion, steps up, snaps and perches down, a few skins. */
-static void announce(tahr__step *step, double dt)
+static void announce(tahr__step *step, double dt, int stance)
 {
     const tahr_config *c = step->config;
     vec3 v = step->state.velocity;
@@ -97,20 +98,29 @@ static void announce(tahr__step *step, double dt)
     vec3 half = add_scaled(vec(around, around, around), away, step->limits->axis + 0.5 * (rise + drop));
     vec3 middle = add_scaled(p, up, 0.5 * (rise - drop));
     tahr_prepare a = {.bounds = {sub(middle, half), add(middle, half)}, .position = p, .up = up, .mask = c->mask};
+    if (stance) {
+        tahr__announce_stance(step, &a.bounds);
+    }
     tahr__announce(step, &a);
 }
 
 static void run(tahr__step *step, double dt)
 {
+    if (is_in_plane(step)) {
+        tahr__plane_begin(step);
+    }
     if (!is_upright(step)) {
         tahr__right(step);
     }
     if (step->input->flags & TAHR_INPUT_FACING) {
         tahr__face(step, dt);
     }
-    announce(step, dt);
+    int stance = is_stance_open(step);
+    announce(step, dt, stance);
     tahr__follow_base(step, dt);
-    tahr__take_stance(step);
+    if (stance) {
+        tahr__take_stance(step);
+    }
     if (step->input->flags & ~(uint32_t)(TAHR_INPUT_GRAVITY | TAHR_INPUT_FACING)) {
         tahr__ask_mode(step);
         tahr__launch(step);
@@ -128,6 +138,9 @@ static void run(tahr__step *step, double dt)
     }
     if (left > MIN_SLICE) {
         step->report.time_lost += left;
+    }
+    if (is_in_plane(step)) {
+        tahr__plane_end(step);
     }
     tahr__take_base(step);
     if (step->trail) {
@@ -263,7 +276,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.context = (tahr_query_context){.cache = mover->cache};
     step.pull = &mover->limits.pull;
     if (input->flags & TAHR_INPUT_GRAVITY) {
-        pull = tahr__pull_of(input->gravity);
+        pull = tahr__pull_of(along_plane(&mover->limits, input->gravity));
         step.pull = &pull;
     }
     step.time = 0;

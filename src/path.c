@@ -3,7 +3,9 @@
 #include "path.h"
 
 #include "floor.h"
+#include "launch.h"
 #include "move.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 #include "slide.h"
@@ -21,7 +23,7 @@ static inline void set_law(tahr__path *w, const tahr__step *step)
     }
     vec3 wish = step_level(step, step->input->move);
     double size = length(wish);
-    double asked = c->max_speed * min_of(size, 1);
+    double asked = step->limits->speed * min_of(size, 1);
     double kept = 1; /* cosine to the wall: of the speed and of the acceleration */
     if (w->wall_count > 0 && size > 0) {
         wish = tahr__bend(w->walls, w->wall_count, wish);
@@ -63,6 +65,9 @@ static inline void begin_piece(tahr__step *step, tahr__path *w, vec3 velocity, d
     w->stop_time = m.stop_time >= 0 ? w->began + m.stop_time : -1;
     w->from = step->state.position;
     step->state.velocity = m.velocity;
+    if (step->input->flags & TAHR_INPUT_DRIVE) {
+        tahr__drive_piece(step, w);
+    }
 }
 
 /* The plane arrays are left as they are: only what is counted is read. */
@@ -73,6 +78,7 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     w->turns = 0;
     w->careful = 0;
     w->ease = 0;
+    w->drifts = 0;
     tahr__path_carry_floor(w, step);
     w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
     begin_piece(step, w, step_level(step, step->state.velocity), duration);
@@ -85,6 +91,9 @@ static double time_of_part(const tahr__path *w, double part)
     double size2 = length_squared(w->wish);
     if (part <= 0 || part >= 1 || size2 == 0) {
         return part <= 0 ? 0 : w->duration;
+    }
+    if (w->drifts) {
+        return tahr__drift_time(&w->law, w->velocity, w->drift, w->duration, w->wish, part);
     }
     if (dot(w->velocity, w->wish) < 0 && part * part * size2 <= touched * touched) {
         return 0; /* turns round first, and passes here again later: what is met at once was touched at the begin */
@@ -200,7 +209,8 @@ static int add_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
     uint32_t count = dot(hit->normal, step->state.up) < 0 && w->ramp_count > 1 ? w->ramp_count : 1;
     for (uint32_t i = 0; i < count; i++) {
         tahr__plane wall = tahr__plane_of(step, hit);
-        if (!tahr__level_wall(step, w->ramp_count ? w->ramps[i] : step->state.up, &wall)) {
+        if (!tahr__level_wall(step, w->ramp_count ? w->ramps[i] : step->state.up, &wall) ||
+            (is_in_plane(step) && !tahr__plane_surface(step, &wall.normal, &wall.offset))) {
             return 0;
         }
         wall.body ^= i << 24; /* a key of its own for every ramp */
@@ -214,7 +224,8 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit, doubl
 {
     vec3 velocity = tahr__law_advance(&w->law, w->velocity, used).velocity;
     step->ahead = w->began + used;
-    tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(velocity, hit->normal), 0));
+    vec3 whole = w->drifts ? add(velocity, w->drift) : velocity;
+    tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(whole, hit->normal), 0));
     step->report.slides++;
     if (!add_wall(step, w, hit)) {
         return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");

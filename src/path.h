@@ -26,6 +26,8 @@ typedef struct tahr__path {
     uint32_t turns;   /* times that something was met */
     uint32_t careful; /* 1: the path ends where it meets something without a floor underfoot */
     double lost;      /* s of the piece that a cap or an answer dropped */
+    uint32_t drifts;  /* 1: a drive comes on top of the velocity */
+    vec3 drift;       /* m/s, with drifts: its level part */
 } tahr__path;
 
 /* Starts a path of `duration` seconds at the state's position and velocity. No query. */

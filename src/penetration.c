@@ -2,6 +2,7 @@
  * penetration.c: out of one overlap at a time: the push that one surface asks for, tried where a little more than the
  * shape fits, and swept where it does not. For the joint solve see tahr__depenetrate in move.c. */
 #include "move.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 #include "trail.h"
@@ -26,7 +27,7 @@ vec3 tahr__penetration_adjustment(const tahr__step *step, const tahr_hit *hit)
         return vec(0, 0, 0);
     }
     double depth = hit->depth > 0 ? min_of(hit->depth, 1e6) : extra_push(c); /* m: no body is larger */
-    vec3 push = step_constrained(step, scale(hit->normal, depth + extra_push(c)));
+    vec3 push = along_plane(step->limits, scale(hit->normal, depth + extra_push(c)));
     int character = (world_body_flags(step->world, hit->body) & TAHR_BODY_CHARACTER) != 0;
     double most = character ? c->max_depenetration_character : c->max_depenetration;
     double size = length(push);
@@ -85,7 +86,7 @@ static void tell(tahr__step *step, const tahr__swept *swept, int moved)
 
 int tahr__resolve_penetration(tahr__step *step, vec3 adjustment, const tahr__swept *swept)
 {
-    vec3 push = step_constrained(step, adjustment);
+    vec3 push = along_plane(step->limits, adjustment);
     if (length_squared(push) == 0) {
         return 0;
     }

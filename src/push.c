@@ -236,8 +236,6 @@ vec3 tahr__spare_the_fixed(const tahr__step *step, const tahr_contact *contacts,
     tahr__plane planes[TAHR__MAX_PLANES];
     uint32_t used = 0;
     vec3 spared;
-    double most = 0.5 * step->limits->width, size = length(push);
-    push = size > most ? scale(push, most / size) : push;
     for (uint32_t i = 0; i < count; i++) {
         if (!is_fixed(step, contacts[i].body)) {
             continue;

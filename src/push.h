@@ -16,7 +16,7 @@ int tahr__moves_near(const tahr__step *step, uint32_t except);
 double tahr__fixed_depth(const tahr__step *step, const tahr_contact *contacts, uint32_t count);
 
 /* A push that not all contacts allow, corrected so that no body that never moves is entered: what moves gives way, or
- * crushes. No longer than half the width of the shape, so that nothing thin is passed. No query. */
+ * crushes. No query. */
 vec3 tahr__spare_the_fixed(const tahr__step *step, const tahr_contact *contacts, uint32_t count, vec3 push);
 
 /* Reports the push of a hit against a body that has a mass. speed: of the character into it, m/s. */

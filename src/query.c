@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "message.h"
+#include "plane.h"
 #include "report.h"
 #include "shape.h"
 #include "trail.h"
@@ -518,7 +519,7 @@ tahr_fluid tahr__fluid(tahr__step *step, vec3 position)
     if (step->report.queries) {
         record_fluid(step, &q, &fluid);
     }
-    fluid.velocity = step_constrained(step, fluid.velocity);
+    fluid.velocity = along_plane(step->limits, fluid.velocity);
     return fluid;
 }
 

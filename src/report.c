@@ -33,7 +33,7 @@ void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double va
         event.time = max_of(event.time, r->events[r->event_count - 1].time);
     }
     r->events[r->event_count++] = event;
-    if (type == TAHR_EVENT_HIT && step->world->has & TAHR__HAS_BASES) {
+    if (type == TAHR_EVENT_HIT && hit && step->world->has & TAHR__HAS_BASES) {
         tahr__report_push(step, hit, value);
     }
 }

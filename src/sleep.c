@@ -39,12 +39,11 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
 {
     tahr__sleep *s = &mover->sleep;
     const tahr_report *r = &step->report;
-    /* A caller's own mode may depend on what the core cannot see. */
-    int own = mover->custom.run && (state->mode == TAHR_MODE_CUSTOM || (step->input->flags & TAHR_INPUT_MODE));
-    changed |= own;
     /* Where a base that the core has no note of is, only the next step asks. */
     uint32_t base = step->state.base.body;
     changed |= base != TAHR_NO_BODY && base >= mover->world->body_count;
+    /* A caller's own mode may depend on what the core cannot see. */
+    changed |= mover->custom.run && (state->mode == TAHR_MODE_CUSTOM || (step->input->flags & TAHR_INPUT_MODE));
     s->noted = !changed && mover->config.sleep && !r->decisions && !r->queries && r->event_count <= TAHR__SLEEP_EVENTS;
     if (!s->noted) {
         return;

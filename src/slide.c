@@ -5,6 +5,8 @@
  * tilted planes of edges that are near but not in the way, which as planes block what the edges themselves let pass. */
 #include "slide.h"
 
+#include "plane.h"
+
 vec3 tahr__bend(const tahr__plane *planes, uint32_t count, vec3 motion)
 {
     vec3 x, off = vec(0, 0, 0);
@@ -25,6 +27,9 @@ tahr__plane tahr__plane_of(const tahr__step *step, const tahr_hit *hit)
 {
     tahr__plane plane = {
         .normal = hit->normal, .anchor = step->state.position, .body = hit->body, .feature = hit->feature};
+    if (is_in_plane(step)) {
+        tahr__plane_surface(step, &plane.normal, &plane.offset);
+    }
     return plane;
 }
 

@@ -3,6 +3,7 @@
  * the edge as the judge see step_up.c. */
 #include "floor.h"
 #include "floor_distance.h"
+#include "plane.h"
 #include "report.h"
 #include "scope.h"
 #include "slide.h"
@@ -139,7 +140,7 @@ int tahr__step_up_by_contact(tahr__step *step, vec3 motion, const tahr__swept *o
     const tahr_hit hit = obstacle->hit;
     const tahr_shape *s = &step->limits->shape;
     *found_floor = 0;
-    if (!can_step_up(step, &hit) || step->config->step_height <= 0 || step->pull->size == 0) {
+    if (!can_step_up(step, &hit) || step->config->step_height <= 0 || step->pull->size == 0 || !may_rise(step)) {
         return 0;
     }
     plan(step, obstacle, &a);

@@ -8,6 +8,7 @@
 
 #include "floor.h"
 #include "lip.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 #include "scope.h"
@@ -129,7 +130,7 @@ double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
     if (c->step_rule == TAHR_STEP_BY_CONTACT) {
         return by_contact(step, motion, obstacle);
     }
-    if (c->step_height <= 0 || !floor_is_walkable(&step->state.floor) ||
+    if (c->step_height <= 0 || !may_rise(step) || !floor_is_walkable(&step->state.floor) ||
         dot(obstacle->normal, a.up) < -0.1) { /* struck by the upper half: a ceiling or an overhang */
         return 0;
     }

@@ -112,7 +112,7 @@ static tahr__law law_of(const tahr__step *step, double speed, double acceleratio
 tahr__law tahr__walking_law(const tahr__step *step)
 {
     const tahr_config *c = step->config;
-    tahr__law law = law_of(step, c->max_speed, c->acceleration);
+    tahr__law law = law_of(step, step->limits->speed, c->acceleration);
     law.turn_friction = c->turn_friction;
     law.braking = c->braking_deceleration;
     law.drag = c->braking_drag;

@@ -6,25 +6,37 @@
 #include "query.h"
 #include "report.h"
 
+/* Asked before the announcement: the cache still belongs to another step, perhaps of another character. */
+static int overlaps(tahr__step *step)
+{
+    tahr_contact contact;
+    void *cache = step->context.cache;
+    step->context.cache = NULL;
+    uint32_t touched = tahr__contacts(step, step->state.position, 0, &contact, 1);
+    step->context.cache = cache;
+    return touched > 0 && contact.distance < 0;
+}
+
 void tahr__right(tahr__step *step)
 {
     tahr_state *s = &step->state;
-    tahr_contact contact;
     vec3 up = step->pull->up;
     tahr_state before = *s;
     vec3 foot = step_foot(step);
-    s->orientation = quat_unit(quat_multiply(quat_between(s->up, up), s->orientation));
+    tahr_quat turn = quat_between(s->up, up);
+    s->orientation = quat_unit(quat_multiply(turn, s->orientation));
     s->up = up;
     s->position = add_scaled(foot, up, step->limits->shape.half_height);
     s->floor_revision = 0;
-    /* Asked before the announcement: the cache still belongs to another step, perhaps of another character. */
-    void *cache = step->context.cache;
-    step->context.cache = NULL;
-    uint32_t touched = tahr__contacts(step, s->position, 0, &contact, 1);
-    step->context.cache = cache;
-    if (touched > 0 && contact.distance < 0) {
-        *s = before;
-        step->report.flags |= TAHR_REPORT_UP_REFUSED;
+    if (s->mode == TAHR_MODE_WALKING && dot(before.up, up) > 0) { /* on round ground the speed stays, along it */
+        s->velocity = rotate(turn, s->velocity);
+    }
+    if (overlaps(step)) { /* on a floor the foot has no room to turn by more than 15 degrees */
+        s->position = before.position;
+        if (overlaps(step)) {
+            *s = before;
+            step->report.flags |= TAHR_REPORT_UP_REFUSED;
+        }
     }
 }
 

@@ -11,8 +11,9 @@ static inline int is_upright(const tahr__step *step)
     return step->pull->size < 1e-6 || dot(step->pull->up, step->state.up) > 1 - 1e-15;
 }
 
-/* Rights the shape against gravity, pivoting about its foot; refused with a flag where it would overlap something. 0 or
- * 1 contact query. */
+/* Rights the shape against gravity, pivoting about its foot, or where that overlaps something about its centre; refused
+ * with a flag where both do. The velocity of who walks turns with up, unless by more than a right angle. 1 or 2 contact
+ * queries. */
 void tahr__right(tahr__step *step);
 
 /* Turns the orientation about up toward input.facing at turn_rate. No query. */

@@ -2,6 +2,7 @@
  * two_walls.c: bending a motion along one surface and then along a second one, what is left is dropped: config.slide_solver
  * TWO_WALLS. For the joint projection see slide.c and cone.c. */
 #include "floor.h"
+#include "plane.h"
 #include "report.h"
 #include "slide.h"
 
@@ -25,7 +26,7 @@ static vec3 base_slide(const tahr__step *step, vec3 delta, double time, vec3 nor
 {
     vec3 n = normal;
     if (length_squared(step->config->plane) > 0) {
-        n = unit(step_constrained(step, normal));
+        n = unit(along_plane(step->limits, normal));
     }
     return scale(reject(delta, n), time);
 }

@@ -7,11 +7,14 @@
 
 #include "floor.h"
 #include "floor_distance.h"
+#include "launch.h"
 #include "move_along_floor.h"
 #include "overlap.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 #include "scope.h"
+#include "stance.h"
 #include "stepped.h"
 #include "walking.h"
 
@@ -31,13 +34,6 @@ enum { GOES_ON, ENDS, FALLS };
 static double ledge_drop(const tahr_config *c)
 {
     return c->step_height + 40 * c->pull_back;
-}
-
-static int may_walk_off(const tahr__step *step)
-{
-    const tahr_config *c = step->config;
-    int crouched = (step->state.flags & TAHR_STATE_CROUCHED) != 0;
-    return c->walk_off_ledges && (!crouched || c->walk_off_ledges_crouched);
 }
 
 static void look_for_floor(tahr__step *step)
@@ -62,6 +58,10 @@ static void begin_slice(tahr__step *step, walk *w)
     const double tiny = tiny_length(step->config);
     tahr__law law = tahr__walking_law(step);
     vec3 before = tahr__level_velocity(step, s->velocity);
+    if (is_driven(step)) {
+        before = step_level(step, step->input->drive);
+        law = drive_law(before);
+    }
     step->just_teleported = 0;
     w->from = s->position;
     if (!may_walk_off(step)) {
@@ -78,6 +78,9 @@ static void begin_slice(tahr__step *step, walk *w)
     }
     if (length_squared(before) > 0 && length_squared(s->velocity) == 0) {
         tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);
+    }
+    if (is_drifting(step)) {
+        w->delta = add_scaled(w->delta, step_level(step, step->input->drive), w->h);
     }
     vec3 d = w->delta;
     w->zero = max_of(max_of(d.x, -d.x), max_of(max_of(d.y, -d.y), max_of(d.z, -d.z))) <= tiny;
@@ -130,8 +133,8 @@ static int has_floor_beside(tahr__step *step, vec3 from, vec3 side)
 
 vec3 tahr__ledge_move(tahr__step *step, vec3 from, vec3 delta)
 {
-    vec3 right = cross(delta, step->state.up), left = scale(right, -1);
-    if (has_floor_beside(step, from, right)) {
+    vec3 right = along_plane(step->limits, cross(delta, step->state.up)), left = scale(right, -1);
+    if (length_squared(right) == 0 || has_floor_beside(step, from, right)) {
         return right;
     }
     return has_floor_beside(step, from, left) ? left : vec(0, 0, 0);
@@ -210,9 +213,11 @@ static void take_velocity(tahr__step *step, const walk *w)
 {
     vec3 moved = sub(step->state.position, w->from);
     double way = length(step->config->keep_level_speed ? step_level(step, moved) : moved);
-    double missing = way - length(w->delta), tiny = tiny_length(step->config);
+    double asked = length(w->delta), missing = way - asked, tiny = tiny_length(step->config);
     int exact = step->config->integrator == TAHR_INTEGRATOR_EXACT;
-    if (!step->just_teleported && !(exact && missing * missing <= tiny * tiny)) {
+    if (is_drifting(step)) { /* only a part of that was the velocity's doing */
+        step->state.velocity = scale(step->state.velocity, asked > way ? way / asked : 1);
+    } else if (!step->just_teleported && !(exact && missing * missing <= tiny * tiny)) {
         step->state.velocity = scale(moved, 1.0 / w->h);
     }
     step->state.velocity = tahr__level_velocity(step, step->state.velocity);

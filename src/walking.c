@@ -13,6 +13,7 @@
 #include "path.h"
 #include "report.h"
 #include "scope.h"
+#include "stance.h"
 #include "stepped.h"
 #include "walk_two_walls.h"
 
@@ -115,7 +116,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
         if (w->turns > 0 && !w->careful) {
             return WALK_AGAIN;
         }
-        if (!step->config->walk_off_ledges) {
+        if (!may_walk_off(step)) {
             tahr__stay_on_ledge(step, w);
             return FLOOR;
         }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * wedge.c: held by several faces, each too steep to stand on. */
 #include "floor.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 
@@ -15,7 +16,9 @@ int tahr__is_wedged(tahr__step *step)
     uint32_t count = tahr__contacts(step, step->state.position, 1.01 * step->config->skin, contacts, CONTACTS);
     for (uint32_t i = 0; i < count; i++) {
         tahr__plane plane = {.normal = contacts[i].normal, .body = contacts[i].body, .feature = contacts[i].feature};
-        tahr__planes_add(planes, &used, &plane);
+        if (!is_in_plane(step) || tahr__plane_surface(step, &plane.normal, &plane.offset)) {
+            tahr__planes_add(planes, &used, &plane);
+        }
     }
     tahr__project(planes, used, scale(step->state.up, -1), &way);
     double left = length(way);

@@ -276,9 +276,9 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
         return status;
     }
     world->backend = backend;
+    world->has |= backend->body_motion ? (uint32_t)TAHR__HAS_BASES : 0u;
     /* A backend that brings its own scene may have fluids in it that nobody described. */
     world->has |= backend->fluid && desc->body_count == 0 ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
-    world->has |= backend->body_motion ? (uint32_t)TAHR__HAS_BASES : 0u;
     *out = world;
     return TAHR_OK;
 }
@@ -312,9 +312,9 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     world->self = world + 1;
     memcpy(world->self, callbacks, sizeof *callbacks);
     world->backend = &tahr__callbacks_backend;
-    world->has |= callbacks->fluid ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
     world->has |= callbacks->body ? (uint32_t)TAHR__HAS_BASES : 0u;
-    world->has |= ((const tahr_callbacks *)world->self)->sensors ? TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS : 0u;
+    world->has |= callbacks->sensors ? TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS : 0u;
+    world->has |= callbacks->fluid ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
     *out = world;
     return TAHR_OK;
 }

@@ -190,8 +190,8 @@ tahr_status tahr__ccd_sweep(void *self, tahr_query_context *context, const tahr_
                              .ignore_body = query->ignore_body,
                              .only_body = (query->flags & TAHR_SWEEP_ONLY_BODY) != 0,
                              .leaves_out = query->flags & TAHR_SWEEP_SENSORS ? TAHR__CCD_SOLIDS
-                                           : capacity == 1                  ? TAHR__CCD_SENSORS
-                                                                            : 0u};
+                                           : capacity == 1                   ? TAHR__CCD_SENSORS
+                                                                             : 0u};
     search s;
     tahr__ccd_walk walk;
     tahr__ccd_piece piece;

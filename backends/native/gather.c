@@ -141,7 +141,7 @@ static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
 
 static int concerns(const tahr__query *query, const tahr__prim *prim)
 {
-    if (!tahr__is_asked(query, prim->body, prim->mask)) return 0;
+    if (!(prim->mask & query->mask) || prim->body == query->ignore_body) return 0;
     return query->sensors != (prim->kind & TAHR__SENSOR ? TAHR__SENSORS_NONE : TAHR__SENSORS_ONLY);
 }
 
@@ -153,8 +153,7 @@ uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr_
     tahr__lanes_query q;
     lanes_query(s, &q);
     uint32_t count = query->world->cull(&lanes, &q, found), kept = 0;
-    if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY &&
-        !(query->flags & TAHR_SWEEP_ONLY_BODY))
+    if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY)
         return query->sensors == TAHR__SENSORS_ONLY ? 0 : count;
     for (uint32_t i = 0; i < count; i++) {
         found[kept] = found[i];

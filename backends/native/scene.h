@@ -115,24 +115,9 @@ typedef struct tahr__query {
     double motion_length;
     double radius, margin;
     double half; /* of an upright segment, 0 for a point */
-    uint32_t mask, ignore_body, flags;
-    uint32_t sensors; /* TAHR__SENSORS_* */
+    uint32_t mask, ignore_body, flags; /* flags: of a sweep; with ONLY_BODY nothing but ignore_body is searched */
+    uint32_t sensors;                  /* TAHR__SENSORS_* */
 } tahr__query;
-
-/* Is this body there for the query? */
-static inline int tahr__is_asked(const tahr__query *query, uint32_t body, uint32_t mask)
-{
-    int only = (query->flags & TAHR_SWEEP_ONLY_BODY) != 0;
-    return (mask & query->mask) && (body == query->ignore_body) == only;
-}
-
-/* Is nothing asked about but one movable body? Then no static one need be looked at. */
-static inline int tahr__asks_movable_only(const tahr__query *query)
-{
-    const tahr__native *world = query->world;
-    return query->flags & TAHR_SWEEP_ONLY_BODY && query->ignore_body < world->body_count &&
-           world->bodies[query->ignore_body].flags & TAHR_BODY_MOVABLE;
-}
 
 /* Visits every primitive that may be within reach of box. The visitor may shrink box (and set narrowed) on the way. */
 typedef struct tahr__search {
@@ -180,6 +165,8 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
 
 /* tree.c: primitives of a group of bodies, straight from their trees. */
 void tahr__tree_search(tahr__search *search, const tahr__group *group);
+/* And of one body alone. */
+void tahr__tree_search_body(tahr__search *search, uint32_t body);
 
 /* resolve.c: from a nearest point to a contact. */
 enum { TAHR__REJECTED = 0, TAHR__ACCEPTED = 1, TAHR__NEIGHBOUR = 2 };

@@ -224,9 +224,13 @@ static uint32_t ask_recent(sweep_state *s, const tahr__prim *prims, tahr__lanes_
     return count;
 }
 
-static void search_fixed(sweep_state *s)
+static void search(sweep_state *s)
 {
     const tahr__query *query = s->search.query;
+    if (query->flags & TAHR_SWEEP_ONLY_BODY) {
+        if (query->ignore_body < query->world->body_count) tahr__tree_search_body(&s->search, query->ignore_body);
+        return;
+    }
     if (tahr__cache_holds(&s->search)) {
         const tahr__prim *prims;
         tahr__lanes_found found[TAHR__CACHE_MOST];
@@ -241,12 +245,6 @@ static void search_fixed(sweep_state *s)
     } else {
         tahr__tree_search(&s->search, &query->world->fixed);
     }
-}
-
-static void search(sweep_state *s)
-{
-    const tahr__query *query = s->search.query;
-    if (!tahr__asks_movable_only(query)) search_fixed(s);
     s->stopper = NULL;
     if (query->world->movable.count == 0) return;
     narrow(s);

@@ -58,10 +58,10 @@ static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
     }
 }
 
-static void search_body(tahr__search *s, uint32_t id)
+void tahr__tree_search_body(tahr__search *s, uint32_t id)
 {
     const tahr__body *body = &s->query->world->bodies[id];
-    if (!tahr__is_asked(s->query, id, body->mask)) return;
+    if (!(body->mask & s->query->mask)) return;
     if (s->query->sensors == (body->flags & TAHR_BODY_SENSOR ? TAHR__SENSORS_NONE : TAHR__SENSORS_ONLY)) return;
     tahr__map map = tahr__map_make(s->query->frame, body);
     tahr__prim prim;
@@ -88,8 +88,9 @@ void tahr__tree_search(tahr__search *s, const tahr__group *group)
     tahr__bvh_walk_begin(&walk, &group->tree, &box, s->reach + TAHR__SLACK, near);
     uint32_t first, count;
     while (tahr__bvh_walk_next(&walk, &first, &count)) {
-        for (uint32_t i = first; i < first + count; i++)
-            search_body(s, group->order[i]);
+        for (uint32_t i = first; i < first + count; i++) {
+            if (group->order[i] != s->query->ignore_body) tahr__tree_search_body(s, group->order[i]);
+        }
         box = tahr__frame_box_to_world(frame, &s->box, TAHR__SLACK);
         tahr__bvh_walk_narrow(&walk, &box);
     }

@@ -17,7 +17,7 @@ struct finding {
     tahr_vec3 position; /* of the character's centre, m */
 };
 
-enum { MAX_FINDINGS = 20, MODES = TAHR_MODE_CUSTOM + 1, EVENT_TYPES = TAHR_EVENT_GRABBED + 1 };
+enum { MAX_FINDINGS = 20, MODES = TAHR_MODE_CUSTOM + 1, EVENT_TYPES = TAHR_EVENT_CUSTOM + 1 };
 
 /* What a run found. */
 struct result {

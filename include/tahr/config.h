@@ -79,9 +79,11 @@ typedef struct tahr_config {
                           * it is added to every push, where a shape larger by it fits */
     double max_depenetration; /* m [1.0 | 5.0] JOINT: longest way out of overlaps per step; SINGLE: longest push */
     double max_depenetration_character; /* m [1.0] SINGLE: the same, out of a body with TAHR_BODY_CHARACTER */
-    tahr_vec3 plane;                    /* [0] unit normal: motion stays across it (a side-scroller); zero: none */
-    double mass;                        /* kg [80 | 100] */
-    double push_force;                  /* N [500 | 500] most that is reported as a push against a body with a mass */
+    tahr_vec3 plane; /* [0] unit normal of the plane through the character that it stays in (a side-scroller); zero: none.
+                      * Wishes, gravity, launches and pushes count along it. Equal to up (seen from above): nothing
+                      * falls, jumps, steps up or snaps down */
+    double mass;     /* kg [80 | 100] */
+    double push_force; /* N [500 | 500] most that is reported as a push against a body with a mass */
 
     /* Floor */
     double walkable_angle;      /* rad [50 | 44.765 degrees] steepest floor that can be stood on */

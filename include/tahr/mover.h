@@ -102,16 +102,16 @@ typedef struct tahr_state {
 enum {
     TAHR_INPUT_GRAVITY = 1 << 0,
     TAHR_INPUT_FACING = 1 << 1,
-    TAHR_INPUT_MODE = 1 << 2,         /* change to input.mode at the start of this step: WALKING needs a floor within
-                                     * config.snap_distance, SWIMMING a fluid deep enough, CUSTOM a function */
-    TAHR_INPUT_SHAPE = 1 << 3,        /* take radius and half_height; growing waits until there is room */
-    TAHR_INPUT_LAUNCH = 1 << 4,       /* add launch to the velocity, and leave the ground */
+    TAHR_INPUT_MODE = 1 << 2,   /* change to input.mode at the start of this step: WALKING needs a floor within
+                                 * config.snap_distance, SWIMMING a fluid deep enough, CUSTOM a function */
+    TAHR_INPUT_SHAPE = 1 << 3,  /* have radius and half_height in this step; growing waits until there is room */
+    TAHR_INPUT_LAUNCH = 1 << 4, /* add launch to the velocity, and leave the ground or an edge; ends a held jump */
     TAHR_INPUT_LAUNCH_LEVEL = 1 << 5, /* with LAUNCH: the part across up replaces that of the velocity */
     TAHR_INPUT_LAUNCH_UP = 1 << 6,    /* with LAUNCH: the part along up replaces it */
     TAHR_INPUT_IMPULSE = 1 << 7,      /* add impulse / config.mass; leaves the ground if that points upward */
-    TAHR_INPUT_DRIVE = 1 << 8,        /* drive is the velocity of this step (root motion) */
-    TAHR_INPUT_DRIVE_ADD = 1 << 9,    /* with DRIVE: it comes on top of the character's own, and is not kept */
-    TAHR_INPUT_DRIVE_LEVEL = 1 << 10  /* with DRIVE: only across up; falling goes on */
+    TAHR_INPUT_DRIVE = 1 << 8,       /* drive is the velocity of this step (root motion); walking, its part across up */
+    TAHR_INPUT_DRIVE_ADD = 1 << 9,   /* with DRIVE: it comes on top of state.velocity, and is not kept in it */
+    TAHR_INPUT_DRIVE_LEVEL = 1 << 10 /* with DRIVE: only across up; falling goes on */
 };
 
 /* What the player or an AI wants during one step. */
@@ -119,7 +119,8 @@ typedef struct tahr_input {
     uint32_t struct_size;
     uint32_t flags;  /* TAHR_INPUT_*: which of the optional fields below count */
     uint32_t jump;   /* 1 while the button is held; a jump starts when it goes down */
-    uint32_t crouch; /* 1 while crouched: half height config.crouched_half_height */
+    uint32_t crouch; /* 1 while crouched: half height config.crouched_half_height, about the foot on ground, else about
+                      * the centre; not of spheres, not while hanging */
     tahr_vec3 move; /* world; length 0..1 of the mode's speed, longer is shortened to 1; the part along up counts only in
                         * swimming and flying */
     tahr_vec3 facing;   /* with FACING: turn toward this direction */
@@ -145,7 +146,7 @@ enum {
     TAHR_EVENT_DEPENETRATED = 9, /* value: length of the push, m */
     TAHR_EVENT_CRUSHED = 10,     /* value: depth that is left, m */
     TAHR_EVENT_STUCK = 11,
-    TAHR_EVENT_MODE = 12,          /* value: the new mode */
+    TAHR_EVENT_MODE = 12, /* value: the new mode */
     /* Of a sensor, a fluid too; both in one step: passed through. At the time and the place at which the shape met or left
      * it; what came, went or is not met any more without a motion of the character's: at the start of the step. What does
      * not fit into state.touched begins when there is room for it. */
@@ -153,7 +154,7 @@ enum {
     TAHR_EVENT_OVERLAP_END = 14,
     TAHR_EVENT_BASE = 15,     /* stands on another body (or TAHR_NO_BODY) */
     TAHR_EVENT_SHAPE = 16,    /* value: the new half height, m */
-    TAHR_EVENT_LAUNCHED = 17, /* value: speed, m/s */
+    TAHR_EVENT_LAUNCHED = 17, /* by LAUNCH, or off the ground by IMPULSE; value: speed then, m/s */
     TAHR_EVENT_PUSHED = 18,   /* pushes a body that has a mass: at position, against normal; value: impulse, N s */
     TAHR_EVENT_WALL_JUMPED = 19,
     TAHR_EVENT_GRABBED = 20, /* hangs on an edge */

@@ -169,7 +169,7 @@ TAHR_API tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, 
  * Since 0.1. */
 TAHR_API void tahr_world_close(tahr_world *world);
 
-/* Places movable bodies at new poses, at rest, and advances the revision. All or nothing: every pose is checked first.
+/* Places movable bodies at new poses, at rest, and advances the revision; the others keep their motion. All or nothing: every pose is checked first.
  * Needs exclusive access: no step may run meanwhile. Characters are not carried: what is placed into one pushes it out in
  * its next step. Use it to put a scene back for a rollback. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND (no such body), TAHR_E_ARGUMENT (not movable, not finite,
  * not a unit quaternion, flags not 0), TAHR_E_UNSUPPORTED (a backend or callbacks that cannot place). Since 0.1. */

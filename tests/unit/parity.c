@@ -162,6 +162,12 @@ static void begin_step(parity *p, const tahr_config *config)
     s->dt = 1.0 / 60;
 }
 
+void parity_hold_to(parity *p, vec3 plane)
+{
+    p->config.plane = plane;
+    p->limits = tahr__limits_of(&p->config, &p->config.shape, p->world->backend->capabilities);
+}
+
 void parity_put(parity *p, double x, double y, double z)
 {
     vec3 at = parity_vec(x, y, z);

@@ -62,6 +62,8 @@ void parity_open(parity *p, const parity_scene *scene, int backend, const tahr_c
 /* The same over callbacks of one's own, instead of a scene. */
 void parity_open_callbacks(parity *p, const tahr_callbacks *callbacks, const tahr_config *config);
 void parity_close(parity *p);
+/* Holds the character to a plane with this normal from now on; zero: to none. */
+void parity_hold_to(parity *p, vec3 plane);
 /* Puts the character at a place (cm) and forgets queries, events and flags so far. */
 void parity_put(parity *p, double x, double y, double z);
 /* A floor at this distance (cm) with this normal; flags TAHR_FLOOR_*. */

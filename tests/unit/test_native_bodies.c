@@ -54,7 +54,7 @@ static void broken_bodies_and_options_are_refused(void **state)
 {
     const char *const named[] = {"radius is -1", "half_height",       "pose.position",     "pose.orientation",
                                  "type is 9",    "options.precision", "options.cache_tri", "options.cache_m",
-                                 "flags is 128",  "options.no_cache",  "options.no_simd",   "options.reserved"};
+                                 "flags is 128", "options.no_cache",  "options.no_simd",   "options.reserved"};
     (void)state;
     fixture f;
     for (int n = 0; n < 12; n++) {

@@ -223,8 +223,7 @@ static void a_sensor_that_is_put_elsewhere_is_left_at_once(void **unused)
                 int there = i % 2;
                 sensor_put(&s, body, fake_vec(there ? 0 : 30, 0, 3));
                 rig_step(&s.r, 1.0 / 60);
-                const tahr_event *e =
-                    sensor_event(&s.r, there ? TAHR_EVENT_OVERLAP_BEGIN : TAHR_EVENT_OVERLAP_END, body);
+                const tahr_event *e = sensor_event(&s.r, there ? TAHR_EVENT_OVERLAP_BEGIN : TAHR_EVENT_OVERLAP_END, body);
                 assert_true(e && e->time == 0);
                 assert_int_equal(sensor_events(&s.r, TAHR_EVENT_OVERLAP_BEGIN), there);
                 assert_int_equal(sensor_events(&s.r, TAHR_EVENT_OVERLAP_END), !there);

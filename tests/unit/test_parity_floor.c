@@ -175,11 +175,12 @@ static void supplied_sweep_counts_if_it_went_straight_down(void **unused)
 {
     const struct {
         const char *id;
-        double tilt, off; /* cm that the supplied sweep went aside; cm of its impact off the axis */
+        double down, tilt, off; /* cm that the supplied sweep went; aside; cm of its impact off the axis */
         uint32_t overlap, queries;
         double distance;
-    } rows[] = {{"D7", 0, 0, 0, 0, 4},       {"D7", 0.02, 0, 0, 1, 2.15}, {"D7", 0.009, 0, 0, 0, 4},
-                {"D7", 0, 33.9, 0, 1, 2.15}, {"D7", 0, 33.8, 0, 0, 4},    {"D7", 0, 0, 1, 1, 2.15}};
+    } rows[] = {{"D7", 20, 0, 0, 0, 0, 4},       {"D7", 0, 0, 0, 0, 1, 2.15},   {"D7", -20, 0, 0, 0, 1, 2.15},
+                {"D7", 20, 0.02, 0, 0, 1, 2.15}, {"D7", 20, 0.009, 0, 0, 0, 4}, {"D7", 20, 0, 33.9, 0, 1, 2.15},
+                {"D7", 20, 0, 33.8, 0, 0, 4},    {"D7", 20, 0, 0, 1, 1, 2.15}};
     parity_table t;
     (void)unused;
     parity_begin(&t, "supplied sweep");
@@ -192,7 +193,7 @@ static void supplied_sweep_counts_if_it_went_straight_down(void **unused)
         tahr_hit hit = {.blocking = 1, .start_overlap = rows[i].overlap, .normal = {0, 0, 1}};
         hit.surface_normal = hit.normal;
         hit.point = parity_vec(rows[i].off, 0, -4);
-        tahr__supplied supplied = {&hit, parity_vec(rows[i].tilt, 0, -20), parity_vec(0, 0, 84)};
+        tahr__supplied supplied = {&hit, parity_vec(rows[i].tilt, 0, -rows[i].down), parity_vec(0, 0, 84)};
         tahr__floor_look look = {p.step.state.position, parity_cm(47.4001), parity_cm(47.4001), parity_cm(34), &supplied};
         parity_row(&t, rows[i].id, NULL);
         tahr__compute_floor_distance(&p.step, &look, &floor);

@@ -166,13 +166,13 @@ static void adjustment_rows(void **unused)
         tahr_hit hit = {.blocking = 1, .start_overlap = 1, .depth = rows[i].depth / 100, .normal = rows[i].normal};
         vec3 e = rows[i].expected;
         hit.body = rows[i].body;
-        p.config.plane = rows[i].plane;
+        parity_hold_to(&p, rows[i].plane);
         parity_row(&t, rows[i].id, NULL);
         parity_vector(&t, "push", tahr__penetration_adjustment(&p.step, &hit), e.x, e.y, e.z, 1e-9);
     }
     /* A proxy of the field's: the same code with the proxy's limit. */
     tahr_hit hit = {.blocking = 1, .start_overlap = 1, .depth = 0.03, .normal = {1, 0, 0}, .body = 1};
-    p.config.plane = vec(0, 0, 0);
+    parity_hold_to(&p, vec(0, 0, 0));
     p.config.max_depenetration_character = 0.02;
     parity_row(&t, "R3", "proxy");
     parity_vector(&t, "push", tahr__penetration_adjustment(&p.step, &hit), 2, 0, 0, 1e-9);

@@ -294,7 +294,7 @@ static void plane_constraint_flattens_the_slide(void **unused)
     parity p;
     (void)unused;
     open_empty(&p);
-    p.config.plane = vec(0, 1, 0);
+    parity_hold_to(&p, vec(0, 1, 0));
     vec3 slide = tahr__slide_vector(&p.step, vec(1, 0, -1), 1, unit(vec(-1, 5, 2)));
     vec3 trace = unit(vec(2, 0, 1)); /* across (-1, 0, 2) */
     vec3 expected = scale(trace, dot(vec(1, 0, -1), trace));

@@ -190,6 +190,36 @@ static void steps_are_climbed_up_to_the_step_height_unless_they_refuse(void **un
     }
 }
 
+/* A box of 10 cm that is passed at 6 m/s: in at its face less the radius, out at the other one and the radius. */
+static void sensors_on_the_way_are_met_at_their_time(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < RATES; i++) {
+        tahr_body_desc bodies[2];
+        rig r;
+        const tahr_config c = parity_config();
+        double begin = -1, end = -1;
+        bodies[0] = native_box(fake_vec(0, 0, -1), fake_vec(20, 20, 1));
+        bodies[1] = native_box(fake_vec(2, 0, 1), fake_vec(0.05, 5, 1));
+        bodies[1].flags = TAHR_BODY_SENSOR;
+        rig_open_bodies(&r, bodies, 2, &c, fake_vec(0, 0, 1));
+        rig_settle(&r);
+        r.time = 0;
+        r.state.velocity = fake_vec(6, 0, 0);
+        r.input.move = fake_vec(1, 0, 0);
+        while (end < 0 && r.time < 1) {
+            double start = r.time;
+            rig_step(&r, 1 / rates[i]);
+            const tahr_event *in = rig_event(&r, TAHR_EVENT_OVERLAP_BEGIN), *out = rig_event(&r, TAHR_EVENT_OVERLAP_END);
+            begin = in ? start + in->time : begin;
+            end = out ? start + out->time : end;
+        }
+        assert_near(begin, (2 - 0.05 - 0.34) / 6, 1e-6);
+        assert_near(end, (2 + 0.05 + 0.34) / 6, 1e-6);
+        rig_close(&r);
+    }
+}
+
 static void nobody_walks_off_a_plateau_who_may_not(void **unused)
 {
     (void)unused;
@@ -355,6 +385,7 @@ int main(void)
         cmocka_unit_test(walls_are_slid_along_and_corners_stop),
         cmocka_unit_test(a_refused_step_leaves_every_bit),
         cmocka_unit_test(steps_are_climbed_up_to_the_step_height_unless_they_refuse),
+        cmocka_unit_test(sensors_on_the_way_are_met_at_their_time),
         cmocka_unit_test(nobody_walks_off_a_plateau_who_may_not),
         cmocka_unit_test(who_stands_where_the_floor_vanishes_falls_in_the_next_step),
         cmocka_unit_test(landings_tell_when_and_how_fast),

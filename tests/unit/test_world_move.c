@@ -338,8 +338,8 @@ static void who_stood_on_a_base_that_is_gone_falls_with_its_velocity(void **unus
 
 static void bad_answers_about_a_base_are_errors_and_leave_the_state_alone(void **unused)
 {
-    static const char *const fields[] = {"pose.position", "pose.orientation", "velocity", "angular_velocity",
-                                         "surface_velocity", "mass", "status"};
+    static const char *const fields[] = {
+        "pose.position", "pose.orientation", "velocity", "angular_velocity", "surface_velocity", "mass", "status"};
     (void)unused;
     for (int k = 0; k < 7; k++) {
         engine e;
@@ -347,7 +347,7 @@ static void bad_answers_about_a_base_are_errors_and_leave_the_state_alone(void *
         tahr_body_motion m;
         open_engine(&e, &r);
         const tahr_state before = r.state;
-        double *const bad[] = {&e.motion.pose.position.y,     &e.motion.pose.orientation.x, &e.motion.velocity.z,
+        double *const bad[] = {&e.motion.pose.position.y,    &e.motion.pose.orientation.x, &e.motion.velocity.z,
                                &e.motion.angular_velocity.x, &e.motion.surface_velocity.y, &e.motion.mass};
         if (k < 6) {
             *bad[k] = NAN;
@@ -384,17 +384,16 @@ static void a_motion_too_fast_for_a_state_leaves_it_valid(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(wrong_motions_are_refused_and_change_nothing),
-        cmocka_unit_test(a_motion_is_told_until_the_next_one),
-        cmocka_unit_test(half_a_turn_nearly_is_the_fastest_that_can_be_told),
-        cmocka_unit_test(the_revision_is_one_of_poses_and_motions),
-        cmocka_unit_test(a_rollback_repeats_every_bit),
-        cmocka_unit_test(a_sweep_may_ask_one_body_alone),
-        cmocka_unit_test(a_base_behind_callbacks_carries_and_hands_over_its_velocity),
-        cmocka_unit_test(an_idle_character_notices_that_its_base_begins_to_move),
-        cmocka_unit_test(who_stood_on_a_base_that_is_gone_falls_with_its_velocity),
-        cmocka_unit_test(bad_answers_about_a_base_are_errors_and_leave_the_state_alone),
-        cmocka_unit_test(a_motion_too_fast_for_a_state_leaves_it_valid)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_motions_are_refused_and_change_nothing),
+                                       cmocka_unit_test(a_motion_is_told_until_the_next_one),
+                                       cmocka_unit_test(half_a_turn_nearly_is_the_fastest_that_can_be_told),
+                                       cmocka_unit_test(the_revision_is_one_of_poses_and_motions),
+                                       cmocka_unit_test(a_rollback_repeats_every_bit),
+                                       cmocka_unit_test(a_sweep_may_ask_one_body_alone),
+                                       cmocka_unit_test(a_base_behind_callbacks_carries_and_hands_over_its_velocity),
+                                       cmocka_unit_test(an_idle_character_notices_that_its_base_begins_to_move),
+                                       cmocka_unit_test(who_stood_on_a_base_that_is_gone_falls_with_its_velocity),
+                                       cmocka_unit_test(bad_answers_about_a_base_are_errors_and_leave_the_state_alone),
+                                       cmocka_unit_test(a_motion_too_fast_for_a_state_leaves_it_valid)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
