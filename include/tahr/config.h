@@ -130,10 +130,13 @@ typedef struct tahr_config {
     double crouched_half_height; /* m [0.55 | 0.4] with input.crouch; the radius, if that is more */
     double crouched_speed;       /* m/s [3] */
 
-    /* Swimming and flying */
-    double swim_speed;       /* m/s [3] */
-    double swim_immersion;   /* [0.65] part of the height under the surface from which on it swims */
-    double buoyancy;         /* of gravity [1], when wholly immersed; 1: neither sinks nor rises */
+    /* Swimming and flying. EXACT, in water: from rest a full wish accelerates by acceleration and tends to swim_speed;
+     * without one the drag is left (standing from 1 mm/s on); an upward wish loses its thrust on the way from whole immersion
+     * to swim_immersion, so that nobody swims out through the surface. It walks where it meets a floor at less than 0.9 of
+     * swim_immersion, and falls at less than 0.8 of it. In the air: the law of walking with fly_drag as its braking. */
+    double swim_speed; /* m/s [3] */
+    double swim_immersion; /* [0.65] part of the height under the surface from which on it swims; never above 1 / buoyancy */
+    double buoyancy;       /* of gravity [1], when wholly immersed; 1: neither sinks nor rises */
     double fluid_friction;   /* 1/s [0.3] drag of a fluid that says none of its own */
     double water_exit_speed; /* m/s [4.2] upward, of a jump at the surface */
     double fly_speed;        /* m/s [6] */
