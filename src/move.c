@@ -196,8 +196,10 @@ static void emit(tahr__step *step, vec3 start, double residual, const tahr_conta
     if (moved > 0) {
         tahr__event(step, TAHR_EVENT_DEPENETRATED, &hit, moved);
     }
+    step->state.flags &= ~(uint32_t)TAHR_STATE_CRUSHED;
     if (residual > TOUCHING) {
         step->report.flags |= TAHR_REPORT_CRUSHED;
+        step->state.flags |= TAHR_STATE_CRUSHED;
         step->report.residual = max_of(step->report.residual, residual);
         tahr__event(step, TAHR_EVENT_CRUSHED, &hit, residual);
     }

@@ -78,6 +78,7 @@ static void tell(tahr__step *step, const tahr__swept *swept, int moved)
         tahr__event(step, TAHR_EVENT_DEPENETRATED, &swept->hit, size);
     } else {
         step->report.flags |= TAHR_REPORT_CRUSHED;
+        step->state.flags |= TAHR_STATE_CRUSHED;
         step->report.residual = max_of(step->report.residual, swept->hit.depth);
         tahr__event(step, TAHR_EVENT_CRUSHED, &swept->hit, swept->hit.depth);
     }

@@ -145,6 +145,7 @@ static tahr__next walk_slice(tahr__step *step, double time)
     tahr_floor floor;
     int looked = !floor_is_current(step);
     int changed = step->state.floor_revision != 0 && step->state.floor_revision != step->world->revision;
+    changed |= (step->state.flags & TAHR_STATE_CRUSHED) != 0;
     if (changed && length_squared(step_level(step, step->input->move)) == 0) { /* who moves finds out by moving */
         tahr__depenetrate(step);
     }
