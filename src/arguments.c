@@ -169,7 +169,7 @@ static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
     if (!tahr__is_mode(s->mode)) {
         return "state.mode";
     }
-    const uint32_t flags = (TAHR_STATE_JUMP_SPENT << 1) - 1;
+    const uint32_t flags = (TAHR_STATE_EDGE_SPENT << 1) - 1;
     if (s->flags & ~flags) {
         return "state.flags";
     }

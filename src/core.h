@@ -70,6 +70,15 @@ typedef struct tahr__foot {
     double offset; /* m */
 } tahr__foot;
 
+/* Which of the settings under "Feel" are on, so that a step does not work for those that are off. */
+enum {
+    TAHR__FEEL_JUMPS = 1 << 0,   /* presses and jumps are counted: coyote, buffer, air jumps, walls, edges, release */
+    TAHR__FEEL_GRAVITY = 1 << 1, /* gravity depends on the button or the direction */
+    TAHR__FEEL_WALLS = 1 << 2,   /* walls touched in the air are remembered */
+    TAHR__FEEL_EDGES = 1 << 3,
+    TAHR__FEEL_CORNERS = 1 << 4
+};
+
 /* Numbers derived from config and shape: of the config's own shape once, when the mover is created. */
 typedef struct tahr__limits {
     tahr_shape shape;           /* the character's now */
@@ -83,6 +92,7 @@ typedef struct tahr__limits {
     tahr__foot foot;            /* of the whole shape */
     vec3 plane;                 /* config.plane, exactly unit; zero: none */
     uint32_t in_plane;          /* 1: there is one */
+    uint32_t feel;              /* TAHR__FEEL_* */
 } tahr__limits;
 
 /* Events of a step that can be repeated; a step with more is computed again. */

@@ -3,6 +3,9 @@
  * config.slide_solver JOINT see falling.c. */
 #include "fall_two_walls.h"
 
+#include "corner.h"
+#include "hanging.h"
+#include "jump.h"
 #include "landing.h"
 #include "launch.h"
 #include "overlap.h"
@@ -10,6 +13,7 @@
 #include "slide.h"
 #include "stepped.h"
 #include "swimming.h"
+#include "wall.h"
 
 /* Slices shorter than this have no velocity of their own, and no apex. */
 static const double SHORT_SLICE = 1e-4;
@@ -26,15 +30,17 @@ typedef struct fall {
     vec3 from;      /* where it began, and with which velocity */
     vec3 before;
     vec3 motion;
-    vec3 free;    /* velocity at its end without air control */
-    vec3 control; /* m/s2: the rest of it */
-    int controls; /* somebody steers */
-    int floats;   /* a drive says how fast it falls */
-    double apex;  /* s into the slice at which the rise ends; < 0: not in it */
+    vec3 free;       /* velocity at its end without air control */
+    vec3 control;    /* m/s2: the rest of it */
+    int controls;    /* somebody steers */
+    int floats;      /* a drive says how fast it falls */
+    double apex;     /* s into the slice at which the rise ends; < 0: not in it */
+    tahr__pull pull; /* that acts in it, and the fastest fall */
+    double terminal;
     tahr__swept swept;
 } fall;
 
-enum { GOES_ON, ENDS, LANDS };
+enum { GOES_ON, ENDS, LANDS, HANGS };
 
 static double rise_of(const tahr__step *step, vec3 v)
 {
@@ -56,13 +62,13 @@ static vec3 advance(const tahr__step *step, const fall *f, const tahr__law *law,
     vec3 level = add_scaled(f->before, step->state.up, -rise);
     if (c->integrator == TAHR_INTEGRATOR_EXACT) {
         tahr__motion m = tahr__law_advance(law, level, h);
-        double height = f->floats ? rise * h : tahr__fall_advance(rise, step->pull->size, c->terminal_speed, hold, h, &v);
+        double height = f->floats ? rise * h : tahr__fall_advance(rise, f->pull.size, f->terminal, hold, h, &v);
         *motion = add_scaled(m.displacement, step->state.up, height);
         return add_scaled(m.velocity, step->state.up, v);
     }
     vec3 after = add_scaled(tahr__calc_velocity(c, law, 0, level, h), step->state.up, rise);
     if (!f->floats) {
-        after = tahr__new_fall_velocity(step->pull, c->terminal_speed, after, h - min_of(hold, h));
+        after = tahr__new_fall_velocity(&f->pull, f->terminal, after, h - min_of(hold, h));
     }
     *motion = scale(add(f->before, after), 0.5 * h);
     return after;
@@ -76,7 +82,7 @@ static double apex_time(const tahr__step *step, const fall *f, vec3 after)
         return -1;
     }
     if (step->config->integrator == TAHR_INTEGRATOR_EXACT) {
-        return held_time(step) + before / step->pull->size;
+        return held_time(step) + before / f->pull.size;
     }
     return f->h * before / (before - end);
 }
@@ -105,6 +111,62 @@ static void drive_slice(tahr__step *step, fall *f, tahr__law *law)
     f->floats = !(step->input->flags & TAHR_INPUT_DRIVE_LEVEL);
     f->before = add_scaled(level, up, rise_of(step, f->floats ? drive : f->before));
     *law = drive_law(level);
+}
+
+/* What acts on a slice; the settings under "Feel" change it. */
+static void feel_pull(const tahr__step *step, fall *f)
+{
+    f->pull = *step->pull;
+    f->terminal = step->config->terminal_speed;
+    if (step->limits->feel) {
+        double factor = tahr__gravity_factor(step, rise_of(step, step->state.velocity));
+        f->pull.gravity = scale(f->pull.gravity, factor);
+        f->pull.size *= factor;
+        f->terminal = fastest_fall(step);
+    }
+}
+
+/* Hangs on an edge that the head will pass in this slice, or that is within reach above it. */
+static int hangs(tahr__step *step, fall *f)
+{
+    double speed = -rise_of(step, step->state.velocity), reach = step->config->ledge_grab;
+    double way = (speed + 0.5 * f->pull.size * f->h) * f->h;
+    tahr_hit edge;
+    tahr__forget_edge(step);
+    if (speed < 0 || !pushes_wall(step) || !tahr__find_edge(step, step->state.wall_normal, way, &edge)) {
+        return 0;
+    }
+    double depth = tahr__edge_depth(step, &edge);
+    if (depth > way || depth < -reach) {
+        return 0;
+    }
+    step->ahead = depth > 0 ? f->h * depth / way : 0;
+    f->rest = f->h - step->ahead;
+    if (!tahr__grab_edge(step, step->state.wall_normal, &edge)) {
+        step->ahead = 0;
+        return 0;
+    }
+    return 1;
+}
+
+/* What was met and is no floor: a corner is gone past, a wall noted and perhaps jumped off. Returns 1 if the slice is over
+ * for it. */
+static int feels(tahr__step *step, fall *f, const tahr_hit *hit)
+{
+    int asked = press_is_remembered(step), feel = (int)step->limits->feel;
+    const vec3 end = step->state.velocity; /* of the slice; here it is as far as its time is */
+    step->state.velocity = add_scaled(f->before, sub(end, f->before), 1 - f->rest / f->h);
+    int over = feel & TAHR__FEEL_CORNERS && tahr__clear_corner(step, hit);
+    if (!over && feel & TAHR__FEEL_WALLS && tahr__meet_wall(step, hit)) {
+        over = asked && !press_is_remembered(step);
+    }
+    if (over) {
+        f->left += f->rest;
+        f->h -= f->rest;
+    } else {
+        step->state.velocity = end;
+    }
+    return over;
 }
 
 static void begin_slice(tahr__step *step, fall *f)
@@ -257,6 +319,9 @@ static int meet(tahr__step *step, fall *f)
         (tahr__should_check_landing_spot(step, &first) && tahr__finds_landing_spot(step))) {
         return LANDS;
     }
+    if (step->limits->feel && feels(step, f, &first)) {
+        return GOES_ON;
+    }
     tahr__handle_impact(step, &first);
     vec3 motion = scale(step->state.velocity, f->h);
     if (f->controls) {
@@ -288,6 +353,11 @@ static void stop_drift(tahr__step *step)
 static int fall_slice(tahr__step *step, fall *f)
 {
     int answer = GOES_ON;
+    feel_pull(step, f);
+    if (step->limits->feel & TAHR__FEEL_EDGES && hangs(step, f)) {
+        f->left += f->rest;
+        return HANGS;
+    }
     begin_slice(step, f);
     f->rest = f->h;
     int met = move_on(step, f, f->motion);
@@ -295,6 +365,9 @@ static int fall_slice(tahr__step *step, fall *f)
     step->ahead = f->h - f->rest;
     if (met) {
         answer = f->swept.hit.unknown ? ENDS : meet(step, f);
+    }
+    if (step->state.flags & TAHR_STATE_WALL_TOUCHED && !met && !tahr__is_at_wall(step, step->state.position)) {
+        tahr__leave_wall(step, step->time + f->h);
     }
     step->state.jump_hold = max_of(step->state.jump_hold - f->h, 0);
     if (answer == LANDS) {
@@ -330,6 +403,8 @@ tahr__next tahr__fall_two_walls(tahr__step *step, double time)
     if (answer == ENDS) {
         step->report.time_lost += f.left;
     }
-    tahr__next next = {answer == LANDS ? TAHR_MODE_WALKING : TAHR_MODE_FALLING, answer == LANDS ? f.left : 0};
+    static const uint32_t modes[] = {
+        [GOES_ON] = TAHR_MODE_FALLING, [ENDS] = TAHR_MODE_FALLING, [LANDS] = TAHR_MODE_WALKING, [HANGS] = TAHR_MODE_HANGING};
+    tahr__next next = {modes[answer], answer == LANDS || answer == HANGS ? f.left : 0};
     return next;
 }

@@ -4,8 +4,11 @@
 #include "falling.h"
 
 #include "base_motion.h"
+#include "corner.h"
 #include "fall_two_walls.h"
 #include "floor.h"
+#include "hanging.h"
+#include "jump.h"
 #include "launch.h"
 #include "move.h"
 #include "overlap.h"
@@ -14,6 +17,7 @@
 #include "slide.h"
 #include "stepped.h"
 #include "swimming.h"
+#include "wall.h"
 
 /* A contact-free arc from the character's position. */
 typedef struct arc {
@@ -30,6 +34,9 @@ typedef struct fall {
     double left; /* s */
     tahr__plane planes[TAHR__MAX_PLANES];
     uint32_t plane_count;
+    uint32_t look; /* 1: the edge of the wall that is touched has not been looked for */
+    uint32_t has_edge;
+    tahr_hit edge; /* the top of a wall that is pushed against */
 } fall;
 
 /* The drive is the velocity, and gravity acts where the drive leaves falling alone. */
@@ -196,6 +203,40 @@ static vec3 slide_in_air(const tahr__step *step, const fall *f, vec3 motion)
     return tahr__slide(walls, count, motion);
 }
 
+/* s of the chord until the head is level with the edge that is fallen past; the whole chord if it does not come to
+ * that. Bisection: the arc is bent along walls, and 50 halvings of a chord are below rounding. */
+static double time_to_edge(const tahr__step *step, const fall *f, const arc *a, double duration, vec3 *chord)
+{
+    vec3 up = step->state.up, v;
+    double depth = tahr__edge_depth(step, &f->edge), low = 0, high = duration;
+    if (-dot(*chord, up) < depth) {
+        return duration;
+    }
+    for (int i = 0; i < 50; i++) {
+        double middle = 0.5 * (low + high);
+        *chord = slide_in_air(step, f, arc_at(a, middle, &v));
+        *(-dot(*chord, up) < depth ? &low : &high) = middle;
+    }
+    *chord = slide_in_air(step, f, arc_at(a, high, &v));
+    return high;
+}
+
+/* The wall that was touched at the begin of a chord is left where its end is no longer at one: to a tenth of a
+ * microsecond. */
+static void watch_wall(tahr__step *step, const fall *f, const arc *a, vec3 start, double used)
+{
+    double low = 0, high = used;
+    if (tahr__is_at_wall(step, step->state.position)) {
+        return;
+    }
+    while (step->config->wall_coyote_time > 0 && high - low > 1e-7) {
+        double middle = 0.5 * (low + high);
+        vec3 v, at = add(start, slide_in_air(step, f, arc_at(a, middle, &v)));
+        *(tahr__is_at_wall(step, at) ? &low : &high) = middle;
+    }
+    tahr__leave_wall(step, step->time + high);
+}
+
 static void use_time(tahr__step *step, fall *f, double t)
 {
     step->time += t;
@@ -228,6 +269,10 @@ static double until_fluid(tahr__step *step, const arc *a, double duration)
 static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
 {
     arc a = arc_of(step);
+    if (step->limits->feel) {
+        a.gravity *= tahr__gravity_factor(step, a.rise);
+        a.terminal = fastest_fall(step);
+    }
     double apex = apex_time(&a);
     double duration = min_of(f->left, chord_time(step, &a));
     int reaches_apex = apex > 0 && apex <= duration;
@@ -243,6 +288,10 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         duration = dry;
     }
     vec3 chord = slide_in_air(step, f, arc_at(&a, duration, &v));
+    if (f->has_edge && a.rise <= 0) {
+        duration = time_to_edge(step, f, &a, duration, &chord);
+        arc_at(&a, duration, &v);
+    }
     vec3 start = step->state.position, began = step->state.velocity;
     double used = duration;
     int pushed = tahr__move(step, chord, hit);
@@ -258,6 +307,9 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     }
     step->state.velocity = slide_in_air(step, f, v);
     tahr__time_fall(step, began, used, f->plane_count > 0 || pushed);
+    if (step->state.flags & TAHR_STATE_WALL_TOUCHED && !(met && tahr__is_wall(step, hit->normal))) {
+        watch_wall(step, f, &a, start, used);
+    }
     use_time(step, f, used);
     if (reaches_apex && used == duration) {
         if (f->plane_count == 0) { /* exactly zero, so that the apex is met once */
@@ -267,6 +319,32 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         step->state.flags &= ~(uint32_t)TAHR_STATE_JUMPING;
     }
     return met;
+}
+
+/* Looks for the edge of a wall that is pushed against, once it falls, and hangs on it where the head is level with
+ * it or it is within reach above. Returns 1 if it hangs. */
+static int hangs(tahr__step *step, fall *f)
+{
+    const tahr_config *c = step->config;
+    double fall_speed = -dot(step->state.velocity, step->state.up);
+    vec3 facing = step->state.wall_normal;
+    tahr__forget_edge(step);
+    if (fall_speed < -1e-9 * step->pull->size || !pushes_wall(step)) {
+        f->look = 1;
+        f->has_edge = 0;
+        return 0;
+    }
+    if (f->look) {
+        double most = min_of(fall_speed + step->pull->size * max_of(c->fall_gravity, 1) * f->left, c->terminal_speed);
+        f->look = 0;
+        f->has_edge = (uint32_t)tahr__find_edge(step, facing, most * f->left + c->skin, &f->edge);
+    }
+    double depth = f->has_edge ? tahr__edge_depth(step, &f->edge) : 1;
+    if (depth > 1e-9) {
+        return 0;
+    }
+    f->has_edge = 0;
+    return depth >= -c->ledge_grab && tahr__grab_edge(step, facing, &f->edge);
 }
 
 /* Held by steep faces on all sides: that is a floor too. */
@@ -285,6 +363,8 @@ static tahr__next fall_slice(tahr__step *step, double time)
     uint32_t hits = 0;
     f.left = time;
     f.plane_count = 0;
+    f.look = 1;
+    f.has_edge = 0;
     while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         tahr__planes_forget(step, f.planes, &f.plane_count);
@@ -292,6 +372,9 @@ static tahr__next fall_slice(tahr__step *step, double time)
             tahr__next swim = {TAHR_MODE_SWIMMING, f.left};
             tahr__begin_swimming(step);
             return swim;
+        }
+        if (step->limits->feel & TAHR__FEEL_EDGES && hangs(step, &f)) {
+            return (tahr__next){TAHR_MODE_HANGING, f.left};
         }
         if (!fall_chord(step, &f, &hit)) {
             if (hit.blocking) {
@@ -302,6 +385,10 @@ static tahr__next fall_slice(tahr__step *step, double time)
         if (lands(step, &hit, &floor)) {
             return land(step, &hit, &floor, f.left);
         }
+        if (step->limits->feel & TAHR__FEEL_CORNERS && tahr__clear_corner(step, &hit)) {
+            hits++;
+            continue;
+        }
         tahr__plane plane = tahr__plane_of(step, &hit);
         double speed = max_of(-dot(whole_velocity(step), hit.normal), 0);
         tahr__event(step, TAHR_EVENT_HIT, &hit, speed);
@@ -309,6 +396,9 @@ static tahr__next fall_slice(tahr__step *step, double time)
         step->state.velocity = slide_in_air(step, &f, step->state.velocity);
         step->report.slides++;
         hits++;
+        if (step->limits->feel & TAHR__FEEL_WALLS && tahr__meet_wall(step, &hit)) {
+            f.look = 1;
+        }
     }
     step->time += f.left;
     step->report.time_lost += f.left;

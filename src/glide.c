@@ -6,7 +6,9 @@
 
 #include "floor.h"
 #include "move.h"
+#include "overlap.h"
 #include "report.h"
+#include "scope.h"
 #include "step_up.h"
 
 /* Of the time of a slice: no piece is shorter, however much the path bends. */
@@ -46,6 +48,10 @@ double tahr__glide_piece(const tahr__step *step, const tahr__glide *g, double ac
 
 void tahr__glide_use(tahr__step *step, tahr__glide *g, double time)
 {
+    tahr__time_even(step, step->time, step->time + time);
+    if (step->trail && step->trail->count > TAHR__LEGS / 2 && !step->trail->held) {
+        tahr__sense(step);
+    }
     step->time += time;
     g->left -= time;
     if (g->left < 1e-12) { /* rounding */
@@ -77,23 +83,6 @@ static void stand_on_nothing(tahr__step *step)
     tahr__keep_floor(step, &here);
 }
 
-/* What a step that is not kept must forget. */
-typedef struct before {
-    tahr_state state;
-    uint32_t event_count, events_lost, slides, just_teleported;
-    double step_offset;
-} before;
-
-static void go_back(tahr__step *step, const before *b)
-{
-    step->state = b->state;
-    step->report.event_count = b->event_count;
-    step->report.events_lost = b->events_lost;
-    step->report.slides = b->slides;
-    step->report.step_offset = b->step_offset;
-    step->just_teleported = b->just_teleported;
-}
-
 static int is_front(const tahr__step *step, const tahr_hit *hit, vec3 level)
 {
     vec3 wish = step->input->move, up = step->state.up;
@@ -104,21 +93,23 @@ static int is_front(const tahr__step *step, const tahr_hit *hit, vec3 level)
 
 int tahr__glide_step_up(tahr__step *step, tahr__glide *g, const tahr_hit *hit, vec3 rest, int (*keeps)(tahr__step *))
 {
-    const tahr_report *r = &step->report;
     const tahr__swept swept = {.hit = *hit, .location = step->state.position, .motion = rest};
     vec3 level = step_level(step, rest);
+    const uint32_t just_teleported = step->just_teleported;
+    tahr__scope scope;
     int found;
     if (!is_front(step, hit, level)) {
         return 0;
     }
-    const before b = {step->state, r->event_count, r->events_lost, r->slides, step->just_teleported, r->step_offset};
+    tahr__scope_open(step, &scope);
     stand_on_nothing(step);
     if (tahr__step_up_at(step, level, &swept, &found) && (!keeps || keeps(step))) {
         g->plane_count = 0; /* what stood beside the foot below need not stand here */
         g->hits++;
         return 1;
     }
-    go_back(step, &b);
+    tahr__scope_revert(step, &scope);
+    step->just_teleported = just_teleported;
     return 0;
 }
 

@@ -14,6 +14,17 @@ tahr__pull tahr__pull_of(vec3 gravity)
     return pull;
 }
 
+static uint32_t feel_of(const tahr_config *c)
+{
+    int walls = c->wall_slide_speed > 0 || c->wall_jump_speed > 0;
+    int jumps = c->coyote_time > 0 || c->jump_buffer > 0 || c->air_jumps > 0 || c->jump_release_gravity != 1;
+    uint32_t feel = jumps || walls || c->ledge_grab > 0 ? TAHR__FEEL_JUMPS : 0;
+    feel |= c->jump_release_gravity != 1 || c->fall_gravity != 1 ? TAHR__FEEL_GRAVITY : 0;
+    feel |= walls || c->ledge_grab > 0 ? TAHR__FEEL_WALLS : 0;
+    feel |= c->ledge_grab > 0 ? TAHR__FEEL_EDGES : 0;
+    return feel | (c->corner_correction > 0 ? TAHR__FEEL_CORNERS : 0);
+}
+
 tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t capabilities)
 {
     tahr__limits limits;
@@ -30,5 +41,6 @@ tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t
     limits.in_plane = length_squared(c->plane) > 0;
     limits.pull = tahr__pull_of(along_plane(&limits, c->gravity));
     limits.foot = tahr__foot_of(s, capabilities);
+    limits.feel = feel_of(c);
     return limits;
 }

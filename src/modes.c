@@ -7,6 +7,8 @@
 #include "custom.h"
 #include "falling.h"
 #include "flying.h"
+#include "hanging.h"
+#include "jump.h"
 #include "overlap.h"
 #include "report.h"
 #include "swimming.h"
@@ -31,8 +33,8 @@ typedef struct entry {
 
 /* Indexed by TAHR_MODE_*. */
 static const entry modes[TAHR_MODE_CUSTOM + 1] = {
-    {"none", rest},        {"walking", walk}, {"falling", tahr__fall},      {"swimming", tahr__swim},
-    {"flying", tahr__fly}, {"hanging", rest}, {"custom", tahr__run_custom},
+    {"none", rest},        {"walking", walk},       {"falling", tahr__fall},      {"swimming", tahr__swim},
+    {"flying", tahr__fly}, {"hanging", tahr__hang}, {"custom", tahr__run_custom},
 };
 
 static const struct transition {
@@ -72,6 +74,9 @@ const char *tahr__transition(uint32_t from, uint32_t to)
 
 void tahr__grant_mode(tahr__step *step, uint32_t mode)
 {
+    if (step->state.mode == TAHR_MODE_FALLING) {
+        tahr__flight_ended(step, mode);
+    }
     step->state.mode = mode;
     tahr__event(step, TAHR_EVENT_MODE, NULL, mode);
 }
@@ -91,9 +96,13 @@ void tahr__change_mode(tahr__step *step, uint32_t mode)
 double tahr__run_mode(tahr__step *step, double time)
 {
     step->ahead = 0;
+    int walked = step->state.mode == TAHR_MODE_WALKING;
     tahr__next next = modes[step->state.mode].run(step, time);
     step->ahead = 0; /* a mode has moved step->time to where it ended */
     tahr__time_slice(step);
+    if (walked && next.mode == TAHR_MODE_FALLING) {
+        tahr__floor_ended(step);
+    }
     tahr__change_mode(step, next.mode);
     return next.time_left;
 }

@@ -131,6 +131,9 @@ static void run(tahr__step *step, double dt)
     while (left > MIN_SLICE && step->error >= 0 && step->report.slices < MAX_SLICES &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         step->report.slices++;
+        if (press_is_remembered(step) && step->state.mode == TAHR_MODE_WALKING) {
+            tahr__use_press(step);
+        }
         left = tahr__run_mode(step, left);
     }
     if (step->iterations + step->apexes > step->report.slices) { /* a mode cut its slices into more */
@@ -142,6 +145,7 @@ static void run(tahr__step *step, double dt)
     if (is_in_plane(step)) {
         tahr__plane_end(step);
     }
+    tahr__run_timers(step);
     tahr__take_base(step);
     if (step->trail) {
         tahr__find_overlaps(step);

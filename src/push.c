@@ -12,6 +12,7 @@
 #include "move.h"
 #include "query.h"
 #include "report.h"
+#include "step_up.h"
 
 /* rad that a body may turn in one straight piece of a relative motion: 5 m off the axis the arc bulges by 6 mm, less than
  * a skin. */
@@ -138,6 +139,32 @@ static int push_out(tahr__step *step, uint32_t body, const meeting *m)
     return 0;
 }
 
+/* What walks is pushed up a step in its way. */
+static int push_up_step(tahr__step *step, uint32_t body, const meeting *m)
+{
+    const tahr_state before = step->state;
+    vec3 normal = m->hit.normal;
+    vec3 way = step_level(step, scale(normal, dot(normal, sub(m->at, before.position))));
+    double covered = 0;
+    tahr_hit hit;
+    step->ignore_body = body;
+    tahr__sweep(step, &step->limits->shape, before.position, way, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
+    if (hit.blocking && !hit.start_overlap && !hit.unknown) {
+        step->state.position = add_scaled(before.position, way, hit.fraction);
+        covered = tahr__step_up(step, scale(way, 1 - hit.fraction), &hit);
+    }
+    step->ignore_body = TAHR_NO_BODY;
+    vec3 rest = sub(step->state.position, m->at);
+    if (covered > 0) {
+        sweep_only(step, body, m->at, rest, &hit);
+        if (!hit.blocking || dot(hit.normal, rest) > -1e-6) {
+            return 1;
+        }
+    }
+    step->state = before;
+    return 0;
+}
+
 static void push(tahr__step *step, uint32_t body, vec3 from, double dt)
 {
     meeting m;
@@ -153,6 +180,9 @@ static void push(tahr__step *step, uint32_t body, vec3 from, double dt)
         return;
     }
     int freed = push_out(step, body, &m);
+    if (!freed && step->state.mode == TAHR_MODE_WALKING) {
+        freed = push_up_step(step, body, &m);
+    }
     double speed = length(sub(step->state.position, start)) / dt;
     tahr__decide(step, TAHR_RULE_BASE, freed, &m.hit, speed * dt, 0, "pushed by a body that moves");
     if (!freed || m.hit.start_overlap) {

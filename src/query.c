@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "message.h"
+#include "plane.h"
 #include "report.h"
 #include "shape.h"
 #include "trail.h"
@@ -486,6 +487,18 @@ static tahr_status checked_fluid(const tahr_world *world, tahr_query_context *co
     return bad ? bad_answer(world, "fluid", bad) : TAHR_OK;
 }
 
+static void record_fluid(tahr__step *step, const tahr_fluid_query *q, const tahr_fluid *fluid)
+{
+    tahr_query_record r = {.type = TAHR_QUERY_FLUID,
+                           .count = fluid->immersion > 0,
+                           .shape = step->limits->shape,
+                           .position = q->position,
+                           .fraction = 1,
+                           .distance = fluid->immersion,
+                           .body = fluid->body};
+    tahr__record(step, &r);
+}
+
 tahr_fluid tahr__fluid(tahr__step *step, vec3 position)
 {
     tahr_fluid fluid = {.body = TAHR_NO_BODY};
@@ -503,6 +516,10 @@ tahr_fluid tahr__fluid(tahr__step *step, vec3 position)
         step->error = status;
         return (tahr_fluid){.body = TAHR_NO_BODY};
     }
+    if (step->report.queries) {
+        record_fluid(step, &q, &fluid);
+    }
+    fluid.velocity = along_plane(step->limits, fluid.velocity);
     return fluid;
 }
 

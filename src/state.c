@@ -62,7 +62,8 @@ tahr_status tahr_state_teleport(tahr_state *state, const tahr_vec3 *position)
     state->floor = (tahr_floor){.body = TAHR_NO_BODY};
     state->floor_position = vec(0, 0, 0);
     state->floor_revision = 0;
-    state->flags &= ~(uint32_t)TAHR_STATE_FLOOR_MOVED;
+    state->flags &=
+        ~(uint32_t)(TAHR_STATE_FLOOR_MOVED | TAHR_STATE_WALL_TOUCHED | TAHR_STATE_WALL_SPENT | TAHR_STATE_EDGE_SPENT);
     return TAHR_OK;
 }
 

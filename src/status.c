@@ -41,10 +41,11 @@ const char *tahr_status_message(tahr_status status)
 
 const char *tahr_event_name(uint32_t type)
 {
-    static const char *const names[] = {
-        "?",     "landed",       "left_ground", "jumped",      "apex",   "stopped",       "stepped_up",  "stepped_down",
-        "hit",   "depenetrated", "crushed",     "stuck",       "mode",   "overlap_begin", "overlap_end", "base",
-        "shape", "launched",     "pushed",      "wall_jumped", "grabbed",       "custom"};
+    static const char *const names[] = {"?",       "landed",     "left_ground",  "jumped",        "apex",
+                                        "stopped", "stepped_up", "stepped_down", "hit",           "depenetrated",
+                                        "crushed", "stuck",      "mode",         "overlap_begin", "overlap_end",
+                                        "base",    "shape",      "launched",     "pushed",        "wall_jumped",
+                                        "grabbed", "custom"};
     return type < sizeof names / sizeof names[0] ? names[type] : "?";
 }
 

@@ -4,6 +4,7 @@
 
 #include "floor.h"
 #include "report.h"
+#include "scope.h"
 #include "walking.h"
 
 /* Of the immersion: nearer to the line than this is on it (0.2 mm of a character of two metres). */
@@ -12,42 +13,26 @@ static const double ON_THE_LINE = 1e-4;
 /* Walks from the begin to the line at most, by the rule of false position. */
 enum { TRIES = 6 };
 
-/* What a walk that leads too deep must forget. Queries stay counted. */
+/* What a walk that leads too deep must forget. */
 typedef struct before {
-    tahr_state state;
-    tahr_report report;
-    double time, push_left;
+    tahr__scope scope;
+    double time;
     uint32_t just_teleported, iterations, apexes; /* STEPPED */
 } before;
 
-static before before_of(const tahr__step *step)
+static void remember(tahr__step *step, before *b)
 {
-    before b = {.state = step->state,
-                .report = step->report,
-                .time = step->time,
-                .push_left = step->push_left,
-                .just_teleported = step->just_teleported,
-                .iterations = step->iterations,
-                .apexes = step->apexes};
-    return b;
+    tahr__scope_open(step, &b->scope);
+    b->time = step->time;
+    b->just_teleported = step->just_teleported;
+    b->iterations = step->iterations;
+    b->apexes = step->apexes;
 }
 
 static void go_back(tahr__step *step, const before *b)
 {
-    const tahr_report now = step->report;
-    step->state = b->state;
-    step->report = b->report;
-    step->report.sweeps = now.sweeps;
-    step->report.contact_queries = now.contact_queries;
-    step->report.rays = now.rays;
-    step->report.fluid_queries = now.fluid_queries;
-    step->report.query_count = now.query_count;
-    step->report.queries_lost = now.queries_lost;
-    step->report.decision_count = now.decision_count;
-    step->report.decisions_lost = now.decisions_lost;
-    step->report.flags |= now.flags & (TAHR_REPORT_UNKNOWN | TAHR_REPORT_QUERY_CAP);
+    tahr__scope_revert(step, &b->scope);
     step->time = b->time;
-    step->push_left = b->push_left;
     step->just_teleported = b->just_teleported;
     step->iterations = b->iterations;
     step->apexes = b->apexes;
@@ -75,14 +60,13 @@ static tahr__next swim_on(tahr__step *step, double left)
 }
 
 /* Walks again, and only as far as the line. deep: the immersion where the whole walk ends. */
-static tahr__next walk_to_line(tahr__step *step, double time, double line, double deep)
+static tahr__next walk_to_line(tahr__step *step, const before *begin, double time, double line, double deep)
 {
-    const before begin = before_of(step);
     double shallow = tahr__standing_immersion(step);
     double from = 0, to = time, t = 0;
     tahr__next next;
     for (int i = 0; i < TRIES && shallow < line; i++) {
-        go_back(step, &begin);
+        go_back(step, begin);
         t = from + (to - from) * (line - shallow) / (deep - shallow);
         next = tahr__walk(step, t);
         if (next.mode != TAHR_MODE_WALKING) {
@@ -106,8 +90,9 @@ static tahr__next walk_to_line(tahr__step *step, double time, double line, doubl
 
 tahr__next tahr__wade(tahr__step *step, double time)
 {
-    const before begin = before_of(step);
+    before begin;
     double line = tahr__swim_line(step->config);
+    remember(step, &begin);
     tahr__next next = tahr__walk(step, time);
     if (next.mode != TAHR_MODE_WALKING || (step->report.flags & TAHR_REPORT_CACHED_FLOOR)) {
         return next; /* what stands where it stood is where it was */
@@ -118,5 +103,5 @@ tahr__next tahr__wade(tahr__step *step, double time)
     }
     tahr__decide(step, TAHR_RULE_FLUID, 1, NULL, m, line, "deep enough to swim");
     go_back(step, &begin);
-    return walk_to_line(step, time, line, m);
+    return walk_to_line(step, &begin, time, line, m);
 }

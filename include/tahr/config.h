@@ -130,28 +130,39 @@ typedef struct tahr_config {
     double crouched_half_height; /* m [0.55 | 0.4] with input.crouch; the radius, if that is more */
     double crouched_speed;       /* m/s [3] */
 
-    /* Swimming and flying */
-    double swim_speed;       /* m/s [3] */
-    double swim_immersion;   /* [0.65] part of the height under the surface from which on it swims */
-    double buoyancy;         /* of gravity [1], when wholly immersed; 1: neither sinks nor rises */
+    /* Swimming and flying. EXACT, in water: from rest a full wish accelerates by acceleration and tends to swim_speed;
+     * without one the drag is left (standing from 1 mm/s on); an upward wish loses its thrust on the way from whole immersion
+     * to swim_immersion, so that nobody swims out through the surface. It walks where it meets a floor at less than 0.9 of
+     * swim_immersion, and falls at less than 0.8 of it. In the air: the law of walking with fly_drag as its braking. */
+    double swim_speed; /* m/s [3] */
+    double swim_immersion; /* [0.65] part of the height under the surface from which on it swims; never above 1 / buoyancy */
+    double buoyancy;       /* of gravity [1], when wholly immersed; 1: neither sinks nor rises */
     double fluid_friction;   /* 1/s [0.3] drag of a fluid that says none of its own */
     double water_exit_speed; /* m/s [4.2] upward, of a jump at the surface */
     double fly_speed;        /* m/s [6] */
     double fly_drag;         /* 1/s [0.15] drag of flying without input */
 
-    /* Feel: all off by default */
-    double coyote_time;          /* s [0] a jump still starts this long after the floor ended */
-    double jump_buffer;          /* s [0] a jump asked for this long before a landing starts at it */
-    double jump_release_gravity; /* of gravity [1] while a jump rises with the button up: variable height */
+    /* Feel: all off by default; times count inside steps, the same at every frame rate. A press of the jump button
+     * starts the first that is possible of: a jump from the ground, one within coyote_time, one off a wall, one of
+     * air_jumps; else it is remembered for jump_buffer and starts at the next landing or wall. A press starts one
+     * jump at most, and no jump is higher than the one from the ground: in the air the speed against gravity is
+     * raised to jump_speed, never beyond. A wall leans by 15 degrees at most; one that was jumped off, or any that
+     * faces alike within 30 degrees, cannot be again before the ground or the touch of another wall. */
+    double coyote_time; /* s [0] a jump still starts this long after the floor ended, unless by jump or launch */
+    double jump_buffer; /* s [0] a jump asked for this long before a landing starts at it */
+    double jump_release_gravity; /* of gravity [1] while a jump rises with its button up: variable height */
     double fall_gravity;         /* of gravity [1] while falling */
     double wall_slide_speed;     /* m/s [0: off] fastest fall while pushing against a wall */
     double wall_jump_speed;      /* m/s [0: off] away from the wall, with jump_speed upward */
-    double wall_coyote_time;     /* s [0] a wall jump still starts this long after the wall was left */
-    double ledge_grab;           /* m [0: off] a falling character hangs on an edge within this reach of its head */
-    double corner_correction;    /* m [0: off] a rising head is moved aside this far to clear a corner */
-    double lift_momentum;        /* s [0] the velocity of a base is still imparted this long after it stopped */
-    uint32_t air_jumps;          /* [0] jumps more before landing; 0..1000 */
-    uint32_t reserved_feel;      /* 0 */
+    double wall_coyote_time; /* s [0] a wall jump still starts this long after the wall was more than 1.5 skin away */
+    double ledge_grab; /* m [0: off] falling and pushing into a wall, hangs (TAHR_MODE_HANGING) where its head passes
+                               * an edge, or on one at most this far above it; a jump climbs, crouching or moving away
+                               * lets go */
+    double corner_correction; /* m [0: off] a rising head is moved aside at most this far to clear a corner */
+    double lift_momentum;     /* s [0] the velocity of a base is still imparted this long after it stopped */
+    uint32_t air_jumps;       /* [0] jumps in the air before the next landing, water or edge; walking off a ledge costs
+                               * none; 0..1000 */
+    uint32_t reserved_feel;   /* 0 */
 
     /* Time and turning */
     double max_dt;          /* s [1] longest step accepted */

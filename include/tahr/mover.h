@@ -12,7 +12,8 @@ extern "C" {
 
 typedef struct tahr_mover tahr_mover;
 
-/* NONE: frozen. HANGING: on an edge (config.ledge_grab). CUSTOM: the caller's own function (tahr_mover_set_custom_mode). */
+/* NONE: frozen. HANGING: on an edge (config.ledge_grab); floor tells of it: point on top, normal of the wall.
+ * CUSTOM: the caller's own function (tahr_mover_set_custom_mode). */
 enum {
     TAHR_MODE_NONE = 0,
     TAHR_MODE_WALKING = 1,
@@ -49,11 +50,14 @@ typedef struct tahr_floor {
 } tahr_floor;
 
 enum {
-    TAHR_STATE_JUMP_HELD = 1 << 0,   /* the jump button was down in the last step */
-    TAHR_STATE_JUMPING = 1 << 1,     /* rising by a jump */
-    TAHR_STATE_FLOOR_MOVED = 1 << 2, /* the height was corrected after floor was looked for */
-    TAHR_STATE_CROUCHED = 1 << 3,    /* smaller than config.shape */
-    TAHR_STATE_JUMP_SPENT = 1 << 4   /* this press of the jump button has started its jump */
+    TAHR_STATE_JUMP_HELD = 1 << 0,    /* the jump button was down in the last step */
+    TAHR_STATE_JUMPING = 1 << 1,      /* rising by a jump */
+    TAHR_STATE_FLOOR_MOVED = 1 << 2,  /* the height was corrected after floor was looked for */
+    TAHR_STATE_CROUCHED = 1 << 3,     /* smaller than config.shape */
+    TAHR_STATE_JUMP_SPENT = 1 << 4,   /* this press of the jump button has started its jump (if a setting needs it) */
+    TAHR_STATE_WALL_TOUCHED = 1 << 5, /* in the air, within 1.5 skin of the wall that wall_normal tells of */
+    TAHR_STATE_WALL_SPENT = 1 << 6,   /* that wall was jumped off: not again before ground or another wall */
+    TAHR_STATE_EDGE_SPENT = 1 << 7    /* the edge at floor.point was let go: not again before falling below it */
 };
 
 /* The body that carries the character. */
@@ -86,12 +90,12 @@ typedef struct tahr_state {
     tahr_base base;
     uint32_t touched[TAHR_MAX_TOUCHED]; /* sensors that it overlaps, the lowest ids, ascending, then TAHR_NO_BODY */
     uint32_t touched_count;
-    uint32_t jump_count;   /* jumps since it last stood */
+    uint32_t jump_count;   /* air jumps since it last stood, swam or hung */
     double coyote_left;    /* s for which a jump may still start after the floor ended */
     double buffer_left;    /* s for which a jump asked for in the air still counts */
     double lift_left;      /* s for which base.velocity is still imparted */
-    double wall_left;      /* s for which a wall jump may still start */
-    tahr_vec3 wall_normal; /* of the last wall touched in the air or jumped off, level; zero: none */
+    double wall_left;      /* s for which a wall jump may still start after the wall was left */
+    tahr_vec3 wall_normal; /* of the last wall touched in the air, jumped off or hung on, level; zero: none */
     uint32_t wall_body;    /* or TAHR_NO_BODY */
     uint32_t wall_feature;
     uint32_t drop_body; /* one-way platform being dropped through, or TAHR_NO_BODY */
@@ -140,7 +144,7 @@ enum {
     TAHR_EVENT_JUMPED = 3,
     TAHR_EVENT_APEX = 4,
     TAHR_EVENT_STOPPED = 5,
-    TAHR_EVENT_STEPPED_UP = 6,   /* value: height of the step, m */
+    TAHR_EVENT_STEPPED_UP = 6,   /* value: height of the step or of the edge climbed, m */
     TAHR_EVENT_STEPPED_DOWN = 7, /* value: height lost, m */
     TAHR_EVENT_HIT = 8,          /* blocked by something that is no floor; value: speed into it, m/s */
     TAHR_EVENT_DEPENETRATED = 9, /* value: length of the push, m */
@@ -152,13 +156,13 @@ enum {
      * not fit into state.touched begins when there is room for it. */
     TAHR_EVENT_OVERLAP_BEGIN = 13,
     TAHR_EVENT_OVERLAP_END = 14,
-    TAHR_EVENT_BASE = 15,     /* stands on another body (or TAHR_NO_BODY) */
-    TAHR_EVENT_SHAPE = 16,    /* value: the new half height, m */
-    TAHR_EVENT_LAUNCHED = 17, /* by LAUNCH, or off the ground by IMPULSE; value: speed then, m/s */
-    TAHR_EVENT_PUSHED = 18,   /* pushes a body that has a mass: at position, against normal; value: impulse, N s */
-    TAHR_EVENT_WALL_JUMPED = 19,
-    TAHR_EVENT_GRABBED = 20, /* hangs on an edge */
-    TAHR_EVENT_CUSTOM = 21   /* of tahr_step_event; value: the caller's own */
+    TAHR_EVENT_BASE = 15,        /* stands on another body (or TAHR_NO_BODY) */
+    TAHR_EVENT_SHAPE = 16,       /* value: the new half height, m */
+    TAHR_EVENT_LAUNCHED = 17,    /* by LAUNCH, or off the ground by IMPULSE; value: speed then, m/s */
+    TAHR_EVENT_PUSHED = 18,      /* pushes a body that has a mass: at position, against normal; value: impulse, N s */
+    TAHR_EVENT_WALL_JUMPED = 19, /* instead of JUMPED; value: speed away from the wall, m/s */
+    TAHR_EVENT_GRABBED = 20,     /* hangs on an edge */
+    TAHR_EVENT_CUSTOM = 21       /* of tahr_step_event; value: the caller's own */
 };
 
 /* Why the ground was left: value of LEFT_GROUND. */
@@ -260,7 +264,7 @@ enum {
     TAHR_REPORT_SHAPE_REFUSED = 1 << 8, /* no room for the shape asked for; tried again in the next step */
     TAHR_REPORT_BASE_LOST = 1 << 9,     /* could not follow its base the whole way */
     TAHR_REPORT_TOUCHED_LOST = 1 << 10, /* inside of more sensors than a state remembers */
-    TAHR_REPORT_MODE_REFUSED = 1 << 11  /* the mode asked for has no function, or no fluid around it */
+    TAHR_REPORT_MODE_REFUSED = 1 << 11  /* the mode asked for has no function, no floor below or no fluid around it */
 };
 
 /* The most queries one step may ask, whatever the world answers; then it stops where it is and says so. */

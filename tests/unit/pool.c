@@ -12,11 +12,19 @@
 const char *const pool_fields[POOL_LIES] = {"",         "immersion", "immersion", "immersion",
                                             "friction", "velocity",  "status"};
 
+/* A number from 0 to 1 that only the place decides, and that no neighbour shares. */
+static double noise(tahr_vec3 at)
+{
+    double x = sin(12.9898 * at.x + 78.233 * at.y + 37.719 * at.z) * 43758.5453;
+    return x - floor(x);
+}
+
 static tahr_status water(void *user, const tahr_fluid_query *q, tahr_fluid *fluid)
 {
     pool *p = user;
     double m = (q->half_height - q->position.z) / (2 * q->half_height);
     p->asked++;
+    m = p->lie == POOL_NOISE ? 1.5 * noise(q->position) - 0.25 : m;
     if (m <= 0) {
         return TAHR_OK;
     }

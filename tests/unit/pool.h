@@ -12,8 +12,8 @@ typedef struct pool {
     uint32_t asked;
 } pool;
 
-/* What is wrong with every answer. */
-enum { POOL_TRUE, POOL_NAN, POOL_NEGATIVE, POOL_DEEP, POOL_FRICTION, POOL_CURRENT, POOL_STATUS, POOL_LIES };
+/* What is wrong with every answer. NOISE: any depth anywhere, without a surface. */
+enum { POOL_TRUE, POOL_NAN, POOL_NEGATIVE, POOL_DEEP, POOL_FRICTION, POOL_CURRENT, POOL_STATUS, POOL_LIES, POOL_NOISE };
 /* The field that a message about it names. */
 extern const char *const pool_fields[POOL_LIES];
 

@@ -62,7 +62,7 @@ typedef struct wander {
     double deepest; /* m */
 } wander;
 
-static void open_wander(wander *w, const tahr_backend *backend, int32_t preset)
+static void open_wander(wander *w, const tahr_backend *backend, const tahr_config *config)
 {
     tahr_body_desc bodies[BODIES];
     tahr_world_desc desc;
@@ -73,7 +73,7 @@ static void open_wander(wander *w, const tahr_backend *backend, int32_t preset)
     desc.bodies = bodies;
     desc.body_count = BODIES;
     assert_int_equal(tahr_world_open(backend, &desc, &w->world), TAHR_OK);
-    assert_int_equal(tahr_config_init(&w->config, sizeof w->config, preset), TAHR_OK);
+    w->config = *config;
     assert_int_equal(tahr_mover_create(w->world, &w->config, &w->mover), TAHR_OK);
     assert_int_equal(tahr_state_init(&w->state, &w->config, &at), TAHR_OK);
     w->input.struct_size = sizeof w->input;
@@ -172,10 +172,11 @@ static void close_wander(wander *w)
 static void wanderers_change_their_mode_only_as_the_table_says(void **unused)
 {
     uint32_t seen[TAHR_MODE_CUSTOM + 1][TAHR_MODE_CUSTOM + 1] = {{0}};
+    const tahr_config config = rig_config();
     (void)unused;
     for (int i = 0; i < RIG_RATES; i++) {
         wander w;
-        open_wander(&w, tahr_backend_v1_native(), TAHR_PRESET_PRECISE);
+        open_wander(&w, tahr_backend_v1_native(), &config);
         run(&w, 1 / rig_rates[i], 20000, 1 + (uint64_t)i);
         print_message("%g Hz: at most %u queries a step\n", rig_rates[i], w.most);
         assert_true(w.most <= TAHR_MAX_QUERIES_PER_STEP);
@@ -199,21 +200,38 @@ static void wanderers_change_their_mode_only_as_the_table_says(void **unused)
     assert_true(seen[TAHR_MODE_SWIMMING][TAHR_MODE_FALLING] > 10 && seen[TAHR_MODE_SWIMMING][TAHR_MODE_WALKING] > 10);
 }
 
-static void so_do_those_of_the_other_preset_and_of_the_other_backend(void **unused)
+static void so_do_those_with_every_integrator_and_every_slide(void **unused)
 {
-    wander w;
     (void)unused;
     for (int i = 0; i < 4; i++) {
-        open_wander(&w, tahr_backend_v1_native(), TAHR_PRESET_UNREAL);
-        run(&w, 1 / rig_rates[i], 10000, 11 + (uint64_t)i);
-        assert_true(w.seen[TAHR_MODE_SWIMMING][TAHR_MODE_FALLING] + w.seen[TAHR_MODE_SWIMMING][TAHR_MODE_WALKING] > 0);
-        close_wander(&w);
+        for (uint32_t method = 0; method < 6; method++) { /* 0 to 3 in the one preset, 4 and 5 in the other */
+            wander w;
+            tahr_config c;
+            assert_int_equal(tahr_config_init(&c, sizeof c, method < 4 ? TAHR_PRESET_PRECISE : TAHR_PRESET_UNREAL),
+                             TAHR_OK);
+            c.integrator = method % 2 ? TAHR_INTEGRATOR_STEPPED : TAHR_INTEGRATOR_EXACT;
+            c.slide_solver = method >= 2 ? TAHR_SLIDE_TWO_WALLS : TAHR_SLIDE_JOINT;
+            open_wander(&w, tahr_backend_v1_native(), &c);
+            run(&w, 1 / rig_rates[i], 4000, 11 + (uint64_t)i);
+            assert_true(w.seen[TAHR_MODE_SWIMMING][TAHR_MODE_FALLING] + w.seen[TAHR_MODE_SWIMMING][TAHR_MODE_WALKING] > 0);
+            assert_true(c.separation != TAHR_SEPARATION_MARGIN || w.deepest < 1e-5);
+            close_wander(&w);
+        }
     }
+}
+
+static void so_do_those_of_the_other_backend(void **unused)
+{
+    (void)unused;
 #ifdef TAHR_HAVE_CCD
-    open_wander(&w, tahr_backend_v1_ccd(), TAHR_PRESET_PRECISE);
+    wander w;
+    const tahr_config config = rig_config();
+    open_wander(&w, tahr_backend_v1_ccd(), &config);
     run(&w, 1.0 / 60, 1500, 21);
     assert_true(w.deepest < 1e-5 && w.seen[TAHR_MODE_FALLING][TAHR_MODE_SWIMMING] > 0);
     close_wander(&w);
+#else
+    skip();
 #endif
 }
 
@@ -221,7 +239,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wanderers_change_their_mode_only_as_the_table_says),
-        cmocka_unit_test(so_do_those_of_the_other_preset_and_of_the_other_backend),
+        cmocka_unit_test(so_do_those_with_every_integrator_and_every_slide),
+        cmocka_unit_test(so_do_those_of_the_other_backend),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

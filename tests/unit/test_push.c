@@ -232,6 +232,28 @@ static void a_pushed_character_slides_along_what_is_in_the_way(void **unused)
     rig_close(&r);
 }
 
+static void a_pushed_character_steps_up(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < RIG_RATES; i++) {
+        rig r;
+        double dt = 1 / rig_rates[i];
+        tahr_body_desc bodies[3] = {stage_ground(), stage_box(fake_vec(-3, 0, 1.5), fake_vec(1, 5, 1.5)),
+                                    stage_box(fake_vec(5, 0, 0), fake_vec(4, 5, 0.25))};
+        bodies[2].flags = 0; /* a step of 0.25 m at x = 1 */
+        rig_open_bodies(&r, bodies, 3, NULL, fake_vec(0, 0, 1));
+        rig_settle(&r);
+        for (int n = 1; n * dt < 4; n++) {
+            tahr_pose pose = {{-3 + n * dt, 0, 2}, LEVEL};
+            stage_step(&r, 1, pose, dt);
+            assert_false(r.report.flags & TAHR_REPORT_CRUSHED);
+            assert_true(r.state.position.x >= pose.position.x + 1 + REACH - 1e-5);
+        }
+        assert_near(r.state.position.z - 0.9 - 0.25, 0.0125, 0.0026);
+        rig_close(&r);
+    }
+}
+
 static void a_floor_that_rises_into_a_falling_character_is_landed_on_at_its_speed(void **unused)
 {
     (void)unused;
@@ -350,6 +372,7 @@ int main(void)
         cmocka_unit_test(closing_walls_crush_only_when_they_leave_no_room),
         cmocka_unit_test(a_press_from_above_squeezes_out_who_is_near_its_edge),
         cmocka_unit_test(a_pushed_character_slides_along_what_is_in_the_way),
+        cmocka_unit_test(a_pushed_character_steps_up),
         cmocka_unit_test(a_floor_that_rises_into_a_falling_character_is_landed_on_at_its_speed),
         cmocka_unit_test(a_conveyor_carries_and_hands_over_its_velocity),
         cmocka_unit_test(hitting_a_body_with_a_mass_reports_its_push),

@@ -250,6 +250,13 @@ static void deep_water_costs_one_sweep_and_two_looks_at_it(void **unused)
     assert_int_equal(r.report.sweeps, 1);
     assert_int_equal(r.report.fluid_queries, 2);
     assert_int_equal(r.report.contact_queries + r.report.rays, 0);
+    tahr_query_record records[8];
+    tahr_report report = {.struct_size = sizeof report, .queries = records, .query_capacity = 8};
+    const tahr_state before = r.state;
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 1.0 / 60, &r.state, &report), TAHR_OK);
+    assert_int_equal(report.query_count, 3);
+    assert_true(records[0].type == TAHR_QUERY_FLUID && records[0].position.x == before.position.x);
+    assert_true(records[0].distance == 1 && records[0].count == 1 && records[0].body == 7);
     r.input.move = fake_vec(0, 0, 0);
     r.state.velocity = fake_vec(0, 0, 0);
     rig_step(&r, 1.0 / 60);

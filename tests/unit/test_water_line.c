@@ -30,6 +30,7 @@ static void a_fall_ends_where_the_water_carries_at_its_exact_time(void **unused)
                 assert_true(at < 0 && e->value == TAHR_MODE_SWIMMING);
                 at = k * dt + e->time;
                 assert_near(e->position.z, LINE, 1e-8);
+                assert_true(rig_rates[i] < 100 || r.report.fluid_queries <= 6); /* a level surface is found by one look */
             }
         }
         assert_near(at, truth, 1e-8);
@@ -123,19 +124,21 @@ static void add_shore(pool *p)
     fake_add_plane(&p->world, fake_vec(0.25 / size, 0, 1 / size), 0);
 }
 
+/* At half the speed, and while it still accelerates. */
 static void a_walk_into_the_sea_swims_where_it_is_deep_enough(void **unused)
 {
     (void)unused;
-    for (int i = 0; i < RIG_RATES; i++) {
+    for (int n = 0; n < 2 * RIG_RATES; n++) {
+        int i = n / 2;
         pool p;
         rig r;
         double dt = 1 / rig_rates[i];
         int found = 0;
         pool_init(&p);
         add_shore(&p);
-        pool_open(&r, &p, NULL, fake_vec(-4, 0, 2.5));
+        pool_open(&r, &p, NULL, n % 2 ? fake_vec(4.62, 0, 0) : fake_vec(-4, 0, 2.5));
         rig_settle(&r);
-        r.input.move = fake_vec(0.5, 0, 0);
+        r.input.move = fake_vec(n % 2 ? 1 : 0.5, 0, 0);
         for (int k = 0; k < (int)(6 * rig_rates[i]) && !found; k++) {
             rig_step(&r, dt);
             const tahr_event *e = rig_event(&r, TAHR_EVENT_MODE), *left = rig_event(&r, TAHR_EVENT_LEFT_GROUND);
@@ -216,6 +219,28 @@ static void a_swimmer_steps_up_on_a_low_ledge_and_walks_on(void **unused)
     }
 }
 
+static void a_step_in_the_deep_is_a_wall_to_a_swimmer(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < RIG_RATES; i++) {
+        tahr_config c = rig_config();
+        pool p;
+        rig r;
+        c.buoyancy = 0.9;
+        pool_init(&p);
+        fake_add_plane(&p.world, fake_vec(0, 0, 1), -8);
+        fake_add_box(&p.world, fake_vec(2, -50, -50), fake_vec(50, 50, -7.62)); /* a walker would take it */
+        pool_open(&r, &p, &c, fake_vec(0, 0, -7.09));
+        r.state.mode = TAHR_MODE_SWIMMING;
+        r.input.move = fake_vec(1, 0, 0);
+        assert_int_equal(pool_run(&r, 3, 1 / rig_rates[i]), 0);
+        assert_near(r.state.position.x, 2 - 0.36, 1e-6);
+        assert_near(r.state.position.z, -8 + 0.91, 1e-6);
+        assert_true(r.report.step_offset == 0 && r.state.floor.flags == 0);
+        rig_close(&r);
+    }
+}
+
 static void water_that_ends_sideways_is_left_there(void **unused)
 {
     tahr_body_desc pond;
@@ -262,6 +287,57 @@ static void an_answer_that_is_none_ends_the_step_and_leaves_the_state(void **unu
     }
 }
 
+/* Water that is there and is not, from place to place, and a gravity that turns over: no step asks more than promised. */
+static void a_fluid_without_rhyme_leaves_a_finite_character(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < RIG_RATES; i++) {
+        pool p;
+        rig r;
+        pool_init(&p);
+        fake_add_plane(&p.world, fake_vec(0, 0, 1), -3);
+        fake_add_plane(&p.world, fake_vec(0, 0, -1), -3);
+        p.lie = POOL_NOISE;
+        p.water.velocity = fake_vec(3, -2, 1);
+        pool_open(&r, &p, NULL, fake_vec(0, 0, 0));
+        r.input.flags = TAHR_INPUT_GRAVITY;
+        for (int k = 0; k < 1000; k++) {
+            r.input.gravity = fake_vec(0, 0, k / 200 % 2 ? 9.81 : -9.81);
+            r.input.move = fake_vec(sin(k * 0.37), cos(k * 0.91), sin(k * 0.53));
+            r.input.jump = k % 7 == 0;
+            rig_step(&r, 1 / rig_rates[i]);
+            tahr_vec3 at = r.state.position, v = r.state.velocity;
+            assert_true(isfinite(at.x + at.y + at.z) && isfinite(v.x + v.y + v.z));
+            assert_true(at.z >= -3 + 0.9 && at.z <= 3 - 0.9);
+            assert_true(r.report.sweeps + r.report.contact_queries + r.report.rays + r.report.fluid_queries <=
+                        TAHR_MAX_QUERIES_PER_STEP);
+        }
+        rig_close(&r);
+    }
+}
+
+static void a_pool_that_is_drained_lets_the_swimmer_fall(void **unused)
+{
+    tahr_body_desc pond;
+    tahr_body_pose away = {.body = 0, .pose = {{0, 0, -100}, {0, 0, 0, 1}}};
+    rig r;
+    (void)unused;
+    assert_int_equal(tahr_body_desc_init(&pond, sizeof pond, TAHR_BODY_BOX), TAHR_OK);
+    pond.flags = TAHR_BODY_FLUID | TAHR_BODY_MOVABLE;
+    pond.half_extents = fake_vec(5, 5, 10);
+    rig_open_bodies(&r, &pond, 1, NULL, fake_vec(0, 0, 0));
+    r.state.mode = TAHR_MODE_SWIMMING;
+    for (int k = 0; k < 3; k++) { /* at rest, and asleep */
+        assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.1, &r.state, NULL), TAHR_OK);
+    }
+    assert_true(r.state.mode == TAHR_MODE_SWIMMING && r.state.position.z == 0);
+    assert_int_equal(tahr_world_set(r.world, &away, 1), TAHR_OK);
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.1, &r.state, NULL), TAHR_OK);
+    assert_int_equal(r.state.mode, TAHR_MODE_FALLING);
+    assert_near(r.state.position.z, -0.5 * 9.81 * 0.01, 1e-12);
+    rig_close(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -273,7 +349,10 @@ int main(void)
         cmocka_unit_test(a_swim_to_the_shore_walks_there_and_changes_its_mode_once),
         cmocka_unit_test(nobody_swaps_between_two_modes_in_the_shallows),
         cmocka_unit_test(a_swimmer_steps_up_on_a_low_ledge_and_walks_on),
+        cmocka_unit_test(a_step_in_the_deep_is_a_wall_to_a_swimmer),
         cmocka_unit_test(water_that_ends_sideways_is_left_there),
+        cmocka_unit_test(a_fluid_without_rhyme_leaves_a_finite_character),
+        cmocka_unit_test(a_pool_that_is_drained_lets_the_swimmer_fall),
         cmocka_unit_test(an_answer_that_is_none_ends_the_step_and_leaves_the_state),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

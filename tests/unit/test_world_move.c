@@ -257,7 +257,7 @@ static void put_platform(engine *e, tahr_vec3 at)
     e->world.solids[0].max = fake_vec(at.x + 3, at.y + 3, at.z);
 }
 
-static void open_engine(engine *e, rig *r)
+static void open_engine_falling(engine *e, rig *r, const tahr_config *config)
 {
     memset(e, 0, sizeof *e);
     fake_world_init(&e->world);
@@ -266,8 +266,38 @@ static void open_engine(engine *e, rig *r)
     tahr_callbacks callbacks = fake_callbacks(&e->world);
     callbacks.user = e;
     callbacks.body = tell;
-    rig_open_callbacks(r, &callbacks, NULL, fake_vec(1, 0, 1));
+    rig_open_callbacks(r, &callbacks, config, fake_vec(1, 0, 1));
+}
+
+static void open_engine(engine *e, rig *r)
+{
+    open_engine_falling(e, r, NULL);
     rig_settle(r);
+}
+
+static void landing_on_a_base_behind_callbacks_takes_its_velocity_off(void **unused)
+{
+    engine e;
+    rig r;
+    tahr_config c = rig_config();
+    (void)unused;
+    c.braking_deceleration = c.braking_drag = 0;
+    open_engine_falling(&e, &r, &c);
+    e.motion.velocity = fake_vec(2, 0, 5);
+    e.motion.surface_velocity = fake_vec(0, 0.5, 0);
+    r.state.velocity = fake_vec(0, 0, -1);
+    for (int n = 0; r.state.mode != TAHR_MODE_WALKING; n++) {
+        rig_step(&r, 1.0 / 60);
+        assert_true(n < 60);
+    }
+    const tahr_event *landed = rig_event(&r, TAHR_EVENT_LANDED);
+    assert_non_null(landed);
+    assert_near(landed->value, 5 + sqrt(1 + 2 * 9.81 * 0.09), 1e-5); /* relative to what it lands on, 9 cm below */
+    assert_near(r.state.velocity.x, -2, 1e-12);
+    assert_near(r.state.velocity.y, -0.5, 1e-12);
+    assert_near(r.state.velocity.z, 0, 0);
+    assert_int_equal(r.state.base.body, 0);
+    rig_close(&r);
 }
 
 static void a_base_behind_callbacks_carries_and_hands_over_its_velocity(void **unused)
@@ -391,6 +421,7 @@ int main(void)
                                        cmocka_unit_test(a_rollback_repeats_every_bit),
                                        cmocka_unit_test(a_sweep_may_ask_one_body_alone),
                                        cmocka_unit_test(a_base_behind_callbacks_carries_and_hands_over_its_velocity),
+                                       cmocka_unit_test(landing_on_a_base_behind_callbacks_takes_its_velocity_off),
                                        cmocka_unit_test(an_idle_character_notices_that_its_base_begins_to_move),
                                        cmocka_unit_test(who_stood_on_a_base_that_is_gone_falls_with_its_velocity),
                                        cmocka_unit_test(bad_answers_about_a_base_are_errors_and_leave_the_state_alone),

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: MIT
+ * corner.c: a jump that grazes the corner of a ceiling goes past it.
+ *
+ * How far aside is not searched for: from a place that is past the corner the shape is swept back toward the column
+ * that it rose in, and stops a skin beside what was in the way. The answer does not depend on how fast it rises, and
+ * so not on the frame rate. */
+#include "corner.h"
+
+#include "query.h"
+#include "report.h"
+
+/* Less downward than this is a wall, beside which a rise goes on. */
+static const double CEILING = 1e-3;
+
+/* A contact with less of a level part lies on the ceiling's face: no side of it is nearer. */
+static const double FLAT = 1e-6;
+
+/* Of skin: so far below the ceiling and beside the corner, against rounding of single precision (2e-6 m at 1 m). */
+static const double CLEAR = 4e-4;
+
+/* How far up the widest part of the head lies above its top, so that it passes what the top has hit. */
+static double head_height(const tahr__step *step)
+{
+    const tahr_shape *s = &step->limits->shape;
+    return (s->type == TAHR_SHAPE_BOX ? 0 : s->radius) + 2 * step->config->skin;
+}
+
+/* m aside, along a level direction, at which the head passes; or more than corner_correction. */
+static double way_aside(tahr__step *step, vec3 direction)
+{
+    const tahr_shape *shape = &step->limits->shape;
+    double skin = step->config->skin, most = step->config->corner_correction, none = 2 * most;
+    double height = head_height(step), clear = CLEAR * skin;
+    vec3 at = add_scaled(step->state.position, step->state.up, -clear);
+    tahr_hit hit;
+    tahr__sweep(step, shape, at, scale(direction, most), skin, 0, &hit);
+    double aside = hit.start_overlap ? 0 : hit.fraction * most;
+    at = add_scaled(at, direction, aside);
+    tahr__sweep(step, shape, at, scale(step->state.up, height), skin, 0, &hit);
+    if (aside <= 0 || hit.blocking) {
+        return none;
+    }
+    at = add_scaled(at, step->state.up, height);
+    tahr__sweep(step, shape, at, scale(direction, -aside), skin, 0, &hit);
+    if (hit.start_overlap || hit.unknown) {
+        return none;
+    }
+    return min_of(aside * (1 - hit.fraction) + clear, aside);
+}
+
+/* Directions worth a look: away from an edge that was hit; of boxes, along their sides. */
+static uint32_t directions_of(const tahr__step *step, const tahr_hit *hit, vec3 *directions)
+{
+    vec3 level = step_level(step, hit->normal);
+    vec3 motion = step_level(step, step->state.velocity);
+    if (step->limits->shape.type == TAHR_SHAPE_BOX) {
+        directions[0] = rotate(step->state.orientation, vec(1, 0, 0));
+        directions[1] = rotate(step->state.orientation, vec(0, 1, 0));
+        directions[2] = scale(directions[0], -1);
+        directions[3] = scale(directions[1], -1);
+        return 4;
+    }
+    if (length(level) <= FLAT) {
+        level = motion;
+    }
+    directions[0] = unit(level);
+    return length_squared(level) > 0;
+}
+
+int tahr__clear_corner(tahr__step *step, const tahr_hit *hit)
+{
+    tahr_state *s = &step->state;
+    vec3 directions[4];
+    double most = step->config->corner_correction, least = 2 * most;
+    uint32_t best = 0;
+    if (dot(s->velocity, s->up) <= 0 || dot(hit->normal, s->up) > -CEILING || hit->start_overlap) {
+        return 0;
+    }
+    uint32_t count = directions_of(step, hit, directions);
+    for (uint32_t i = 0; i < count; i++) {
+        double aside = way_aside(step, directions[i]);
+        if (aside < least) {
+            least = aside;
+            best = i;
+        }
+    }
+    if (least > most || step->error < 0) {
+        return tahr__decide(step, TAHR_RULE_CORNER, 0, hit, least, most, "no way past the corner");
+    }
+    s->position = add_scaled(s->position, directions[best], least);
+    return tahr__decide(step, TAHR_RULE_CORNER, 1, hit, least, most, "aside, past the corner");
+}
