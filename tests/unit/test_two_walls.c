@@ -124,6 +124,21 @@ static void count_events(const rig *r, journey *j)
     }
 }
 
+/* The most that a slice of the unreal preset asks: walking 2 moves, a failed step up (9), a slide (2), a floor (6), its height
+ * and a look beside a ledge (4); falling 3 moves, a step aside, 3 landing spots (6 each), a look down (6), a floor and its
+ * height. Where something overlaps every move may ask 7. */
+static void check_queries(const rig *r)
+{
+    enum { WALKING = 2 + 9 + 2 + 6 + 1 + 4, FALLING = 3 + 1 + 18 + 6 + 6 + 1, ENTRY = 6 };
+    const tahr_config *c = &r->config;
+    int unreal = c->slide_solver == TAHR_SLIDE_TWO_WALLS && c->step_rule == TAHR_STEP_BY_CONTACT &&
+                 c->floor_probe == TAHR_FLOOR_PROBE_SHRUNK;
+    if (unreal && r->report.contact_queries == 0) {
+        uint32_t most = FALLING > WALKING ? FALLING : WALKING;
+        assert_true(r->report.sweeps + r->report.rays <= most * r->report.slices + ENTRY);
+    }
+}
+
 /* 20 s. allowed: m of depth. */
 static journey wander(const tahr_config *config, const char *what, double hz, uint64_t seed, double allowed)
 {
@@ -141,6 +156,7 @@ static journey wander(const tahr_config *config, const char *what, double hz, ui
         check_whereabouts(&r, what, hz);
         rig_assert_in_order(&r, 1 / hz);
         j.capped += (r.report.flags & TAHR_REPORT_QUERY_CAP) != 0;
+        check_queries(&r);
         double depth = depth_of(&r);
         if (depth > allowed) {
             fail_msg("%s at %g Hz, %g s: %g m deep at %g %g %g", what, hz, r.time, depth, r.state.position.x,
