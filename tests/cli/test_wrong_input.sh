@@ -88,5 +88,5 @@ route "'time'" '[{"time": -1}]'
 route "inputs[0], key 'move'" '[{"time": 0, "move": [1, 0]}]'
 route "'move'" '[{"time": 0, "move": [1, 0, "up"]}]'
 route "'jump'" '[{"time": 0, "jump": 1}]'
-route "'crouch'" '[{"time": 0, "crouch": true}]'
+route "'crawl'" '[{"time": 0, "crawl": true}]'
 finish
