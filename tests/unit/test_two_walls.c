@@ -268,7 +268,9 @@ static void every_integrator_runs_with_every_solver_and_step_rule(void **unused)
             tahr_config c;
             char what[64];
             name_mix(preset, mix, &c, what);
-            check_journeys(&c, what, 1e-4, 99);
+            /* A floor of three queries, looked for at every halving of a path of several slices, may come to the most. */
+            int may_cap = preset == TAHR_PRESET_UNREAL && c.slide_solver == TAHR_SLIDE_JOINT;
+            check_journeys(&c, what, 1e-4, may_cap ? 2 : 0);
         }
     }
 }
