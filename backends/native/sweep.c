@@ -324,9 +324,8 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.mask = sweep->mask;
     query.ignore_body = sweep->ignore_body;
     query.flags = sweep->flags;
-    query.sensors = sweep->flags & TAHR_SWEEP_SENSORS ? TAHR__SENSORS_ONLY
-                    : capacity > 1                    ? TAHR__SENSORS_TOO
-                                                      : TAHR__SENSORS_NONE;
+    query.sensors = capacity > 1 ? TAHR__SENSORS_TOO : TAHR__SENSORS_NONE;
+    if (sweep->flags & TAHR_SWEEP_SENSORS) query.sensors = TAHR__SENSORS_ONLY;
     s.search.query = &query;
     s.search.box = tahr__query_box(&query, 1.0);
     s.search.reach = query.radius + query.margin;
