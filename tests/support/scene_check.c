@@ -307,6 +307,9 @@ static const struct {
 
 static int check_one(scene_case *c)
 {
+    if (scene_member(c, "if", 1) == 0) {
+        return !c->failure[0];
+    }
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
         if (strcmp(KINDS[k].kind, text(c, "kind")) == 0) {
             return KINDS[k].check(c) && !c->failure[0];
