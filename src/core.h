@@ -156,6 +156,8 @@ struct tahr__step {
     uint32_t frame_body;      /* what state.velocity is relative to in this step, or TAHR_NO_BODY (base_motion.c) */
     uint32_t frame_is_base;   /* 1: it stood on it; 0: it meets it in the air */
     vec3 frame_velocity;      /* m/s, of that body at the foot */
+    double decay_mean;        /* m/s, of an imparted velocity in what is left of this step; 0: none decays */
+    double decay_left;        /* m/s, of it at the end of the step */
     double dt;                /* s of the whole step */
     double push_left;         /* m of depenetration still allowed */
     double time;              /* s since the start of the step, at the begin of the slice */
