@@ -137,10 +137,10 @@ typedef struct tahr_config {
     double swim_speed; /* m/s [3] */
     double swim_immersion; /* [0.65] part of the height under the surface from which on it swims; never above 1 / buoyancy */
     double buoyancy;       /* of gravity [1], when wholly immersed; 1: neither sinks nor rises */
-    double fluid_friction;   /* 1/s [0.3] drag of a fluid that says none of its own */
-    double water_exit_speed; /* m/s [4.2] upward, of a jump at the surface */
-    double fly_speed;        /* m/s [6] */
-    double fly_drag;         /* 1/s [0.15] drag of flying without input */
+    double fluid_friction; /* 1/s [0.3] drag of a fluid that says none of its own */
+    double water_exit_speed; /* m/s [5.5 | 4.2] upward, of a jump at the surface: 5.5 takes the preset over a rim at its height */
+    double fly_speed; /* m/s [6] */
+    double fly_drag;  /* 1/s [0.15] drag of flying without input */
 
     /* Feel: all off by default; times count inside steps, the same at every frame rate. A press of the jump button
      * starts the first that is possible of: a jump from the ground, one within coyote_time, one off a wall, one of
