@@ -43,7 +43,8 @@ static void leave_overlap(tahr__step *step, vec3 delta, tahr__swept *swept)
     tahr__slide_along_surface(step, delta, 1, swept->hit.normal, swept);
 }
 
-/* Up the step that blocks the rest of the motion. Without level speeds the velocity becomes that of the way made. */
+/* Up the step that blocks the rest of the motion. Without level speeds the velocity becomes that of the way made, which an
+ * overlap that is left may have made longer. */
 static int step_up(tahr__step *step, vec3 rest, double time, const tahr__swept *obstacle, int *found_floor)
 {
     vec3 before = step->state.position;
@@ -53,7 +54,9 @@ static int step_up(tahr__step *step, vec3 rest, double time, const tahr__swept *
     if (!step->config->keep_level_speed) {
         step->just_teleported = 1; /* the rise is no velocity */
         if (time >= TAHR__LEAST_TIME) {
-            step->state.velocity = scale(step_level(step, sub(step->state.position, before)), 1.0 / time);
+            vec3 made = step_level(step, sub(step->state.position, before));
+            double way = length(made), most = length(rest);
+            step->state.velocity = scale(made, (way > most ? most / way : 1) / time);
         }
     }
     return 1;

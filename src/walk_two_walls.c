@@ -211,17 +211,19 @@ static int follow_floor(tahr__step *step, walk *w)
     return check_fall(step, w, step->just_teleported || w->zero);
 }
 
-/* What was moved is what was fast: bumps brake. A closed form that was not bumped knows its velocity at the end better. */
+/* What was moved is what was fast: bumps brake, and a way that got longer up a face gives no speed. A closed form that was
+ * not bumped knows its velocity at the end better. */
 static void take_velocity(tahr__step *step, const walk *w)
 {
     vec3 moved = add_scaled(sub(step->state.position, w->from), step->state.up, -w->settled);
     double way = length(step->config->keep_level_speed ? step_level(step, moved) : moved);
     double asked = length(w->delta), missing = way - asked, tiny = tiny_length(step->config);
+    double part = asked < way ? asked / way : 1;
     int exact = step->config->integrator == TAHR_INTEGRATOR_EXACT;
     if (is_drifting(step)) { /* only a part of that was the velocity's doing */
         step->state.velocity = scale(step->state.velocity, asked > way ? way / asked : 1);
     } else if (!step->just_teleported && !(exact && missing * missing <= tiny * tiny)) {
-        step->state.velocity = scale(moved, 1.0 / w->h);
+        step->state.velocity = scale(moved, part / w->h);
     }
     step->state.velocity = tahr__level_velocity(step, step->state.velocity);
 }
