@@ -27,8 +27,9 @@ vec3 tahr__ground_movement_delta(const tahr__step *step, vec3 delta, const tahr_
     if (!ramp->walkable || steep <= UPRIGHT || steep >= 1 - UPRIGHT || dot(ramp->normal, up) <= UPRIGHT) {
         return delta;
     }
-    vec3 lifted = add_scaled(delta, up, -dot(ramp->surface_normal, delta) / steep);
-    return step->config->keep_level_speed ? lifted : scale(unit(lifted), length(delta));
+    double rise = -dot(ramp->surface_normal, delta) / steep, size = length(delta);
+    vec3 lifted = add_scaled(delta, up, rise);
+    return step->config->keep_level_speed ? tahr__cap_rise(step, lifted, rise, size) : scale(unit(lifted), size);
 }
 
 static int is_blocked(const tahr_hit *hit)
