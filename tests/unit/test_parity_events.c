@@ -92,8 +92,9 @@ static void reverted_row(parity_table *t)
         const tahr_state *a = &tried.r.state, *b = &not_tried.r.state;
         parity_row(t, "X2", names[backend]);
         parity_true(t, "a scope was opened", tried.r.report.sweeps >= not_tried.r.report.sweeps + 2);
-        parity_true(t, "pose bit by bit", memcmp(&a->position, &b->position, sizeof a->position) == 0 &&
-                                              memcmp(&a->orientation, &b->orientation, sizeof a->orientation) == 0);
+        parity_true(t, "pose bit by bit",
+                    memcmp(&a->position, &b->position, sizeof a->position) == 0 &&
+                        memcmp(&a->orientation, &b->orientation, sizeof a->orientation) == 0);
         parity_true(t, "it moved", a->position.x > 0 && a->position.y > 0.1);
         parity_count(t, "overlaps", events_of(&tried.r, TAHR_EVENT_OVERLAP_BEGIN), 0);
         parity_count(t, "overlaps ended", events_of(&tried.r, TAHR_EVENT_OVERLAP_END), 0);
