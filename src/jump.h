@@ -18,8 +18,8 @@
 
 #include "core.h"
 
-/* Looks at the button at the begin of a step. One contact query for a press in the air with wall jumps; an edge costs
- * what climbing does. */
+/* CheckJumpInput: looks at the button at the begin of a step. One contact query for a press in the air with wall
+ * jumps; an edge costs what climbing does. */
 void tahr__begin_jump(tahr__step *step);
 
 /* Notes a wall that a fall has met, and jumps off it if that was asked for a moment ago. Returns 0 if it is no wall. At
