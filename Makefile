@@ -22,8 +22,10 @@ configure = mkdir -p $(1) && { cmake -S . -B $(1) $(2) -DTAHR_WERROR=$(if $(WERR
 	>$(1)/configure.log 2>&1 || { cat $(1)/configure.log; exit 1; }; } && \
 	{ grep -E 'Warning|^-- TAHR_[A-Z_]*: no' $(1)/configure.log || true; }
 compile = cmake --build $(1) --parallel $(JOBS)
-# ctest's own output first, then why something was left out: every skipped test says so in a line "SKIP: ...".
+# ctest's own output first, then the table of parity by rows (tests/parity_count.sh), then why something was left out:
+# every skipped test says so in a line "SKIP: ...".
 check = cd $(1) && (ctest --output-on-failure --no-label-summary -j $(JOBS) $(2); status=$$?; \
+	grep -h '^parity: ' Testing/Temporary/LastTest.log | tail -n 1; \
 	grep -h '^SKIP: ' Testing/Temporary/LastTest.log | sort -u; exit $$status)
 
 build: setup-run

@@ -17,7 +17,7 @@ void tahr__board(tahr__step *step, uint32_t body);
 /* Sweeps the character by motion, bent along what is in the way. Returns m that it fell short. At most 4 moves. */
 double tahr__go_along(tahr__step *step, vec3 motion);
 
-/* Carries the character with its base since the last step, and lets what moved into it push it. */
+/* UpdateBasedMovement: carries the character with its base since the last step, and lets what moved into it push it. */
 static inline void tahr__follow_base(tahr__step *step, double dt)
 {
     if (step->world->has & TAHR__HAS_BASES) {

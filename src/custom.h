@@ -5,7 +5,7 @@
 
 #include "core.h"
 
-/* One slice of at most `time` seconds. Without a function it stays where it is. */
+/* PhysCustom: one slice of at most `time` seconds. Without a function it stays where it is. */
 tahr__next tahr__run_custom(tahr__step *step, double time);
 
 #endif

@@ -24,18 +24,19 @@ static inline double tiny_length(const tahr_config *c)
     return 1e-3 * c->pull_back;
 }
 
-/* Is the point of an impact, seen along up, well inside the rim of a probe of this radius at `centre`? For boxes the
- * radius stands for how much thinner than the character the probe is. No query. */
+/* IsWithinEdgeTolerance: is the point of an impact, seen along up, well inside the rim of a probe of this radius at
+ * `centre`? For boxes the radius stands for how much thinner than the character the probe is. No query. */
 int tahr__is_within_edge_tolerance(const tahr__step *step, vec3 centre, vec3 point, double radius);
 
-/* Sweeps a probe down from `from` without a skin; with config.flat_base a box in place of a round one, if the backend has
- * boxes: its corners on the axes first, then its sides. Returns 1 if something was met. 1 sweep, with flat_base 1 or 2. */
+/* FloorSweepTest: sweeps a probe down from `from` without a skin; with config.flat_base a box in place of a round one,
+ * if the backend has boxes: its corners on the axes first, then its sides. Returns 1 if something was met. 1 sweep,
+ * with flat_base 1 or 2. */
 int tahr__floor_sweep_test(tahr__step *step, const tahr__foot *probe, vec3 from, double range, tahr_hit *hit);
 
-/* The floor below: by the supplied sweep; else a sweep, once more with a thinner probe where that overlapped something
- * or touched at the rim; else a ray under the axis. floor->distance is the way down until the shape touches (negative:
- * the way up out of an overlap), floor->perch_distance with TAHR_FLOOR_LINE what the ray found.
- * At most 2 sweeps (with flat_base 4) and 1 ray. */
+/* ComputeFloorDist: the floor below: by the supplied sweep; else a sweep, once more with a thinner probe where that
+ * overlapped something or touched at the rim; else a ray under the axis. floor->distance is the way down until the
+ * shape touches (negative: the way up out of an overlap), floor->perch_distance with TAHR_FLOOR_LINE what the ray
+ * found. At most 2 sweeps (with flat_base 4) and 1 ray. */
 void tahr__compute_floor_distance(tahr__step *step, const tahr__floor_look *look, tahr_floor *floor);
 
 enum { TAHR__FLOOR_DISTANCE_QUERIES = 3 };

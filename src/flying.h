@@ -5,7 +5,7 @@
 
 #include "core.h"
 
-/* One slice of at most `time` seconds. Flying ends only when it is asked to. */
+/* PhysFlying: one slice of at most `time` seconds. Flying ends only when it is asked to. */
 tahr__next tahr__fly(tahr__step *step, double time);
 
 #endif

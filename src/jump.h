@@ -18,7 +18,7 @@
 
 #include "core.h"
 
-/* Looks at the button at the begin of a step. One contact query for a press in the air with wall jumps; an edge costs
+/* CheckJumpInput: looks at the button at the begin of a step. One contact query for a press in the air with wall jumps; an edge costs
  * what climbing does. */
 void tahr__look_at_button(tahr__step *step);
 

@@ -8,14 +8,15 @@
 #include "report.h"
 #include "slide.h"
 
-/* By halving, until the place is known to a millionth of the piece. */
+/* By halving, until the place is known to a millionth of the piece, or less well where every look asks much: the rest of
+ * the step must be left enough to ask. */
 void tahr__floor_end(tahr__step *step, const tahr__path *w, vec3 to, double *inside, double *outside)
 {
-    enum { ROUNDS = 20 };
+    enum { ROUNDS = 20, MOST = TAHR_MAX_QUERIES_PER_STEP * 5 / 8 };
     tahr_floor floor;
     *inside = 0;
     *outside = 1;
-    for (int i = 0; i < ROUNDS && step->error >= 0; i++) {
+    for (int i = 0; i < ROUNDS && step->queries < MOST && step->error >= 0; i++) {
         double middle = 0.5 * (*inside + *outside);
         step->state.position = add_scaled(w->from, sub(to, w->from), middle);
         tahr__find_floor(step, step->config->snap_distance, NULL, &floor);

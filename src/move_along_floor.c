@@ -27,8 +27,9 @@ vec3 tahr__ground_movement_delta(const tahr__step *step, vec3 delta, const tahr_
     if (!ramp->walkable || steep <= UPRIGHT || steep >= 1 - UPRIGHT || dot(ramp->normal, up) <= UPRIGHT) {
         return delta;
     }
-    vec3 lifted = add_scaled(delta, up, -dot(ramp->surface_normal, delta) / steep);
-    return step->config->keep_level_speed ? lifted : scale(unit(lifted), length(delta));
+    double rise = -dot(ramp->surface_normal, delta) / steep, size = length(delta);
+    vec3 lifted = add_scaled(delta, up, rise);
+    return step->config->keep_level_speed ? tahr__cap_rise(step, lifted, rise, size) : scale(unit(lifted), size);
 }
 
 static int is_blocked(const tahr_hit *hit)
@@ -43,7 +44,8 @@ static void leave_overlap(tahr__step *step, vec3 delta, tahr__swept *swept)
     tahr__slide_along_surface(step, delta, 1, swept->hit.normal, swept);
 }
 
-/* Up the step that blocks the rest of the motion. Without level speeds the velocity becomes that of the way made. */
+/* Up the step that blocks the rest of the motion. Without level speeds the velocity becomes that of the way made, which an
+ * overlap that is left may have made longer. */
 static int step_up(tahr__step *step, vec3 rest, double time, const tahr__swept *obstacle, int *found_floor)
 {
     vec3 before = step->state.position;
@@ -53,7 +55,9 @@ static int step_up(tahr__step *step, vec3 rest, double time, const tahr__swept *
     if (!step->config->keep_level_speed) {
         step->just_teleported = 1; /* the rise is no velocity */
         if (time >= TAHR__LEAST_TIME) {
-            step->state.velocity = scale(step_level(step, sub(step->state.position, before)), 1.0 / time);
+            vec3 made = step_level(step, sub(step->state.position, before));
+            double way = length(made), most = length(rest);
+            step->state.velocity = scale(made, (way > most ? most / way : 1) / time);
         }
     }
     return 1;

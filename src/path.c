@@ -5,6 +5,7 @@
 #include "floor.h"
 #include "launch.h"
 #include "move.h"
+#include "move_along_floor.h"
 #include "plane.h"
 #include "query.h"
 #include "report.h"
@@ -164,7 +165,8 @@ static vec3 along_floor(const tahr__path *w, const tahr__step *step, vec3 level)
     if (rise * rise > 1.5 * size * size) { /* steeper than 51 degrees is only walkable by an override, and never a bevel */
         climb = rise;
     }
-    return step->config->keep_level_speed ? lifted : scale(lifted, size / sqrt(size * size + climb * climb));
+    return step->config->keep_level_speed ? tahr__cap_rise(step, lifted, rise, size)
+                                          : scale(lifted, size / sqrt(size * size + climb * climb));
 }
 
 /* A walkable face in the way: go on along it. Its contact normal must be walkable too; the lip of a step is not a ramp. */

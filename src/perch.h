@@ -5,16 +5,16 @@
 
 #include "floor.h"
 
-/* m, of the foot that must have a floor: at least 0.11 cm. No query. */
+/* GetValidPerchRadius: m, of the foot that must have a floor: at least 0.11 cm. No query. */
 double tahr__valid_perch_radius(const tahr__step *step);
 
-/* Does what holds the character where its shape touches it, at `location`, need a floor further in? check_radius: not if
- * it is that far in itself. No query. */
+/* ShouldComputePerchResult: does what holds the character where its shape touches it, at `location`, need a floor
+ * further in? check_radius: not if it is that far in itself. No query. */
 int tahr__should_compute_perch(const tahr__step *step, const tahr_floor *floor, vec3 location, int check_radius);
 
-/* Looks for the floor of a foot of this radius, no deeper than `deepest` below what is touched at `point` by the shape at
- * `location`. [out] floor: its distance from there. Returns 1 if there is one. 0 queries if deepest <= 0, else
- * as tahr__compute_floor_distance. */
+/* ComputePerchResult: looks for the floor of a foot of this radius, no deeper than `deepest` below what is touched at
+ * `point` by the shape at `location`. [out] floor: its distance from there. Returns 1 if there is one. 0 queries if
+ * deepest <= 0, else as tahr__compute_floor_distance. */
 typedef struct tahr__perch_look {
     double radius;
     vec3 point, location;

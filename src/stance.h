@@ -8,9 +8,10 @@
 /* Everything the step measures against, for a character of this size. */
 void tahr__use_shape(tahr__step *step, double radius, double half_height);
 
-/* Takes the shape that the input asks for, if there is room: shrinks at once, grows where nothing is in the way. On
- * ground the foot stays where it is; in the air the centre does, so that crouching in a jump draws the foot up, and
- * growing gives way to a floor or a ceiling. Frozen and hanging characters keep their shape. 0 to 3 contact queries. */
+/* Crouch and UnCrouch: takes the shape that the input asks for, if there is room: shrinks at once, grows where nothing
+ * is in the way. On ground the foot stays where it is; in the air the centre does, so that crouching in a jump draws
+ * the foot up, and growing gives way to a floor or a ceiling. Frozen and hanging characters keep their shape. 0 to 3
+ * contact queries. */
 void tahr__take_stance(tahr__step *step);
 
 /* Widens what is announced by what a change of the shape may reach. No query. */

@@ -33,7 +33,8 @@ tahr__law tahr__constant_law(void);
 /* How the state's velocity across up answers to the input, walking. */
 tahr__law tahr__walking_law(const tahr__step *step);
 
-/* The same in the air: air control, with its boost at low speed, never more than the full acceleration. */
+/* GetFallingLateralAcceleration: the same in the air: air control, with its boost at low speed, never more than the
+ * full acceleration. */
 tahr__law tahr__falling_law(const tahr__step *step);
 
 /* MaintainHorizontalGroundVelocity: the level velocity of one that walks: its level part if the level speed is kept, else

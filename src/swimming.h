@@ -9,7 +9,7 @@
 /* Immersion from which on it swims: config.swim_immersion, or less if buoyancy lifts it off its feet before that. */
 double tahr__swim_line(const tahr_config *config);
 
-/* One slice of swimming of at most `time` seconds. */
+/* PhysSwimming: one slice of at most `time` seconds. */
 tahr__next tahr__swim(tahr__step *step, double time);
 
 /* One slice of walking in a world with fluids: ends where the fluid takes over. 1 fluid query more than walking; where it

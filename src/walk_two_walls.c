@@ -23,6 +23,7 @@ typedef struct walk {
     vec3 from;         /* where the slice began */
     tahr__scope scope; /* of the slice, where it may have to be taken back */
     vec3 delta;        /* level motion of the slice */
+    double settled;    /* m up at its end, to keep the clearance: no motion of its own */
     int zero;          /* there is none */
     int tried_ledge;   /* once a step */
     int checked_fall;  /* whether the floor may be left was asked already, and denied */
@@ -63,6 +64,7 @@ static void begin_slice(tahr__step *step, walk *w)
         law = drive_law(before);
     }
     step->just_teleported = 0;
+    w->settled = 0;
     w->from = s->position;
     if (!may_walk_off(step)) {
         tahr__scope_open(step, &w->scope);
@@ -164,9 +166,10 @@ static int hold_at_ledge(tahr__step *step, walk *w)
     return ENDS;
 }
 
-static void settle(tahr__step *step)
+static void settle(tahr__step *step, walk *w)
 {
     double height = tahr__adjust_height(step);
+    w->settled = height;
     step->report.step_offset += height;
     if (height < -2 * step->config->skin) {
         tahr__event(step, TAHR_EVENT_STEPPED_DOWN, NULL, -height);
@@ -196,7 +199,7 @@ static void leave_overlap(tahr__step *step)
 static int follow_floor(tahr__step *step, walk *w)
 {
     if (floor_is_walkable(&step->state.floor)) {
-        settle(step);
+        settle(step, w);
         return GOES_ON;
     }
     if (is_overlapped(step)) {
@@ -208,17 +211,19 @@ static int follow_floor(tahr__step *step, walk *w)
     return check_fall(step, w, step->just_teleported || w->zero);
 }
 
-/* What was moved is what was fast: bumps brake. A closed form that was not bumped knows its velocity at the end better. */
+/* What was moved is what was fast: bumps brake, and a way that got longer up a face gives no speed. A closed form that was
+ * not bumped knows its velocity at the end better. */
 static void take_velocity(tahr__step *step, const walk *w)
 {
-    vec3 moved = sub(step->state.position, w->from);
+    vec3 moved = add_scaled(sub(step->state.position, w->from), step->state.up, -w->settled);
     double way = length(step->config->keep_level_speed ? step_level(step, moved) : moved);
     double asked = length(w->delta), missing = way - asked, tiny = tiny_length(step->config);
+    double part = asked < way ? asked / way : 1;
     int exact = step->config->integrator == TAHR_INTEGRATOR_EXACT;
     if (is_drifting(step)) { /* only a part of that was the velocity's doing */
         step->state.velocity = scale(step->state.velocity, asked > way ? way / asked : 1);
     } else if (!step->just_teleported && !(exact && missing * missing <= tiny * tiny)) {
-        step->state.velocity = scale(moved, 1.0 / w->h);
+        step->state.velocity = scale(moved, part / w->h);
     }
     step->state.velocity = tahr__level_velocity(step, step->state.velocity);
 }

@@ -68,8 +68,10 @@ typedef struct tahr_config {
     uint32_t depenetration; /* TAHR_DEPENETRATION_* [JOINT | SINGLE] */
     uint32_t step_rule;     /* TAHR_STEP_BY_* [TREAD | CONTACT] */
     uint32_t flat_base; /* [0] 1, with SHRUNK: a round shape looks for the floor with a box (0.707 of the radius), if the
-                         * backend has boxes: does not sink at edges; rests higher over slopes, up to 10 queries */
-    uint32_t keep_level_speed; /* [0 | 1] 1: the speed asked for is the level one on ramps; 0: the one along the surface */
+                         * backend has boxes: does not sink at edges; rests higher over slopes, up to 10 queries; a fall still
+                         * slides off what only the outermost edge_tolerance of the round shape meets */
+    uint32_t keep_level_speed; /* [0 | 1] 1: the speed asked for is the level one on ramps, as far as a slice then rises no
+                                * more than step_height; 0: the one along the surface */
 
     /* Collision */
     uint32_t mask;       /* [all bits] bodies this character meets; 0: none */

@@ -14,7 +14,7 @@ tahr_vec3 parity_vec(double x, double y, double z);
 enum { PARITY_FAKE, PARITY_DOUBLE, PARITY_FLOAT, PARITY_CCD, PARITY_BACKENDS };
 const char *parity_backend_name(int backend);
 int parity_has(int backend);
-/* cm: 1e-4 of closed forms, 1e-3 of native double, 1e-2 of native float and ccd. */
+/* cm: 1e-4 of closed forms, 1e-3 of the native backend, 1e-2 of ccd. */
 double parity_tolerance(int backend);
 
 /* Lengths in cm. A plane is solid where normal . x < offset: a half-space, or a square 12 m wide around its point nearest
@@ -88,7 +88,7 @@ void parity_length(parity_table *table, const char *what, double got, double exp
 void parity_vector(parity_table *table, const char *what, tahr_vec3 got, double x, double y, double z, double tolerance);
 void parity_count(parity_table *table, const char *what, uint32_t got, uint32_t expected);
 void parity_true(parity_table *table, const char *what, int got);
-/* "parity: N rows green (name)", or fails. */
+/* Prints the rows that are green, and fails if one is red. */
 void parity_end(parity_table *table);
 
 #endif

@@ -55,6 +55,55 @@ static void ramps_lift_a_level_motion(void **unused)
     parity_end(&table);
 }
 
+/* 10 cm into faces that only an override makes walkable: sqrt(1 - z^2) / z times as high, or all of it shorter. */
+static void no_ramp_lifts_higher_than_a_step(void **unused)
+{
+    static const double faces[] = {0.3, 0.22, 0.2, 0.1, 0.001};
+    parity_scene scene = {.count = 0};
+    parity p;
+    (void)unused;
+    parity_open(&p, &scene, PARITY_FAKE, NULL, 0, 0, 0);
+    for (size_t i = 0; i < sizeof faces / sizeof faces[0]; i++) {
+        double z = faces[i], high = 10 * sqrt(1 - z * z) / z, part = fmin(1, 45 / high);
+        vec3 normal = vec(-sqrt(1 - z * z), 0, z);
+        const tahr__ramp ramp = {normal, normal, 1};
+        for (int way = -1; way < 2; way += 2) {
+            vec3 to = tahr__ground_movement_delta(&p.step, parity_vec(10 * way, 0, 0), &ramp);
+            assert_near(100 * to.x, 10 * way * part, 1e-9);
+            assert_near(100 * to.z, high * way * part, 1e-9);
+        }
+    }
+    parity_close(&p);
+}
+
+/* The same of whole steps, into a face of 88 degrees, up which 10 cm lead 2.9 m. */
+static void faces_walkable_by_an_override_are_gone_up_a_step_at_a_time(void **unused)
+{
+    const double steep = 88 * 0.017453292519943295;
+    (void)unused;
+    for (uint32_t solver = TAHR_SLIDE_JOINT; solver <= TAHR_SLIDE_TWO_WALLS; solver++) {
+        tahr_config c = parity_config();
+        fake_world w;
+        rig r;
+        c.slide_solver = solver;
+        fake_world_flat(&w);
+        fake_solid *face = fake_add_plane(&w, vec(-sin(steep), 0, cos(steep)), -1);
+        face->walkable_rule = TAHR_WALKABLE_INCREASE;
+        face->walkable_angle = 1.55;
+        rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
+        r.input.move = fake_vec(1, 0, 0);
+        double most = 0;
+        for (int i = 0; i < 60; i++) {
+            double z = r.state.position.z;
+            rig_step(&r, 1.0 / 60);
+            most = fmax(most, r.state.position.z - z);
+            assert_true(r.report.slices == 1);
+        }
+        assert_true(most > 0.4 && most <= 2 * c.step_height + 0.05); /* two ramps in one slice, and the clearance */
+        rig_close(&r);
+    }
+}
+
 /* L1 */
 static void time_steps(parity_table *table, const tahr_config *c)
 {
@@ -222,6 +271,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ramps_lift_a_level_motion),
+        cmocka_unit_test(no_ramp_lifts_higher_than_a_step),
+        cmocka_unit_test(faces_walkable_by_an_override_are_gone_up_a_step_at_a_time),
         cmocka_unit_test(slices_braking_jumps_and_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

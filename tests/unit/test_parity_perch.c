@@ -47,7 +47,7 @@ static void perch_is_asked_for_in_the_ring_only(void **unused)
         double threshold, off;
         uint32_t flags;
         int check_radius, should;
-    } rows[] = {{"H1", 15, 18.9, TAHR_FLOOR_BLOCKING, 1, 0}, {"H2", 15, 18.9999, TAHR_FLOOR_BLOCKING, 1, 0},
+    } rows[] = {{"H1", 15, 18.9, TAHR_FLOOR_BLOCKING, 1, 0}, {"H2", 15, 19, TAHR_FLOOR_BLOCKING, 1, 0},
                 {"H3", 15, 19.1, TAHR_FLOOR_BLOCKING, 1, 1}, {"H3", 15, 19.1, 0, 1, 0},
                 {"H4", 0.15, 30, TAHR_FLOOR_BLOCKING, 1, 0}, {"H4", 0.15, 30, TAHR_FLOOR_BLOCKING, 0, 0},
                 {"H5", 15, 18.9, TAHR_FLOOR_BLOCKING, 0, 1}};
@@ -55,9 +55,9 @@ static void perch_is_asked_for_in_the_ring_only(void **unused)
     parity p;
     (void)unused;
     parity_begin(&t, "perch test");
-    parity_open(&p, &nothing, PARITY_FAKE, NULL, 3, 4, 88);
+    parity_open(&p, &nothing, PARITY_FAKE, NULL, 3, 0, 88);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        tahr_floor floor = {.flags = rows[i].flags, .point = parity_vec(3, 4 + rows[i].off, -500)};
+        tahr_floor floor = {.flags = rows[i].flags, .point = parity_vec(3, rows[i].off, -500)};
         p.config.perch_threshold = parity_cm(rows[i].threshold);
         if (rows[i].threshold == 0.15) { /* the bound itself, however 0.15 cm is rounded to metres */
             p.config.perch_threshold = p.config.edge_tolerance;
@@ -92,11 +92,10 @@ static void perch_needs_a_floor_within_reach(void **unused)
         double below, deepest, distance; /* distance < 0: not asked */
         int perches;
         uint32_t queries;
-    } rows[] = {{"K1", 30, 87.4001, 19.0434, 1, 1},
-                {"K2", 100, 87.4001, 89.0434, 0, 1},
-                {"K3", 30, 42.6, 19.0434, 1, 1},
-                {"K3", 30, 29.9, 19.0434, 0, 1},
-                {"K3", 30, 0, -1, 0, 0},
+    } rows[] = {{"K1", 30, 87.4001, 19.0434, 1, 1}, {"K2", 100, 87.4001, 89.0434, 0, 1},
+                {"K3", 30, 42.6, 19.0434, 1, 1},    {"K3", 30, 29.9, 19.0434, 0, 1},
+                {"K1", 30, 30.01, 19.0434, 1, 1}, /* the sum is 30 */
+                {"K1", 30, 29.99, 19.0434, 0, 1},   {"K3", 30, 0, -1, 0, 0},
                 {"K4", 1e9, 87.4001, -1, 0, 1}};
     parity_table t;
     (void)unused;

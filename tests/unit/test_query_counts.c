@@ -11,9 +11,12 @@
 #include <cmocka.h>
 
 #include "dice.h"
+#include "floor_distance.h"
 #include "landing.h"
 #include "move_along_floor.h"
+#include "native_world.h"
 #include "parity.h"
+#include "perch.h"
 #include "rig.h"
 #include "slide.h"
 #include "step_up.h"
@@ -51,6 +54,66 @@ static void walking_on_flat_ground_asks_two_standing_one_cached_none(void **unus
         rig_steps(&r, 60, 1.0 / 60);
         expect_each(&r, 20, cached ? 0 : 1);
         rig_close(&r);
+    }
+}
+
+/* The same whole steps over a box of the native backend, whose nearest face is not told by a closed form; in the air 1. */
+static void bodies_are_asked_as_often_as_closed_forms(void **unused)
+{
+    tahr_body_desc ground = native_box(fake_vec(0, 0, -1), fake_vec(50, 50, 1));
+    (void)unused;
+    for (uint32_t mix = 0; mix < 4; mix++) {
+        rig r;
+        tahr_config c = parity_config();
+        c.cached_floor = mix & 1;
+        ground.flags = mix & 2 ? TAHR_BODY_MOVABLE : 0; /* what may move is looked at each time */
+        uint32_t standing = c.cached_floor && !(mix & 2) ? 0 : 1;
+        c.sleep = 0;
+        rig_open_bodies(&r, &ground, 1, &c, fake_vec(0, 0, 1.5));
+        rig_step(&r, 1.0 / 60);
+        assert_true(r.state.mode == TAHR_MODE_FALLING && asked(&r) == 1);
+        rig_settle(&r);
+        expect_each(&r, 20, standing);
+        r.input.move = fake_vec(1, 0, 0);
+        expect_each(&r, 60, 2);
+        r.input.move = fake_vec(0, 0, 0);
+        rig_steps(&r, 60, 1.0 / 60);
+        expect_each(&r, 20, standing);
+        rig_close(&r);
+    }
+}
+
+/* On the ground 0 to crouch and 1 or 2 to stand up again, in the air up to 3; refused is asked each step. */
+static void crouching_asks_at_most_one_and_standing_up_at_most_three(void **unused)
+{
+    (void)unused;
+    for (int air = 0; air < 2; air++) {
+        for (int low = 0; low < 2; low++) { /* under a ceiling 1.2 m over the foot there is no room */
+            tahr_body_desc bodies[2] = {native_box(fake_vec(0, 0, -1), fake_vec(50, 50, 1)),
+                                        native_box(fake_vec(0, 0, low ? 2.2 : 50), fake_vec(50, 50, 1))};
+            rig r;
+            tahr_config c = parity_config();
+            c.sleep = 0;
+            c.gravity = air ? fake_vec(0, 0, 0) : c.gravity;
+            rig_open_bodies(&r, bodies, 2, &c, fake_vec(0, 0, low ? 0.6 : 1));
+            r.input.crouch = 1;
+            rig_step(&r, 1.0 / 60);
+            assert_true(r.report.contact_queries <= 1);
+            if (!air) {
+                rig_settle(&r);
+            }
+            assert_true(r.state.half_height < 0.5);
+            r.input.crouch = 0;
+            for (int i = 0; i < 5; i++) {
+                int crouched = r.state.half_height < 0.5;
+                rig_step(&r, 1.0 / 60);
+                uint32_t n = r.report.contact_queries;
+                assert_true(crouched ? n >= 1 && n <= (air ? 3u : 2u) : n == 0);
+            }
+            assert_int_equal(r.state.half_height < 0.5, low);
+            assert_int_equal((r.report.flags & TAHR_REPORT_SHAPE_REFUSED) != 0, low);
+            rig_close(&r);
+        }
     }
 }
 
@@ -198,7 +261,7 @@ static void steps_ask_three_and_refusals_none(void **unused)
 
 /* The most of each function, without and with an overlap to leave on the way (a safe move asks up to 7 then). */
 enum { STEP_UP = 9, STEP_UP_WORST = 21, ALONG_FLOOR = 13, ALONG_FLOOR_WORST = 7 + 7 + 21 + 14 };
-enum { LANDING_SPOT = 6, LEDGE = 4 };
+enum { LANDING_SPOT = 6, LEDGE = 4, SLIDE = 2, SLIDE_WORST = 14 };
 
 static void make_clutter(parity_scene *scene)
 {
@@ -225,7 +288,7 @@ static void no_function_asks_more_than_its_most(void **unused)
     parity_scene scene = {.count = 0};
     parity p;
     oracle_random dice = {5};
-    uint32_t most[4] = {0, 0, 0, 0}, overlaps = 0, overlapped;
+    uint32_t most[6] = {0, 0, 0, 0, 0, 0}, overlaps = 0, overlapped;
     (void)unused;
     make_clutter(&scene);
     parity_open(&p, &scene, PARITY_DOUBLE, NULL, 0, 0, 90.15);
@@ -253,6 +316,21 @@ static void no_function_asks_more_than_its_most(void **unused)
         assert_true(n <= (overlapped ? STEP_UP_WORST : STEP_UP));
         most[1] = n > most[1] ? n : most[1];
 
+        tahr__slide_along_surface(&p.step, level, 1, swept.hit.normal, &swept);
+        n = since(&p, &overlapped);
+        assert_true(n <= (overlapped ? SLIDE_WORST : SLIDE));
+        most[4] = n > most[4] ? n : most[4];
+
+        const tahr__perch_look look = {.radius = oracle_uniform(&dice, 0.0011, 0.34),
+                                       .point = swept.hit.point,
+                                       .location = swept.location,
+                                       .deepest = oracle_uniform(&dice, -0.1, 0.9)};
+        tahr_floor floor;
+        tahr__compute_perch(&p.step, &look, &floor);
+        n = since(&p, &overlapped);
+        assert_true(look.deepest > 0 ? n >= 1 && n <= TAHR__FLOOR_DISTANCE_QUERIES : n == 0);
+        most[5] = n > most[5] ? n : most[5];
+
         tahr__ledge_move(&p.step, p.step.state.position, level);
         n = since(&p, &overlapped);
         assert_true(n >= 1 && n <= LEDGE);
@@ -270,6 +348,7 @@ static void no_function_asks_more_than_its_most(void **unused)
     print_message("most queries: along the floor %u, step up %u, ledge %u, landing spot %u; %u overlaps\n", most[0],
                   most[1], most[2], most[3], overlaps);
     assert_true(most[0] > 6 && most[1] > 4 && most[2] == LEDGE && most[3] >= 1 && overlaps > 1000);
+    assert_true(most[4] >= SLIDE && most[5] == TAHR__FLOOR_DISTANCE_QUERIES);
     parity_close(&p);
 }
 
@@ -277,6 +356,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(walking_on_flat_ground_asks_two_standing_one_cached_none),
+        cmocka_unit_test(bodies_are_asked_as_often_as_closed_forms),
+        cmocka_unit_test(crouching_asks_at_most_one_and_standing_up_at_most_three),
         cmocka_unit_test(every_slice_of_a_long_step_asks_as_a_step),
         cmocka_unit_test(a_correction_of_the_height_asks_one_more),
         cmocka_unit_test(falling_free_asks_one_and_landing_three),

@@ -376,6 +376,38 @@ static void who_starts_in_the_floor_gets_out(void **unused)
     }
 }
 
+/* Slantwise up a slope of 20 degrees along a wall, pushing 30 degrees into it: the floor is in the way of the slide along the
+ * wall, and is gone up. The part of the wish along the wall speeds it up until it is as fast as asked for. */
+static void walls_on_a_slope_are_walked_along_with_a_margin(void **unused)
+{
+    const double tilt = acos(-1.0) / 9, into = acos(-1.0) / 6;
+    (void)unused;
+    for (uint32_t mix = 0; mix < 8; mix++) {
+        for (int side = -1; side < 2; side += 2) {
+            tahr_config c = mix & 4 ? parity_config() : rig_config();
+            fake_world w;
+            rig r;
+            c.slide_solver = TAHR_SLIDE_TWO_WALLS;
+            c.separation = TAHR_SEPARATION_MARGIN;
+            c.floor_probe = TAHR_FLOOR_PROBE_WHOLE;
+            c.integrator = mix & 1 ? TAHR_INTEGRATOR_STEPPED : TAHR_INTEGRATOR_EXACT;
+            c.step_rule = mix & 2 ? TAHR_STEP_BY_CONTACT : TAHR_STEP_BY_TREAD;
+            fake_world_init(&w);
+            fake_add_plane(&w, fake_vec(-sin(tilt), 0, cos(tilt)), 0);
+            const tahr_vec3 along = fake_vec(sqrt(0.5), side * sqrt(0.5), 0), off = fake_vec(along.x, -along.y, 0);
+            fake_add_plane(&w, off, -0.5);
+            rig_stand(&r, &w, &c, fake_vec(0, 0, 1.2));
+            r.input.move = add(scale(along, cos(into)), scale(off, -sin(into)));
+            rig_steps(&r, 60, 1.0 / 60);
+            tahr_vec3 from = r.state.position;
+            rig_steps(&r, 60, 1.0 / 60);
+            double way = dot(sub(r.state.position, from), along);
+            assert_true(way > 6 * cos(into) && way <= 6 * (1 + 1e-9));
+            rig_close(&r);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -393,6 +425,7 @@ int main(void)
         cmocka_unit_test(ditches_end_a_fall),
         cmocka_unit_test(a_long_step_is_cut_into_slices_and_says_so),
         cmocka_unit_test(who_starts_in_the_floor_gets_out),
+        cmocka_unit_test(walls_on_a_slope_are_walked_along_with_a_margin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

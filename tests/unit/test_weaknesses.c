@@ -215,6 +215,72 @@ static double ledge_guard(const tahr_config *config, double hz)
     return 100 * before;
 }
 
+/* m/s2 with which a character brakes at first, at 600 cm/s, with this braking_deceleration. */
+static double first_braking(const tahr_config *config, double braking)
+{
+    fake_world w;
+    rig r;
+    tahr_config c = *config;
+    const double h = 1.0 / 1024; /* short enough for no second piece of braking */
+    c.braking_deceleration = braking;
+    fake_world_flat(&w);
+    rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
+    r.state.velocity = fake_vec(6, 0, 0);
+    rig_step(&r, h);
+    double rate = (6 - r.state.velocity.x) / h;
+    rig_close(&r);
+    return rate;
+}
+
+/* The same for both presets: the precise one with its drag off, where the setting is the braking. */
+static double braking_setting(const tahr_config *config, double braking)
+{
+    tahr_config c = *config;
+    if (c.preset == TAHR_PRESET_PRECISE) {
+        c.braking_drag = 0;
+    }
+    return first_braking(&c, braking);
+}
+
+/* cm fallen in 1 s under a gravity in this direction (0: -z, 1: +x, 2: the diagonal of all axes), along it. */
+static double fall_along(const tahr_config *config, double direction)
+{
+    static const tahr_vec3 ways[3] = {{0, 0, -1}, {1, 0, 0}, {-1, -1, -1}};
+    fake_world w;
+    rig r;
+    tahr_config c = *config;
+    tahr_vec3 way = unit(ways[(int)direction]);
+    c.gravity = scale(way, 9.8);
+    fake_world_init(&w);
+    fake_add_plane(&w, scale(way, -1), -20); /* solid 20 m down */
+    rig_open(&r, &w, &c, fake_vec(0, 0, 0));
+    rig_steps(&r, 60, 1.0 / 60);
+    double fallen = dot(r.state.position, way);
+    rig_steps(&r, 200, 1.0 / 60);
+    int stands = r.state.mode == TAHR_MODE_WALKING;
+    rig_close(&r);
+    return stands ? 100 * fallen : NAN;
+}
+
+/* cm/s of the level speed that is left one frame of 1/60 s after a fall at 600 cm/s ended, with the direction held. */
+static double speed_after_landing(const tahr_config *config, double drop)
+{
+    fake_world w;
+    rig r;
+    fake_world_flat(&w);
+    rig_open(&r, &w, config, fake_vec(0, 0, config->shape.half_height + 0.02 + drop / 100));
+    r.state.velocity = fake_vec(6, 0, 0);
+    r.input.move = fake_vec(1, 0, 0);
+    while (r.state.mode != TAHR_MODE_WALKING) {
+        assert_true(r.time < 3);
+        rig_step(&r, 1.0 / 60);
+    }
+    rig_step(&r, 1.0 / 60);
+    double speed = r.state.velocity.x;
+    rig_close(&r);
+    return 100 * speed;
+}
+
 /* The stepped sums: 420 - 980 dt after every held frame; 2048 cm/s2, drag 16/s; v += a dt, x += v dt. The closed forms:
  * v h + v^2 / 2 g; v / F - B / F^2 ln(1 + F v / B); a t^2 / 2; e^(-8 t). */
 #define HOLD_EXACT 216.0
@@ -261,6 +327,17 @@ static const line lines[] = {
      5e-4,
      SAME(STOP_EXACT),
      1e-6},
+    /* 16/s of 6 m/s and the setting: 96 of it are there whatever is set. */
+    {"3",
+     "m/s2 of braking at 600 cm/s (precise: drag off)",
+     "m/s2 set",
+     braking_setting,
+     3,
+     {0.01, 10, 20.48},
+     {96.01, 106, 116.48},
+     1e-6,
+     {0.01, 10, 20.48},
+     1e-6},
     {"4", "way from rest in 0.2 s", "Hz", way_from_rest, 3, {20, 30, 60}, {51.2, 47.8, 44.4}, 0.05, SAME(START_EXACT), 1e-6},
     {"4", "turn: part left after 0.1 s", "Hz", turn_residual, 2, {20, 60}, {0.36, 0.424}, 5e-4, SAME(TURN_EXACT), 1e-9},
     {"5", "way from rest in one frame", "ms", way_of_one_frame, 2, {50, 51}, {5.12, 3.995136}, 1e-6, {2.56, 2.663424}, 1e-6},
@@ -285,8 +362,37 @@ static const line lines[] = {
      1e-3,
      {4.406, FALLS, FALLS},
      0.001},
+    {"9",
+     "fallen in 1 s, gravity along -z, x, diagonal; then stands",
+     "way",
+     fall_along,
+     3,
+     {0, 1, 2},
+     SAME(490),
+     1e-4,
+     SAME(490),
+     1e-6},
+    {"13",
+     "speed one frame after a landing at 600 cm/s",
+     "cm of fall",
+     speed_after_landing,
+     3,
+     {1, 50, 100},
+     SAME(600),
+     1e-6,
+     SAME(600),
+     1e-6},
     {"21", "gap to a wall at 60 Hz", "cm/s", gap_at_wall, 2, {60, 3000}, {0.101, 1.05}, 5e-4, SAME(1.0), 1e-6},
-    {"22", "ledge guard", "Hz", ledge_guard, 3, {60, 120, 240}, {10, 5, 2.5}, 1e-9, SAME(0.001), 1e-5},
+    {"22",
+     "ledge guard: unreal's look beside itself; precise's way to the end of the floor",
+     "Hz",
+     ledge_guard,
+     3,
+     {60, 120, 240},
+     {10, 5, 2.5},
+     1e-9,
+     SAME(0.001),
+     1e-5},
 };
 
 static int agrees(double got, double expected, double tolerance)
