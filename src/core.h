@@ -34,8 +34,9 @@ typedef struct tahr__body_note {
 enum {
     TAHR__HAS_SENSORS = 1 << 0,
     TAHR__HAS_FLUIDS = 1 << 1,
+    TAHR__HAS_BASES = 1 << 2,          /* bodies that move, drive a conveyor, or can be pushed */
     TAHR__HAS_MOVING_SENSORS = 1 << 3, /* or some that may: nothing is known of a user's own */
-    TAHR__HAS_BASES = 1 << 2           /* bodies that move, drive a conveyor, or can be pushed */
+    TAHR__HAS_SQUEEZERS = 1 << 4       /* described bodies that block and may be placed again */
 };
 
 struct tahr_world {
@@ -167,10 +168,10 @@ typedef struct tahr__next {
     double time_left; /* s */
 } tahr__next;
 
-/* Has anything in the world ever been moved? Then characters may be squeezed. */
+/* May bodies squeeze a character? Asked of the scene, not of what was moved so far: a rollback must find the same answer. */
 static inline int step_squeezes(const tahr__step *step)
 {
-    return step->world->moves > 1;
+    return (step->world->has & TAHR__HAS_SQUEEZERS) != 0;
 }
 
 static inline vec3 step_foot(const tahr__step *step)
