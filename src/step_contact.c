@@ -151,11 +151,9 @@ int tahr__step_up_by_contact(tahr__step *step, vec3 motion, const tahr__swept *o
         return refuse(step, &hit, at, at > cap ? cap : a.base, "met too high, or no higher than the floor");
     }
     const vec3 before = step->state.position;
-    const uint32_t teleported = step->just_teleported;
     tahr__scope_open(step, &scope);
     if (!go_over(step, motion, dot(hit.surface_normal, a.up), before, &a) || step->error < 0) {
         tahr__scope_revert(step, &scope);
-        step->just_teleported = teleported;
         return 0;
     }
     if (a.found_floor) {

@@ -17,14 +17,13 @@ enum { TRIES = 6 };
 typedef struct before {
     tahr__scope scope;
     double time;
-    uint32_t just_teleported, iterations, apexes; /* STEPPED */
+    uint32_t iterations, apexes; /* STEPPED */
 } before;
 
 static void remember(tahr__step *step, before *b)
 {
     tahr__scope_open(step, &b->scope);
     b->time = step->time;
-    b->just_teleported = step->just_teleported;
     b->iterations = step->iterations;
     b->apexes = step->apexes;
 }
@@ -33,10 +32,8 @@ static void go_back(tahr__step *step, const before *b)
 {
     tahr__scope_revert(step, &b->scope);
     step->time = b->time;
-    step->just_teleported = b->just_teleported;
     step->iterations = b->iterations;
     step->apexes = b->apexes;
-    step->ahead = 0;
 }
 
 /* On the edge of a ledge the foot still hangs below it. */

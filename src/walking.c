@@ -49,17 +49,20 @@ static tahr__next fall_off(tahr__step *step, tahr__path *w, vec3 to, double part
     return next;
 }
 
-/* Follows the floor down, or rises off it, and says so when it was a step. */
-static void settle(tahr__step *step)
+void tahr__settle(tahr__step *step)
 {
-    if (floor_is_in_band(step)) {
-        return;
-    }
     double height = tahr__adjust_height(step);
     step->report.step_offset += height;
     if (height < -2 * step->config->skin) {
         tahr__event(step, TAHR_EVENT_STEPPED_DOWN, NULL, -height);
         tahr__decide(step, TAHR_RULE_STEP_DOWN, 1, NULL, -height, step->config->snap_distance, "floor followed down");
+    }
+}
+
+static void settle(tahr__step *step)
+{
+    if (!floor_is_in_band(step)) {
+        tahr__settle(step);
     }
 }
 
@@ -185,6 +188,7 @@ static tahr__next walk_slice(tahr__step *step, double time)
     step->ahead = time;
     settle(step);
     step->time += time;
+    step->ahead = 0;
     tahr__next next = {TAHR_MODE_WALKING, 0};
     return next;
 }

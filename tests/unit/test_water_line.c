@@ -141,6 +141,7 @@ static void a_walk_into_the_sea_swims_where_it_is_deep_enough(void **unused)
         r.input.move = fake_vec(n % 2 ? 1 : 0.5, 0, 0);
         for (int k = 0; k < (int)(6 * rig_rates[i]) && !found; k++) {
             rig_step(&r, dt);
+            rig_assert_in_order(&r, dt);
             const tahr_event *e = rig_event(&r, TAHR_EVENT_MODE), *left = rig_event(&r, TAHR_EVENT_LEFT_GROUND);
             if (e) {
                 found = 1;
