@@ -12,6 +12,7 @@
 #include "move.h"
 #include "query.h"
 #include "report.h"
+#include "scope.h"
 #include "step_up.h"
 
 /* rad that a body may turn in one straight piece of a relative motion: 5 m off the axis the arc bulges by 6 mm, less than
@@ -142,15 +143,16 @@ static int push_out(tahr__step *step, uint32_t body, const meeting *m)
 /* What walks is pushed up a step in its way. */
 static int push_up_step(tahr__step *step, uint32_t body, const meeting *m)
 {
-    const tahr_state before = step->state;
-    vec3 normal = m->hit.normal;
-    vec3 way = step_level(step, scale(normal, dot(normal, sub(m->at, before.position))));
+    const vec3 from = step->state.position, normal = m->hit.normal;
+    vec3 way = step_level(step, scale(normal, dot(normal, sub(m->at, from))));
     double covered = 0;
+    tahr__scope scope;
     tahr_hit hit;
+    tahr__scope_open(step, &scope);
     step->ignore_body = body;
-    tahr__sweep(step, &step->limits->shape, before.position, way, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
+    tahr__sweep(step, &step->limits->shape, from, way, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
     if (hit.blocking && !hit.start_overlap && !hit.unknown) {
-        step->state.position = add_scaled(before.position, way, hit.fraction);
+        step->state.position = add_scaled(from, way, hit.fraction);
         covered = tahr__step_up(step, scale(way, 1 - hit.fraction), &hit);
     }
     step->ignore_body = TAHR_NO_BODY;
@@ -161,7 +163,7 @@ static int push_up_step(tahr__step *step, uint32_t body, const meeting *m)
             return 1;
         }
     }
-    step->state = before;
+    tahr__scope_revert(step, &scope);
     return 0;
 }
 
