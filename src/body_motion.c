@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "elementary.h"
+#include "answer.h"
 #include "query.h"
 
 /* The angle with this sine and cosine, both >= 0: Newton with the cubic term, from a guess within 0.08 rad; after two
@@ -82,7 +83,7 @@ tahr_status tahr__body_motion(const tahr_world *world, uint32_t body, tahr_body_
         motion_of_note(world, &world->bodies[body], motion);
         return TAHR_OK;
     }
-    return tahr__ask_motion(world, body, motion);
+    return tahr__answer_motion(world, body, motion);
 }
 
 tahr_status tahr_world_body(tahr_world *world, uint32_t body, tahr_body_motion *motion)

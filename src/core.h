@@ -94,6 +94,7 @@ typedef struct tahr__limits {
     vec3 plane;                 /* config.plane, exactly unit; zero: none */
     uint32_t in_plane;          /* 1: there is one */
     uint32_t feel;              /* TAHR__FEEL_* */
+    uint32_t usual;             /* 1: EXACT, JOINT slides and depenetration, MARGIN */
 } tahr__limits;
 
 /* Events of a step that can be repeated; a step with more is computed again. */
@@ -123,6 +124,7 @@ struct tahr_mover {
     void *cache;
     size_t cache_size;
     uint32_t busy;
+    uint32_t plain;   /* 1: neither world nor config hold anything that a state remembers */
     tahr_state blank; /* what a state remembers that has nothing to remember: from radius on */
     tahr__custom custom;
     tahr__sleep sleep;

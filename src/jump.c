@@ -154,7 +154,7 @@ static int jump_from_air(tahr__step *step, int pressed)
     return say(step, "in the air");
 }
 
-void tahr__begin_jump(tahr__step *step)
+void tahr__look_at_button(tahr__step *step)
 {
     tahr_state *s = &step->state;
     int held = (s->flags & TAHR_STATE_JUMP_HELD) != 0;

@@ -20,7 +20,16 @@
 
 /* Looks at the button at the begin of a step. One contact query for a press in the air with wall jumps; an edge costs
  * what climbing does. */
-void tahr__begin_jump(tahr__step *step);
+void tahr__look_at_button(tahr__step *step);
+
+static inline void tahr__begin_jump(tahr__step *step)
+{
+    const tahr_state *s = &step->state;
+    const uint32_t pressed = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMP_SPENT;
+    if (step->input->jump || s->flags & pressed || s->jump_hold > 0 || s->coyote_left > 0) {
+        tahr__look_at_button(step);
+    }
+}
 
 /* Notes a wall that a fall has met, and jumps off it if that was asked for a moment ago. Returns 0 if it is no wall. At
  * most one contact query. */

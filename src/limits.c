@@ -30,6 +30,8 @@ tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t
     tahr__limits limits;
     double sine;
     limits.shape = *s;
+    limits.usual = c->integrator == TAHR_INTEGRATOR_EXACT && c->slide_solver == TAHR_SLIDE_JOINT &&
+                   c->separation == TAHR_SEPARATION_MARGIN && c->depenetration == TAHR_DEPENETRATION_JOINT;
     tahr__sincos(c->walkable_angle, &sine, &limits.walkable);
     tahr__sincos(c->walkable_angle + c->walkable_hysteresis, &sine, &limits.walkable_hysteresis);
     int box = s->type == TAHR_SHAPE_BOX;

@@ -26,13 +26,7 @@ static tahr__next walk(tahr__step *step, double time)
     return step_has_fluids(step) ? tahr__wade(step, time) : tahr__walk(step, time);
 }
 
-typedef struct entry {
-    const char *name;
-    tahr__next (*run)(tahr__step *step, double time);
-} entry;
-
-/* Indexed by TAHR_MODE_*. */
-static const entry modes[TAHR_MODE_CUSTOM + 1] = {
+const tahr__mode tahr__modes[TAHR_MODE_CUSTOM + 1] = {
     {"none", rest},        {"walking", walk},       {"falling", tahr__fall},      {"swimming", tahr__swim},
     {"flying", tahr__fly}, {"hanging", tahr__hang}, {"custom", tahr__run_custom},
 };
@@ -59,7 +53,7 @@ static const struct transition {
 
 const char *tahr_mode_name(uint32_t mode)
 {
-    return tahr__is_mode(mode) ? modes[mode].name : "?";
+    return tahr__is_mode(mode) ? tahr__modes[mode].name : "?";
 }
 
 const char *tahr__transition(uint32_t from, uint32_t to)
@@ -93,16 +87,10 @@ void tahr__change_mode(tahr__step *step, uint32_t mode)
     tahr__grant_mode(step, mode);
 }
 
-double tahr__run_mode(tahr__step *step, double time)
+void tahr__end_mode(tahr__step *step, uint32_t ran, uint32_t next)
 {
-    step->ahead = 0;
-    int walked = step->state.mode == TAHR_MODE_WALKING;
-    tahr__next next = modes[step->state.mode].run(step, time);
-    step->ahead = 0; /* a mode has moved step->time to where it ended */
-    tahr__time_slice(step);
-    if (walked && next.mode == TAHR_MODE_FALLING) {
+    if (ran == TAHR_MODE_WALKING && next == TAHR_MODE_FALLING) {
         tahr__floor_ended(step);
     }
-    tahr__change_mode(step, next.mode);
-    return next.time_left;
+    tahr__change_mode(step, next);
 }

@@ -70,6 +70,7 @@ int tahr__move_updated(tahr__step *step, vec3 motion, uint32_t flags, tahr__swep
     tahr_hit *hit = &swept->hit;
     double least = least_motion(c);
     swept->start = step->state.position;
+    swept->overlapped = 0;
     swept->motion = motion = along_plane(step->limits, motion);
     double size2 = length_squared(motion);
     if (size2 <= least * least) {
@@ -93,14 +94,13 @@ int tahr__move_updated(tahr__step *step, vec3 motion, uint32_t flags, tahr__swep
     return hit->fraction > 0;
 }
 
-/* tahr__safe_move. [out] overlapped: was there an overlap at the start? */
-static int safe_move(tahr__step *step, vec3 motion, tahr__swept *swept, int *overlapped)
+int tahr__safe_move(tahr__step *step, vec3 motion, tahr__swept *swept)
 {
     int moved = tahr__move_updated(step, motion, 0, swept);
-    *overlapped = swept->hit.start_overlap != 0;
-    if (!*overlapped) {
+    if (!swept->hit.start_overlap) {
         return moved;
     }
+    swept->overlapped = 1;
     if (step->config->depenetration == TAHR_DEPENETRATION_JOINT) {
         tahr__depenetrate(step);
         step->just_teleported |= !vec_equal(step->state.position, swept->start);
@@ -108,33 +108,23 @@ static int safe_move(tahr__step *step, vec3 motion, tahr__swept *swept, int *ove
         return moved;
     }
     /* What is still overlapped may be left, never entered deeper. */
-    return tahr__move_updated(step, motion, TAHR_SWEEP_LEAVE_OVERLAP, swept);
+    moved = tahr__move_updated(step, motion, TAHR_SWEEP_LEAVE_OVERLAP, swept);
+    swept->overlapped = 1;
+    return moved;
 }
 
-int tahr__safe_move(tahr__step *step, vec3 motion, tahr__swept *swept)
+static int is_otherwise(const tahr_config *c)
 {
-    int overlapped;
-    return safe_move(step, motion, swept, &overlapped);
-}
-
-/* tahr__move with one of the other methods. */
-static int move_otherwise(tahr__step *step, vec3 motion, tahr_hit *hit)
-{
-    tahr__swept swept;
-    int overlapped;
-    safe_move(step, motion, &swept, &overlapped);
-    *hit = swept.hit;
-    return overlapped;
+    return c->separation != TAHR_SEPARATION_MARGIN || c->depenetration != TAHR_DEPENETRATION_JOINT;
 }
 
 int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
 {
     const tahr_shape *shape = &step->limits->shape;
-    const tahr_config *c = step->config;
-    if (c->separation != TAHR_SEPARATION_MARGIN || c->depenetration != TAHR_DEPENETRATION_JOINT) {
-        return move_otherwise(step, motion, hit);
+    double skin = step->config->skin;
+    if (!step->limits->usual && is_otherwise(step->config)) {
+        return tahr__move_otherwise(step, motion, hit);
     }
-    double skin = c->skin;
     tahr__trail_go(step);
     tahr__sweep(step, shape, step->state.position, motion, skin, 0, hit);
     int overlapped = hit->start_overlap != 0;
@@ -143,7 +133,9 @@ int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit)
         /* What is still overlapped may be left, never entered deeper. */
         tahr__sweep(step, shape, step->state.position, motion, skin, TAHR_SWEEP_LEAVE_OVERLAP, hit);
     }
-    tahr__decide(step, TAHR_RULE_SWEEP, !hit->blocking, hit, hit->fraction, 1, outcome(hit));
+    if (step->report.decisions) { /* the words are looked for only then */
+        tahr__decide(step, TAHR_RULE_SWEEP, !hit->blocking, hit, hit->fraction, 1, outcome(hit));
+    }
     advance(step, motion, hit);
     return overlapped;
 }

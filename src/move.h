@@ -7,16 +7,21 @@
 
 /* One sweep of the character, and what came of it. */
 typedef struct tahr__swept {
-    tahr_hit hit;  /* fraction: of the motion that was made, after the pull-back */
-    vec3 start;    /* centre before */
-    vec3 location; /* centre at the contact, before the pull-back: the field's Location */
-    vec3 motion;   /* asked for, within config.plane */
+    tahr_hit hit;        /* fraction: of the motion that was made, after the pull-back */
+    vec3 start;          /* centre before */
+    vec3 location;       /* centre at the contact, before the pull-back: the field's Location */
+    vec3 motion;         /* asked for, within config.plane */
+    uint32_t overlapped; /* there was an overlap at the start, which a safe move has tried to leave */
+    uint32_t reserved;
 } tahr__swept;
 
 /* Sweeps the character by motion, keeping skin, and puts it where the sweep ended. An overlap at the start is resolved
  * first and the motion tried once more. [out] hit. Returns 1 if there was one. One sweep; at most
  * 2 + TAHR__DEPENETRATION_QUERIES. */
 int tahr__move(tahr__step *step, vec3 motion, tahr_hit *hit);
+
+/* The same with another config.separation or config.depenetration: apart, so that the usual one stays small. */
+int tahr__move_otherwise(tahr__step *step, vec3 motion, tahr_hit *hit);
 
 /* Pushes the character out of everything that it overlaps, all at once. What cannot be resolved is halved between the
  * walls and reported as crushed. Returns 1 if nothing is overlapped any more. */

@@ -65,6 +65,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     mover->world = world;
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
+    mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
     mover->cache = cache;
     tahr_state_init(&mover->blank, &mover->config, &(vec3){0, 0, 0});
     mover->cache_size = cache_size;
@@ -104,7 +105,8 @@ static void announce(tahr__step *step, double dt, int stance)
     tahr__announce(step, &a);
 }
 
-static void run(tahr__step *step, double dt)
+/* What else a step begins with: the plane, the facing. */
+static void prepare_body(tahr__step *step, double dt)
 {
     if (is_in_plane(step)) {
         tahr__plane_begin(step);
@@ -115,8 +117,11 @@ static void run(tahr__step *step, double dt)
     if (step->input->flags & TAHR_INPUT_FACING) {
         tahr__face(step, dt);
     }
-    int stance = is_stance_open(step);
-    announce(step, dt, stance);
+}
+
+/* And what was asked for. */
+static void answer_requests(tahr__step *step, double dt, int stance)
+{
     tahr__follow_base(step, dt);
     if (stance) {
         tahr__take_stance(step);
@@ -125,23 +130,10 @@ static void run(tahr__step *step, double dt)
         tahr__ask_mode(step);
         tahr__launch(step);
     }
-    tahr__begin_jump(step);
-    tahr__time_slice(step);
-    double left = dt;
-    while (left > MIN_SLICE && step->error >= 0 && step->report.slices < MAX_SLICES &&
-           !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
-        step->report.slices++;
-        if (press_is_remembered(step) && step->state.mode == TAHR_MODE_WALKING) {
-            tahr__use_press(step);
-        }
-        left = tahr__run_mode(step, left);
-    }
-    if (step->iterations + step->apexes > step->report.slices) { /* a mode cut its slices into more */
-        step->report.slices = step->iterations + step->apexes;
-    }
-    if (left > MIN_SLICE) {
-        step->report.time_lost += left;
-    }
+}
+
+static void end(tahr__step *step)
+{
     if (is_in_plane(step)) {
         tahr__plane_end(step);
     }
@@ -152,6 +144,41 @@ static void run(tahr__step *step, double dt)
     }
 }
 
+/* plain: nothing was asked for but to go and to jump, nothing is remembered, and the world holds nothing that moves or is
+ * only felt. Most steps are. */
+static void run(tahr__step *step, double dt, int plain)
+{
+    plain = plain && is_upright(step);
+    if (!plain) {
+        prepare_body(step, dt);
+    }
+    int stance = !plain && is_stance_open(step);
+    announce(step, dt, stance);
+    if (!plain) {
+        answer_requests(step, dt, stance);
+    }
+    tahr__begin_jump(step);
+    tahr__time_slice(step);
+    double left = dt;
+    while (left > MIN_SLICE && step->error >= 0 && step->report.slices < MAX_SLICES &&
+           !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
+        step->report.slices++;
+        if (!plain && press_is_remembered(step) && step->state.mode == TAHR_MODE_WALKING) {
+            tahr__use_press(step);
+        }
+        left = tahr__run_mode(step, left);
+    }
+    if (left > MIN_SLICE) {
+        step->report.time_lost += left;
+    }
+    if (!step->limits->usual && step->iterations + step->apexes > step->report.slices) {
+        step->report.slices = step->iterations + step->apexes; /* a mode cut its slices into more */
+    }
+    if (!plain) {
+        end(step);
+    }
+}
+
 static vec3 clean(vec3 v)
 {
     return vec(v.x + 0.0, v.y + 0.0, v.z + 0.0);
@@ -159,8 +186,9 @@ static vec3 clean(vec3 v)
 
 /* -0.0 and 0.0 are one number; the caller's state holds only one of them, so that memcmp agrees with ==. The tail is
  * zero on both sides of a step, and stays where it is. */
-static void hand_over(const tahr_state *s, tahr_state *out)
+static void hand_over(const tahr__step *step, int remembers, tahr_state *out)
 {
+    const tahr_state *s = &step->state;
     const tahr_quat q = s->orientation;
     out->position = clean(s->position);
     out->velocity = clean(s->velocity);
@@ -180,7 +208,9 @@ static void hand_over(const tahr_state *s, tahr_state *out)
     out->floor_position = clean(s->floor_position);
     out->floor_revision = s->floor_revision;
     out->jump_hold = s->jump_hold + 0.0;
-    memcpy(&out->radius, &s->radius, USED - offsetof(tahr_state, radius)); /* written clean where they are written */
+    if (remembers) { /* written clean where it is written */
+        memcpy(&out->radius, &s->radius, USED - offsetof(tahr_state, radius));
+    }
 }
 
 static tahr_status worst(uint32_t flags)
@@ -254,9 +284,13 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",
                               "is being stepped already");
     }
-    tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
-    if (status < 0) {
-        return status;
+    int blank = state_is_blank(mover, state);
+    int usual = arguments_are_usual(mover, input, dt, state, report);
+    if (!blank || !usual) {
+        tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
+        if (status < 0) {
+            return status;
+        }
     }
     if (mover->sleep.noted && tahr__sleeps_on(mover, input, dt, state, report)) {
         if (report) {
@@ -271,7 +305,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.limits = &mover->limits;
     step.custom = &mover->custom;
     step.world = mover->world;
-    if (state->half_height != mover->config.shape.half_height || state->radius != mover->config.shape.radius) {
+    if (!blank && (state->half_height != mover->config.shape.half_height || state->radius != mover->config.shape.radius)) {
         tahr__use_shape(&step, state->radius, state->half_height);
     }
     step.input = input;
@@ -298,18 +332,19 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     }
     if (dt > 0) {
         mover->busy = 1;
-        run(&step, dt);
+        run(&step, dt, blank && usual && mover->plain);
         mover->busy = 0;
         if (step.error < 0) {
             return step.error;
         }
         detect_stuck(&step, state);
+        int remembers = !blank || !usual || !mover->plain;
         if (vec_equal(step.state.position, state->position)) {
             const tahr_state before = *state;
-            hand_over(&step.state, state);
+            hand_over(&step, remembers, state);
             tahr__sleep_note(mover, &step, dt, state, memcmp(&before, state, sizeof before) != 0);
         } else {
-            hand_over(&step.state, state);
+            hand_over(&step, remembers, state);
             mover->sleep.noted = 0;
         }
     }

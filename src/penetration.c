@@ -103,3 +103,11 @@ int tahr__resolve_penetration(tahr__step *step, vec3 adjustment, const tahr__swe
     tell(step, swept, moved);
     return moved;
 }
+
+int tahr__move_otherwise(tahr__step *step, vec3 motion, tahr_hit *hit)
+{
+    tahr__swept swept;
+    tahr__safe_move(step, motion, &swept);
+    *hit = swept.hit;
+    return (int)swept.overlapped;
+}

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * query.h: the core's questions to the backend. query.c is the only file that calls backend slots. */
+ * query.h: the questions of a step. What is asked is counted and capped; answers come checked (answer.h). */
 #ifndef TAHR_QUERY_H
 #define TAHR_QUERY_H
 
@@ -38,10 +38,6 @@ static inline int step_has_fluids(const tahr__step *step)
 
 /* The TAHR_CAP_* that a character of this shape needs. */
 uint32_t tahr__shape_capability(uint32_t type);
-
-/* How a body moves that the core has no note of. Checked. TAHR_OK, TAHR_E_NOT_FOUND, TAHR_E_BACKEND (and the log says
- * what). No query. */
-tahr_status tahr__ask_motion(const tahr_world *world, uint32_t body, tahr_body_motion *motion);
 
 /* Tells the backend where this step is expected to ask. No query. */
 void tahr__announce(tahr__step *step, const tahr_prepare *announcement);

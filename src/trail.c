@@ -2,6 +2,8 @@
  * trail.c: where the character has been in this step. */
 #include "trail.h"
 
+#include "answer.h"
+
 void tahr__trail_begin(tahr__trail *trail, tahr__step *step)
 {
     const tahr_state *s = &step->state;
@@ -171,4 +173,17 @@ double tahr__leg_time(const tahr__leg *leg, double fraction, vec3 normal)
     }
     double part = leg->pace == TAHR__PACE_FALL ? fall_part(leg, fraction, normal) : fraction;
     return leg->begin + (leg->end - leg->begin) * part;
+}
+
+tahr_status tahr__sensing_sweep(tahr__step *step, const tahr_sweep *q, tahr_hit *hit, uint32_t *count)
+{
+    tahr_hit hits[2];
+    uint32_t n = 0;
+    tahr_status status = answer_sweep(step->world, &step->context, q, hits, 2, &n);
+    *count = status >= 0 && n > 0 && !hits[n - 1].sensor;
+    if (*count) {
+        *hit = hits[n - 1];
+    }
+    tahr__trail_swept(step->trail, q, n == *count);
+    return status;
 }

@@ -66,6 +66,9 @@ static inline void tahr__trail_go(tahr__step *step)
 /* A sweep of the whole shape was made; clear: it met no sensor. */
 void tahr__trail_swept(tahr__trail *trail, const tahr_sweep *sweep, int clear);
 
+/* A sweep of the whole shape that also finds out whether it meets a sensor: a leg that does not need not be asked about. */
+tahr_status tahr__sensing_sweep(tahr__step *step, const tahr_sweep *q, tahr_hit *hit, uint32_t *count);
+
 /* The legs without a time were gone along between two times (s from the start of the step). */
 void tahr__trail_stamp(tahr__step *step, double begin, double end);
 

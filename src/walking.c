@@ -142,7 +142,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
     return FLOOR;
 }
 
-static tahr__next walk_slice(tahr__step *step, double time)
+tahr__next tahr__walk_slice(tahr__step *step, double time)
 {
     tahr__path w;
     tahr_floor floor;
@@ -193,33 +193,14 @@ static tahr__next walk_slice(tahr__step *step, double time)
     return next;
 }
 
-/* Slices that each keep one velocity along the path. */
-static tahr__next walk_in_steps(tahr__step *step, double time)
-{
-    tahr__next next = {TAHR_MODE_WALKING, time};
-    while (next.mode == TAHR_MODE_WALKING && next.time_left >= TAHR__LEAST_TIME && step->error >= 0) {
-        double h = tahr__begin_iteration(step, next.time_left);
-        if (h == 0) {
-            return (tahr__next){TAHR_MODE_WALKING, 0};
-        }
-        double left = next.time_left - h;
-        vec3 before = step_level(step, step->state.velocity);
-        tahr__law law = tahr__walking_law(step);
-        step->state.velocity = tahr__calc_velocity(step->config, &law, 0, before, h);
-        if (length_squared(before) > 0 && length_squared(step->state.velocity) == 0) {
-            tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);
-        }
-        next = walk_slice(step, h);
-        next.time_left += left;
-    }
-    next.time_left = next.time_left < TAHR__LEAST_TIME ? 0 : next.time_left;
-    return next;
-}
-
 tahr__next tahr__walk(tahr__step *step, double time)
 {
+    if (step->limits->usual) {
+        return tahr__walk_slice(step, time);
+    }
     if (step->config->slide_solver == TAHR_SLIDE_TWO_WALLS) {
         return tahr__walk_two_walls(step, time);
     }
-    return step->config->integrator == TAHR_INTEGRATOR_EXACT ? walk_slice(step, time) : walk_in_steps(step, time);
+    return step->config->integrator == TAHR_INTEGRATOR_EXACT ? tahr__walk_slice(step, time)
+                                                             : tahr__walk_in_steps(step, time);
 }
