@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * base_motion.c: riding and leaving bodies that move. A base is followed whatever its speed: also a lift that sinks faster
- * than anything falls. */
+ * base_motion.c: riding and leaving bodies that move. A base is followed whatever its speed: also a lift that sinks
+ * faster than anything falls. */
 #include "base_motion.h"
 
 #include <string.h>

@@ -54,7 +54,8 @@ struct tahr_world {
     tahr__memory memory;
     uint64_t revision; /* never 0; a pure function of the poses of all bodies and of the touches */
     uint64_t motion;   /* the same of their motions; 0: all at rest */
-    uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a motion */
+    uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a
+                             * motion */
     tahr__body_note *bodies;
 };
 
@@ -170,7 +171,8 @@ typedef struct tahr__next {
     double time_left; /* s */
 } tahr__next;
 
-/* May bodies squeeze a character? Asked of the scene, not of what was moved so far: a rollback must find the same answer. */
+/* May bodies squeeze a character? Asked of the scene, not of what was moved so far: a rollback must find the same
+ * answer. */
 static inline int step_squeezes(const tahr__step *step)
 {
     return (step->world->has & TAHR__HAS_SQUEEZERS) != 0;

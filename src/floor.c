@@ -157,7 +157,8 @@ static int may_move(const tahr_world *world, uint32_t body)
     return body == TAHR_NO_BODY || (world->has & TAHR__HAS_BASES) != 0;
 }
 
-/* bAlwaysCheckFloor and bForceNextFloorCheck: nothing moved since the floor was looked for, nor was the height put right. */
+/* bAlwaysCheckFloor and bForceNextFloorCheck: nothing moved since the floor was looked for, nor was the height put
+ * right. */
 static int takes_cached_floor(tahr__step *step)
 {
     const tahr_state *s = &step->state;
@@ -221,7 +222,8 @@ static void find_shrunk(tahr__step *step, double reach, const tahr__supplied *su
                              .radius = step->limits->width,
                              .supplied = supplied};
     tahr__compute_floor_distance(step, &look, floor);
-    doubt_rim(step, distance + (walking ? c->perch_extra : 0), floor); /* what a ray found lies under the axis: no doubt */
+    doubt_rim(step, distance + (walking ? c->perch_extra : 0), floor); /* what a ray found lies under the axis: no
+                                                                        * doubt */
     int steep = (floor->flags & TAHR_FLOOR_BLOCKING) && !(floor->flags & TAHR_FLOOR_FACE);
     if (steep && !floor_is_walkable(floor) && c->slide_solver == TAHR_SLIDE_JOINT && wedge(step, floor)) {
         floor->flags |= TAHR_FLOOR_WALKABLE; /* for a solver that comes to rest between walls */

@@ -30,10 +30,10 @@ double tahr__walkable_limit(const tahr__step *step, const tahr_hit *hit, int was
 int tahr__was_walkable(const tahr__step *step, const tahr_hit *hit);
 uint32_t tahr__still_slope(const tahr__step *step, const tahr_hit *hit);
 
-/* Floor under the character's position, looked for down to `reach` metres (plus the clearance band; with SHRUNK less it,
- * unless walking). A hit of a sweep that ended here may be supplied instead of the first sweep.
- * With WHOLE 1 sweep, at most TAHR__FLOOR_QUERIES. With SHRUNK 0 where config.cached_floor lets it take the state's floor,
- * else 1; at most 6, with flat_base 10. */
+/* Floor under the character's position, looked for down to `reach` metres (plus the clearance band; with SHRUNK less
+ * it, unless walking). A hit of a sweep that ended here may be supplied instead of the first sweep.
+ * With WHOLE 1 sweep, at most TAHR__FLOOR_QUERIES. With SHRUNK 0 where config.cached_floor lets it take the state's
+ * floor, else 1; at most 6, with flat_base 10. */
 void tahr__find_floor(tahr__step *step, double reach, const tahr__supplied *supplied, tahr_floor *floor);
 
 /* 1 sweep, 1 retry with a thinner shape, 1 perch sweep, 4 rays for the front of a step, 1 contact query for a wedge. */
@@ -63,9 +63,9 @@ static inline int floor_is_in_band(const tahr__step *step)
     return gap >= skin - 1e-6 && gap <= step->config->floor_max * skin && !(step->state.floor.flags & TAHR_FLOOR_LINE);
 }
 
-/* Brings the clearance into the band, following the floor down or rising off it. Returns the change of height. With WHOLE
- * no query going down what the floor sweep has proven free, else one sweep. With SHRUNK no query in the band, else one
- * safe move; sets just_teleported where the height is no motion of the character's own. */
+/* Brings the clearance into the band, following the floor down or rising off it. Returns the change of height. With
+ * WHOLE no query going down what the floor sweep has proven free, else one sweep. With SHRUNK no query in the band,
+ * else one safe move; sets just_teleported where the height is no motion of the character's own. */
 double tahr__adjust_height(tahr__step *step);
 
 /* Held by faces that are each too steep, so that no motion downward is left? One contact query. See wedge.c. */

@@ -3,7 +3,8 @@
  *
  * The ends of a shape that touches, or overlaps, what it stands on cannot be swept from where they are. A shape that is
  * shorter at both ends can, and finds the depth of an overlap as a negative distance. Lengths named in centimetres are
- * those of the field; here they are parts of config.skin, edge_tolerance and pull_back, and so grow with the character. */
+ * those of the field; here they are parts of config.skin, edge_tolerance and pull_back, and so grow with the
+ * character. */
 #ifndef TAHR_FLOOR_DISTANCE_H
 #define TAHR_FLOOR_DISTANCE_H
 
@@ -28,8 +29,9 @@ static inline double tiny_length(const tahr_config *c)
  * radius stands for how much thinner than the character the probe is. No query. */
 int tahr__is_within_edge_tolerance(const tahr__step *step, vec3 centre, vec3 point, double radius);
 
-/* Sweeps a probe down from `from` without a skin; with config.flat_base a box in place of a round one, if the backend has
- * boxes: its corners on the axes first, then its sides. Returns 1 if something was met. 1 sweep, with flat_base 1 or 2. */
+/* Sweeps a probe down from `from` without a skin; with config.flat_base a box in place of a round one, if the backend
+ * has boxes: its corners on the axes first, then its sides. Returns 1 if something was met. 1 sweep, with flat_base 1
+ * or 2. */
 int tahr__floor_sweep_test(tahr__step *step, const tahr__foot *probe, vec3 from, double range, tahr_hit *hit);
 
 /* The floor below: by the supplied sweep; else a sweep, once more with a thinner probe where that overlapped something

@@ -49,8 +49,8 @@ double tahr__pull_back_part(const tahr_config *config, double length);
 /* The fraction t of such a motion after the pull-back. */
 double tahr__pull_back(const tahr_config *config, double t, double length);
 
-/* GetPenetrationAdjustment: the push out of a hit that is a start in overlap, no longer than config.max_depenetration, or
- * _character out of a TAHR_BODY_CHARACTER; zero of another hit. (A simulated proxy of the field is a character with
+/* GetPenetrationAdjustment: the push out of a hit that is a start in overlap, no longer than config.max_depenetration,
+ * or _character out of a TAHR_BODY_CHARACTER; zero of another hit. (A simulated proxy of the field is a character with
  * smaller values of these two.) No query. */
 vec3 tahr__penetration_adjustment(const tahr__step *step, const tahr_hit *hit);
 

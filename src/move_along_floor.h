@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * move_along_floor.h: a level motion, taken along the floor, onto ramps and steps, with config.slide_solver TWO_WALLS. */
+ * move_along_floor.h: a level motion, taken along the floor, onto ramps and steps, with config.slide_solver
+ * TWO_WALLS. */
 #ifndef TAHR_MOVE_ALONG_FLOOR_H
 #define TAHR_MOVE_ALONG_FLOOR_H
 
@@ -18,9 +19,9 @@ tahr__ramp tahr__floor_ramp(const tahr_floor *floor);
  * above, else of the same length. No query. */
 vec3 tahr__ground_movement_delta(const tahr__step *step, vec3 delta, const tahr__ramp *ramp);
 
-/* MoveAlongFloor: the level motion `delta` of a slice of h seconds, from a walkable floor: along it and a second ramp, up
- * a step, or along walls. Returns 1 if a step up has found the floor under the end. At most two moves, a step up and a
- * slide. */
+/* MoveAlongFloor: the level motion `delta` of a slice of h seconds, from a walkable floor: along it and a second ramp,
+ * up a step, or along walls. Returns 1 if a step up has found the floor under the end. At most two moves, a step up and
+ * a slide. */
 int tahr__move_along_floor(tahr__step *step, vec3 delta, double h);
 
 #endif

@@ -7,7 +7,8 @@
 #include "report.h"
 #include "trail.h"
 
-/* Added to the depth, and the depth itself where that is not known: 0.125 cm in the field (PenetrationPullbackDistance). */
+/* Added to the depth, and the depth itself where that is not known: 0.125 cm in the field
+ * (PenetrationPullbackDistance). */
 static double extra_push(const tahr_config *c)
 {
     return 1.25 * c->pull_back;

@@ -8,12 +8,12 @@
 /* m, of the foot that must have a floor: at least 0.11 cm. No query. */
 double tahr__valid_perch_radius(const tahr__step *step);
 
-/* Does what holds the character where its shape touches it, at `location`, need a floor further in? check_radius: not if
- * it is that far in itself. No query. */
+/* Does what holds the character where its shape touches it, at `location`, need a floor further in? check_radius: not
+ * if it is that far in itself. No query. */
 int tahr__should_compute_perch(const tahr__step *step, const tahr_floor *floor, vec3 location, int check_radius);
 
-/* Looks for the floor of a foot of this radius, no deeper than `deepest` below what is touched at `point` by the shape at
- * `location`. [out] floor: its distance from there. Returns 1 if there is one. 0 queries if deepest <= 0, else
+/* Looks for the floor of a foot of this radius, no deeper than `deepest` below what is touched at `point` by the shape
+ * at `location`. [out] floor: its distance from there. Returns 1 if there is one. 0 queries if deepest <= 0, else
  * as tahr__compute_floor_distance. */
 typedef struct tahr__perch_look {
     double radius;
@@ -22,8 +22,8 @@ typedef struct tahr__perch_look {
 } tahr__perch_look;
 int tahr__compute_perch(tahr__step *step, const tahr__perch_look *look, tahr_floor *floor);
 
-/* The same for TAHR_FLOOR_PROBE_WHOLE: a contact at the rim, or on a face too steep, holds the character only if there is
- * a floor for a thinner foot; writes it into `floor`. 1 sweep, and what a lip asks. */
+/* The same for TAHR_FLOOR_PROBE_WHOLE: a contact at the rim, or on a face too steep, holds the character only if there
+ * is a floor for a thinner foot; writes it into `floor`. 1 sweep, and what a lip asks. */
 int tahr__perches(tahr__step *step, double reach, const tahr_hit *outer, tahr_floor *floor);
 
 /* The front of a step holds who walks, between the floor before it and the one behind it; who falls slides off it. */

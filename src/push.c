@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * push.c: bodies that move into a character, and characters that push bodies.
  *
- * Seen from a body the character moves: from where it was relative to the body's last pose to where it is relative to this
- * one. That motion is swept against the body alone, so that nothing passes through a character at any speed. */
+ * Seen from a body the character moves: from where it was relative to the body's last pose to where it is relative to
+ * this one. That motion is swept against the body alone, so that nothing passes through a character at any speed. */
 #include "push.h"
 
 #include <string.h>
@@ -15,8 +15,8 @@
 #include "scope.h"
 #include "step_up.h"
 
-/* rad that a body may turn in one straight piece of a relative motion: 5 m off the axis the arc bulges by 6 mm, less than
- * a skin. */
+/* rad that a body may turn in one straight piece of a relative motion: 5 m off the axis the arc bulges by 6 mm, less
+ * than a skin. */
 static const double PIECE = 0.1;
 enum { PIECES = 16 };
 
@@ -111,7 +111,8 @@ static int world_lets(tahr__step *step, uint32_t body, vec3 x, tahr__plane *plan
     return 0;
 }
 
-/* The least way out of the body's way that everything else leaves. Returns 0 if there is none: crushed, or nearly so. */
+/* The least way out of the body's way that everything else leaves. Returns 0 if there is none: crushed, or nearly
+ * so. */
 static int push_out(tahr__step *step, uint32_t body, const meeting *m)
 {
     enum { ROUNDS = 6 };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * scope.h: motions that may turn out not to have happened. Opened before them; reverted, nothing of them is left but what
- * they asked: neither where they led, nor their events, nor the sensors on the way. A scope that is not reverted needs no
- * closing. Scopes nest: the inner one is reverted or left before the outer one. */
+ * scope.h: motions that may turn out not to have happened. Opened before them; reverted, nothing of them is left but
+ * what they asked: neither where they led, nor their events, nor the sensors on the way. A scope that is not reverted
+ * needs no closing. Scopes nest: the inner one is reverted or left before the outer one. */
 #ifndef TAHR_SCOPE_H
 #define TAHR_SCOPE_H
 
@@ -43,8 +43,8 @@ static inline void tahr__scope_open(tahr__step *step, tahr__scope *scope)
     }
 }
 
-/* Puts back what was when the scope was opened, bit for bit. What queries said of themselves (undecided, capped, recorded)
- * stays, and so does what was spent of the step's depenetration. */
+/* Puts back what was when the scope was opened, bit for bit. What queries said of themselves (undecided, capped,
+ * recorded) stays, and so does what was spent of the step's depenetration. */
 void tahr__scope_revert(tahr__step *step, const tahr__scope *scope);
 
 #endif

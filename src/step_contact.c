@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * step_contact.c: config.step_rule CONTACT: up, along, down, and judged by where the shape came down. For the face behind
- * the edge as the judge see step_up.c. */
+ * step_contact.c: config.step_rule CONTACT: up, along, down, and judged by where the shape came down. For the face
+ * behind the edge as the judge see step_up.c. */
 #include "floor.h"
 #include "floor_distance.h"
 #include "plane.h"
@@ -38,8 +38,8 @@ static int can_step_up(const tahr__step *step, const tahr_hit *hit)
            !(world_body_flags(step->world, hit->body) & TAHR_BODY_NO_STEP);
 }
 
-/* How far up and down, and from where. On a floor the hover gap is part of the step; the way down is longer by two bands,
- * to come as close to the floor as before. */
+/* How far up and down, and from where. On a floor the hover gap is part of the step; the way down is longer by two
+ * bands, to come as close to the floor as before. */
 static void plan(const tahr__step *step, const tahr__swept *obstacle, attempt *a)
 {
     const tahr_config *c = step->config;

@@ -40,8 +40,8 @@ static double creep(const tahr__stroke *s, double v0, double t, double *v)
     return v0 * answer + s->push * (a - b) / apart;
 }
 
-/* The same by the series of its solution: c[n+2] (n+1)(n+2) = -(k (n+1) c[n+1] + spring c[n]), and push in c[2]. 30 terms
- * of an argument of at most 2 are far below rounding. */
+/* The same by the series of its solution: c[n+2] (n+1)(n+2) = -(k (n+1) c[n+1] + spring c[n]), and push in c[2]. 30
+ * terms of an argument of at most 2 are far below rounding. */
 static double bob(const tahr__stroke *s, double v0, double t, double *v)
 {
     double kt = s->drag * t, st = s->spring * t * t;

@@ -143,8 +143,8 @@ void tahr__trail_forget(tahr__step *step, uint32_t count)
     }
 }
 
-/* From `from` with this velocity and a constant acceleration to `to`: the time, as a part, at which a plane is met that the
- * straight line meets at a fraction. n . v T s + (n . d - n . v T) s^2 = f n . d */
+/* From `from` with this velocity and a constant acceleration to `to`: the time, as a part, at which a plane is met that
+ * the straight line meets at a fraction. n . v T s + (n . d - n . v T) s^2 = f n . d */
 static double fall_part(const tahr__leg *leg, double fraction, vec3 normal)
 {
     double rest = dot(normal, sub(leg->to, leg->from));

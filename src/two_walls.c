@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * two_walls.c: bending a motion along one surface and then along a second one, what is left is dropped: config.slide_solver
- * TWO_WALLS. For the joint projection see slide.c and cone.c. */
+ * two_walls.c: bending a motion along one surface and then along a second one, what is left is dropped:
+ * config.slide_solver TWO_WALLS. For the joint projection see slide.c and cone.c. */
 #include "floor.h"
 #include "plane.h"
 #include "report.h"

@@ -198,7 +198,8 @@ static int follow_floor(tahr__step *step, walk *w)
     return check_fall(step, w, step->just_teleported || w->zero);
 }
 
-/* What was moved is what was fast: bumps brake. A closed form that was not bumped knows its velocity at the end better. */
+/* What was moved is what was fast: bumps brake. A closed form that was not bumped knows its velocity at the end
+ * better. */
 static void take_velocity(tahr__step *step, const walk *w)
 {
     vec3 moved = sub(step->state.position, w->from);

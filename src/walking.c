@@ -96,10 +96,10 @@ static tahr__next stand(tahr__step *step, double time, int looked)
     return next;
 }
 
-/* Walks on until the floor under the end of the walk is known. Where it seems to end it may only lie lower than one snap
- * reaches from the straight path of a long slice (stairs down at 10 Hz): goes down where it still was, and on from there.
- * Returns FLOOR; NO_FLOOR with the place where it ended as a part of the last piece; or WALK_AGAIN if it may have ended
- * on an earlier piece. */
+/* Walks on until the floor under the end of the walk is known. Where it seems to end it may only lie lower than one
+ * snap reaches from the straight path of a long slice (stairs down at 10 Hz): goes down where it still was, and on from
+ * there. Returns FLOOR; NO_FLOOR with the place where it ended as a part of the last piece; or WALK_AGAIN if it may
+ * have ended on an earlier piece. */
 enum { NO_FLOOR, FLOOR, WALK_AGAIN };
 
 static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
@@ -173,7 +173,8 @@ tahr__next tahr__walk_slice(tahr__step *step, double time)
         tahr__path_find_slope(&w, step);
         w.careful = careful;
         answer = walk_over_floor(step, &w, &part);
-        if (answer == WALK_AGAIN) { /* the path was bent on the way: once more, with a look at the floor at every bend */
+        if (answer == WALK_AGAIN) { /* the path was bent on the way: once more, with a look at the floor at every
+                                     * bend */
             tahr__scope_revert(step, &scope);
         }
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_course.c: what holds in every step of a wanderer on a course of stairs, walls, a corner, a ceiling and a slope. */
+ * test_course.c: what holds in every step of a wanderer on a course of stairs, walls, a corner, a ceiling and a
+ * slope. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_floor_answers.c: TAHR_FLOOR_PROBE_SHRUNK and what backends can do and say: shapes they lack, points of contact that
- * are none, answers that they do not have, rays, and wedges. */
+ * test_floor_answers.c: TAHR_FLOOR_PROBE_SHRUNK and what backends can do and say: shapes they lack, points of contact
+ * that are none, answers that they do not have, rays, and wedges. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

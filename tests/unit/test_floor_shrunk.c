@@ -30,9 +30,9 @@ static void reshape(parity *p, const tahr_shape *shape, tahr_quat frame)
     s->state.mode = TAHR_MODE_WALKING;
 }
 
-/* A capsule of radius r over a plane tilted by a, which lies `gap` below its end on the axis: the cap touches off the axis,
- * r (1 / cos a - 1) earlier. A start in overlap (the ends are drawn in by a tenth of the straight part) is looked at with
- * a radius less by edge_tolerance and a thousandth of pull_back. */
+/* A capsule of radius r over a plane tilted by a, which lies `gap` below its end on the axis: the cap touches off the
+ * axis, r (1 / cos a - 1) earlier. A start in overlap (the ends are drawn in by a tenth of the straight part) is looked
+ * at with a radius less by edge_tolerance and a thousandth of pull_back. */
 static void distance_to_any_slope_is_the_closed_form(void **unused)
 {
     oracle_random dice = {7};
@@ -274,7 +274,8 @@ static void nothing_asks_more_than_it_may_or_answers_nonsense(void **unused)
     assert_true(most >= 5 && most_flat >= 6 && lines > 50 && perches > 20); /* the scenes are hard enough */
 }
 
-/* A whole character of the other preset, with each probe, comes to rest in the band over a floor, a slope and an edge. */
+/* A whole character of the other preset, with each probe, comes to rest in the band over a floor, a slope and an
+ * edge. */
 static void characters_come_to_rest_in_the_band(void **unused)
 {
     for (int kind = 0; kind < 6; kind++) {

@@ -184,8 +184,8 @@ static void slide_base_rows(void **unused)
     parity_end(&t);
 }
 
-/* The slide of (10, 10, 0) along a wall that faces -x is 10 cm along y: its pull-back is 0.101. Of the 6 cm left a second
- * wall, 60 degrees to the first one, leaves 5.2 cm: its pull-back is 0.101 again. */
+/* The slide of (10, 10, 0) along a wall that faces -x is 10 cm along y: its pull-back is 0.101. Of the 6 cm left a
+ * second wall, 60 degrees to the first one, leaves 5.2 cm: its pull-back is 0.101 again. */
 static void slide_into_a_second_wall_row(void **unused)
 {
     script s = {.answers = {{0.501, {-0.8660254037844386, -0.5, 0}}, {0.601, {-1, 0, 0}}}};

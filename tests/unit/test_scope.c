@@ -194,8 +194,8 @@ static void what_is_walked_again_is_told_once(void **unused)
     }
 }
 
-/* The same sensor where the fall does pass, and one over the floor before: each once, at the times of the law of walking
- * and of the arc. The floor carries a foot up to radius + skin - perch_threshold beyond its end. */
+/* The same sensor where the fall does pass, and one over the floor before: each once, at the times of the law of
+ * walking and of the arc. The floor carries a foot up to radius + skin - perch_threshold beyond its end. */
 static void a_ledge_in_the_middle_of_a_step_keeps_the_times(void **unused)
 {
     const double edge = 64 + 0.35 + 0.01 - 0.15;

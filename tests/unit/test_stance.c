@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_stance.c: crouching and other shapes: at once when smaller, with room when larger, and nothing moves that need not.
- * Random requests among boxes are in test_stance_wander.c. */
+ * test_stance.c: crouching and other shapes: at once when smaller, with room when larger, and nothing moves that need
+ * not. Random requests among boxes are in test_stance_wander.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_trace_modes.c: the rules of bases, shapes, fluids, walls and edges show in a trace what they accepted and what they
- * rejected, and why; so do the methods of the preset `unreal`. test_trace.c: the rules of walking and falling. */
+ * test_trace_modes.c: the rules of bases, shapes, fluids, walls and edges show in a trace what they accepted and what
+ * they rejected, and why; so do the methods of the preset `unreal`. test_trace.c: the rules of walking and falling. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

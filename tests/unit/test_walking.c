@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_walking.c: speeds and distances against the closed forms, query counts, walls, slopes, ledges. What holds on every
- * ground is in test_course.c. */
+ * test_walking.c: speeds and distances against the closed forms, query counts, walls, slopes, ledges. What holds on
+ * every ground is in test_course.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -30,7 +30,8 @@ static void a_fall_ends_where_the_water_carries_at_its_exact_time(void **unused)
                 assert_true(at < 0 && e->value == TAHR_MODE_SWIMMING);
                 at = k * dt + e->time;
                 assert_near(e->position.z, LINE, 1e-8);
-                assert_true(rig_rates[i] < 100 || r.report.fluid_queries <= 6); /* a level surface is found by one look */
+                assert_true(rig_rates[i] < 100 || r.report.fluid_queries <= 6); /* a level surface is found by one
+                                                                                 * look */
             }
         }
         assert_near(at, truth, 1e-8);
@@ -288,7 +289,8 @@ static void an_answer_that_is_none_ends_the_step_and_leaves_the_state(void **unu
     }
 }
 
-/* Water that is there and is not, from place to place, and a gravity that turns over: no step asks more than promised. */
+/* Water that is there and is not, from place to place, and a gravity that turns over: no step asks more than
+ * promised. */
 static void a_fluid_without_rhyme_leaves_a_finite_character(void **unused)
 {
     (void)unused;

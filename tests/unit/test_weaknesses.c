@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_weaknesses.c: what depends on the frame rate in the unreal preset, with the numbers that users of the field know,
- * and the same in the precise preset, as one table. Lengths in centimetres. Run it to see the table. */
+ * test_weaknesses.c: what depends on the frame rate in the unreal preset, with the numbers that users of the field
+ * know, and the same in the precise preset, as one table. Lengths in centimetres. Run it to see the table. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
