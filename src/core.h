@@ -52,8 +52,8 @@ struct tahr_world {
     uint32_t moves;       /* calls of tahr_world_move, from 1 */
     uint32_t *moved;
     tahr__memory memory;
-    uint64_t revision; /* never 0; a pure function of the poses of all bodies and of the touches */
-    uint64_t motion;   /* the same of their motions; 0: all at rest */
+    uint64_t revision;      /* never 0; a pure function of the poses of all bodies and of the touches */
+    uint64_t motion;        /* the same of their motions; 0: all at rest */
     uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a
                              * motion */
     tahr__body_note *bodies;

@@ -404,8 +404,10 @@ tahr__next tahr__fall_two_walls(tahr__step *step, double time)
     if (answer == ENDS) {
         step->report.time_lost += f.left;
     }
-    static const uint32_t modes[] = {
-        [GOES_ON] = TAHR_MODE_FALLING, [ENDS] = TAHR_MODE_FALLING, [LANDS] = TAHR_MODE_WALKING, [HANGS] = TAHR_MODE_HANGING};
+    static const uint32_t modes[] = {[GOES_ON] = TAHR_MODE_FALLING,
+                                     [ENDS] = TAHR_MODE_FALLING,
+                                     [LANDS] = TAHR_MODE_WALKING,
+                                     [HANGS] = TAHR_MODE_HANGING};
     tahr__next next = {modes[answer], answer == LANDS || answer == HANGS ? f.left : 0};
     return next;
 }

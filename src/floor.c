@@ -39,7 +39,8 @@ int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable)
     double limit = tahr__walkable_limit(step, hit, was_walkable);
     double up = dot(hit->surface_normal, step->state.up);
     int walkable = hit->blocking && !hit->start_overlap && hit->walkable_rule != TAHR_WALKABLE_NEVER;
-    return tahr__decide(step, TAHR_RULE_WALKABLE, walkable && up >= limit, hit, up, limit, "cosine of the face's slope");
+    return tahr__decide(step, TAHR_RULE_WALKABLE, walkable && up >= limit, hit, up, limit,
+                        "cosine of the face's slope");
 }
 
 static double inside_box(const tahr__step *step, vec3 offset)

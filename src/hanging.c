@@ -72,7 +72,8 @@ static int is_spent(const tahr__step *step, vec3 facing, const tahr_hit *edge)
 {
     const tahr_floor *old = &step->state.floor;
     double apart = dot(sub(edge->point, old->point), step->state.up), reach = step->config->ledge_grab;
-    return step->state.flags & TAHR_STATE_EDGE_SPENT && dot(old->normal, facing) > 0.5 && apart < reach && apart > -reach;
+    return step->state.flags & TAHR_STATE_EDGE_SPENT && dot(old->normal, facing) > 0.5 && apart < reach &&
+           apart > -reach;
 }
 
 static void keep_edge(tahr__step *step, vec3 facing, const tahr_hit *edge)

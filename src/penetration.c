@@ -83,7 +83,8 @@ static void tell(tahr__step *step, const tahr__swept *swept, int moved)
         step->report.residual = max_of(step->report.residual, swept->hit.depth);
         tahr__event(step, TAHR_EVENT_CRUSHED, &swept->hit, swept->hit.depth);
     }
-    tahr__decide(step, TAHR_RULE_DEPENETRATION, moved, &swept->hit, swept->hit.depth, size, "pushed out of one surface");
+    tahr__decide(step, TAHR_RULE_DEPENETRATION, moved, &swept->hit, swept->hit.depth, size,
+                 "pushed out of one surface");
 }
 
 int tahr__resolve_penetration(tahr__step *step, vec3 adjustment, const tahr__swept *swept)

@@ -101,7 +101,8 @@ static int world_lets(tahr__step *step, uint32_t body, vec3 x, tahr__plane *plan
 {
     tahr_hit hit;
     step->ignore_body = body;
-    tahr__sweep(step, &step->limits->shape, step->state.position, x, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
+    tahr__sweep(step, &step->limits->shape, step->state.position, x, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP,
+                &hit);
     step->ignore_body = TAHR_NO_BODY;
     /* A millionth of a metre short is a plane that is in the set already. */
     if (!hit.blocking || (1 - hit.fraction) * length(x) < 1e-6) {

@@ -13,7 +13,8 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
 /* The sensors that the character's shape passes on a motion or is inside of, the first contact with each, ordered by
  * (start_overlap, fraction, body): what start_overlap says it was inside of at the start. Returns the count. One sweep,
  * on top of those that a step may ask. */
-uint32_t tahr__sensors(tahr__step *step, vec3 from, vec3 motion, uint32_t ignore_body, tahr_hit *hits, uint32_t capacity);
+uint32_t tahr__sensors(tahr__step *step, vec3 from, vec3 motion, uint32_t ignore_body, tahr_hit *hits,
+                       uint32_t capacity);
 
 /* Everything within margin of the character's shape at `position`, without sensors. Returns the count, at most
  * capacity. One contact query. */

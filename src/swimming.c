@@ -266,7 +266,8 @@ static int move_piece(tahr__step *step, tahr__glide *g, const piece *p, tahr_hit
     double used = p->time;
     tahr__move(step, way, hit);
     if (hit->blocking) {
-        used = p->stroke ? tahr__stroke_time(p->stroke, p->velocity, p->time, way, hit->fraction) : used * hit->fraction;
+        used =
+            p->stroke ? tahr__stroke_time(p->stroke, p->velocity, p->time, way, hit->fraction) : used * hit->fraction;
         along_piece(p, used, &then);
     }
     step->state.velocity = then;

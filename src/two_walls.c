@@ -46,7 +46,8 @@ vec3 tahr__handle_slope_boosting(const tahr__step *step, vec3 slide, vec3 delta,
 vec3 tahr__slide_vector(const tahr__step *step, vec3 delta, double time, vec3 normal)
 {
     vec3 slide = base_slide(step, delta, time, normal);
-    return step->state.mode == TAHR_MODE_FALLING ? tahr__handle_slope_boosting(step, slide, delta, time, normal) : slide;
+    return step->state.mode == TAHR_MODE_FALLING ? tahr__handle_slope_boosting(step, slide, delta, time, normal)
+                                                 : slide;
 }
 
 static vec3 base_adjust(const tahr__step *step, vec3 delta, const tahr_hit *hit, vec3 old_normal)

@@ -257,7 +257,8 @@ void tahr__bvh_walk_narrow(tahr__bvh_walk *walk, const tahr_bounds *box)
     walk->narrowed = 1;
 }
 
-void tahr__bvh_walk_begin(tahr__bvh_walk *walk, const tahr__bvh *bvh, const tahr_bounds *box, double reach, tahr_vec3 near)
+void tahr__bvh_walk_begin(tahr__bvh_walk *walk, const tahr__bvh *bvh, const tahr_bounds *box, double reach,
+                          tahr_vec3 near)
 {
     walk->bvh = bvh;
     tahr__bvh_walk_narrow(walk, box);

@@ -110,7 +110,8 @@ static tahr_status native_place(void *self, const tahr_body_pose *poses, uint32_
     return tahr__bodies_place(self, poses, count);
 }
 
-static tahr_status native_fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *fluid)
+static tahr_status native_fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query,
+                                tahr_fluid *fluid)
 {
     const tahr__native *world = self;
     (void)context;

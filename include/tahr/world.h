@@ -158,7 +158,8 @@ TAHR_API tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint
  * a description not zero, or the backend cannot hold such a body), TAHR_E_MEMORY; the log names the body and the field.
  * Allocates. Worlds may be opened, and closed, on several threads at once, if what they share (allocator, log, backend)
  * may be called so; an open world belongs to no thread. Since 0.1. */
-TAHR_API tahr_status tahr_world_open(const struct tahr_backend *backend, const tahr_world_desc *desc, tahr_world **world);
+TAHR_API tahr_status tahr_world_open(const struct tahr_backend *backend, const tahr_world_desc *desc,
+                                     tahr_world **world);
 
 /* Opens a world whose geometry is behind the caller's functions. desc may be NULL; of it only allocator and log are
  * used. [out] world, untouched on failure. Returns TAHR_OK, TAHR_E_NULL (sweep missing), TAHR_E_STRUCT_SIZE,

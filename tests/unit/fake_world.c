@@ -97,7 +97,8 @@ static double reach(const probe *p, v3 n)
 {
     const tahr_shape *s = &p->shape;
     if (s->type == TAHR_SHAPE_BOX) {
-        return s->half_height * fabs(dot3(n, p->up)) + s->half_x * fabs(dot3(n, p->x)) + s->half_y * fabs(dot3(n, p->y));
+        return s->half_height * fabs(dot3(n, p->up)) + s->half_x * fabs(dot3(n, p->x)) +
+               s->half_y * fabs(dot3(n, p->y));
     }
     return s->radius + (s->half_height - s->radius) * fabs(dot3(n, p->up));
 }

@@ -85,7 +85,8 @@ void parity_row(parity_table *table, const char *id, const char *where);
 void parity_number(parity_table *table, const char *what, double got, double expected, double tolerance);
 /* got in m, expected and tolerance in cm. */
 void parity_length(parity_table *table, const char *what, double got, double expected, double tolerance);
-void parity_vector(parity_table *table, const char *what, tahr_vec3 got, double x, double y, double z, double tolerance);
+void parity_vector(parity_table *table, const char *what, tahr_vec3 got, double x, double y, double z,
+                   double tolerance);
 void parity_count(parity_table *table, const char *what, uint32_t got, uint32_t expected);
 void parity_true(parity_table *table, const char *what, int got);
 /* "parity: N rows green (name)", or fails. */

@@ -125,7 +125,8 @@ static void flat_base_does_not_sink_at_edges(void **unused)
                 p.step.state.mode = TAHR_MODE_WALKING;
                 tahr__find_floor(&p.step, c.snap_distance, NULL, &floor);
                 assert_true(floor_is_walkable(&floor));
-                assert_near(100 * floor.distance, 2.15 + (flat ? 0 : rows[i].drop), 0.006); /* as many digits as given */
+                assert_near(100 * floor.distance, 2.15 + (flat ? 0 : rows[i].drop),
+                            0.006); /* as many digits as given */
                 if (flat) {
                     assert_true(floor.normal.z > 1 - 1e-6);
                 }

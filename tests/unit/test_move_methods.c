@@ -343,11 +343,12 @@ static void bad_answers_stop_the_move_where_it_is_proven_free(void **unused)
         tahr_status status;
         uint32_t contacts;
         double x; /* expected with a pull-back, cm; of 10 asked */
-    } rows[] = {{{.unknown = 1, .fraction = 0.5}, TAHR_OK, 0, 10 * (0.5 - 0.101)},
-                {{.blocking = 1, .fraction = NAN, .normal = {0, 0, 1}}, TAHR_OK, 0, 0},
-                {{.blocking = 0}, TAHR_E_BACKEND, 0, 0},
-                {{.blocking = 1, .start_overlap = 1, .fraction = 0.5, .depth = 0.02, .normal = {0, 0, 1}}, TAHR_OK, 1, 0},
-                {{.blocking = 1, .start_overlap = 1, .depth = 1e300, .normal = {0, 0, 1}}, TAHR_OK, 1, 0}};
+    } rows[] = {
+        {{.unknown = 1, .fraction = 0.5}, TAHR_OK, 0, 10 * (0.5 - 0.101)},
+        {{.blocking = 1, .fraction = NAN, .normal = {0, 0, 1}}, TAHR_OK, 0, 0},
+        {{.blocking = 0}, TAHR_E_BACKEND, 0, 0},
+        {{.blocking = 1, .start_overlap = 1, .fraction = 0.5, .depth = 0.02, .normal = {0, 0, 1}}, TAHR_OK, 1, 0},
+        {{.blocking = 1, .start_overlap = 1, .depth = 1e300, .normal = {0, 0, 1}}, TAHR_OK, 1, 0}};
     (void)unused;
     for (int i = 0; i < COMBINATIONS; i++) {
         tahr_config c = combination(TAHR_PRESET_UNREAL, i);

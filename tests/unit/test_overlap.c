@@ -223,7 +223,8 @@ static void a_sensor_that_is_put_elsewhere_is_left_at_once(void **unused)
                 int there = i % 2;
                 sensor_put(&s, body, fake_vec(there ? 0 : 30, 0, 3));
                 rig_step(&s.r, 1.0 / 60);
-                const tahr_event *e = sensor_event(&s.r, there ? TAHR_EVENT_OVERLAP_BEGIN : TAHR_EVENT_OVERLAP_END, body);
+                const tahr_event *e =
+                    sensor_event(&s.r, there ? TAHR_EVENT_OVERLAP_BEGIN : TAHR_EVENT_OVERLAP_END, body);
                 assert_true(e && e->time == 0);
                 assert_int_equal(sensor_events(&s.r, TAHR_EVENT_OVERLAP_BEGIN), there);
                 assert_int_equal(sensor_events(&s.r, TAHR_EVENT_OVERLAP_END), !there);
@@ -310,7 +311,8 @@ static void more_than_eight_sensors_are_said_to_be_too_many(void **unused)
         sensor_put(&s, 4, fake_vec(60, 0, 3));
         rig_step(&s.r, 1.0 / 60);
         assert_true(sensor_event(&s.r, TAHR_EVENT_OVERLAP_END, 3) && sensor_event(&s.r, TAHR_EVENT_OVERLAP_END, 4));
-        assert_true(sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, 9) && sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, 10));
+        assert_true(sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, 9) &&
+                    sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, 10));
         assert_int_equal(s.r.report.flags & TAHR_REPORT_TOUCHED_LOST, 0);
         const uint32_t left[8] = {1, 2, 5, 6, 7, 8, 9, 10};
         assert_memory_equal(s.r.state.touched, left, sizeof left);

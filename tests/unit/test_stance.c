@@ -437,20 +437,21 @@ static void spheres_and_frozen_characters_do_not_crouch(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(crouching_keeps_the_foot_and_asks_nothing),
-                                       cmocka_unit_test(standing_up_asks_once_and_keeps_the_foot),
-                                       cmocka_unit_test(a_crouched_character_sleeps_and_so_does_one_that_may_not_stand_up),
-                                       cmocka_unit_test(crouched_speed_is_walked_at_every_rate),
-                                       cmocka_unit_test(stands_up_right_after_the_crawl_space_and_not_before),
-                                       cmocka_unit_test(crouching_in_the_air_draws_the_foot_up),
-                                       cmocka_unit_test(growing_in_the_air_gives_way_to_floor_and_ceiling),
-                                       cmocka_unit_test(growing_in_the_air_is_refused_between_floor_and_ceiling),
-                                       cmocka_unit_test(another_shape_is_taken_while_it_is_asked_for),
-                                       cmocka_unit_test(a_wider_foot_stands_higher_on_a_slope),
-                                       cmocka_unit_test(crouched_characters_stop_at_ledges_if_told_so),
-                                       cmocka_unit_test(crouching_never_makes_it_taller_and_never_less_than_round),
-                                       cmocka_unit_test(standing_up_uses_the_gap_under_the_foot_where_no_skin_is_kept),
-                                       cmocka_unit_test(sizes_that_no_such_shape_has_are_refused),
-                                       cmocka_unit_test(spheres_and_frozen_characters_do_not_crouch)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(crouching_keeps_the_foot_and_asks_nothing),
+        cmocka_unit_test(standing_up_asks_once_and_keeps_the_foot),
+        cmocka_unit_test(a_crouched_character_sleeps_and_so_does_one_that_may_not_stand_up),
+        cmocka_unit_test(crouched_speed_is_walked_at_every_rate),
+        cmocka_unit_test(stands_up_right_after_the_crawl_space_and_not_before),
+        cmocka_unit_test(crouching_in_the_air_draws_the_foot_up),
+        cmocka_unit_test(growing_in_the_air_gives_way_to_floor_and_ceiling),
+        cmocka_unit_test(growing_in_the_air_is_refused_between_floor_and_ceiling),
+        cmocka_unit_test(another_shape_is_taken_while_it_is_asked_for),
+        cmocka_unit_test(a_wider_foot_stands_higher_on_a_slope),
+        cmocka_unit_test(crouched_characters_stop_at_ledges_if_told_so),
+        cmocka_unit_test(crouching_never_makes_it_taller_and_never_less_than_round),
+        cmocka_unit_test(standing_up_uses_the_gap_under_the_foot_where_no_skin_is_kept),
+        cmocka_unit_test(sizes_that_no_such_shape_has_are_refused),
+        cmocka_unit_test(spheres_and_frozen_characters_do_not_crouch)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -180,7 +180,8 @@ static void tumbling_boxes_do_not_enter_a_character_unless_they_crush_it(void **
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_box_at_fifty_metres_a_second_does_not_pass_through_a_character),
-                                       cmocka_unit_test(tumbling_boxes_do_not_enter_a_character_unless_they_crush_it)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_box_at_fifty_metres_a_second_does_not_pass_through_a_character),
+        cmocka_unit_test(tumbling_boxes_do_not_enter_a_character_unless_they_crush_it)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -262,6 +262,7 @@ static void every_rule_of_bases_modes_and_methods_is_traced_with_its_reason(void
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_rule_of_bases_modes_and_methods_is_traced_with_its_reason)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_rule_of_bases_modes_and_methods_is_traced_with_its_reason)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -211,7 +211,8 @@ static void sensors_on_the_way_are_met_at_their_time(void **unused)
         while (end < 0 && r.time < 1) {
             double start = r.time;
             rig_step(&r, 1 / rates[i]);
-            const tahr_event *in = rig_event(&r, TAHR_EVENT_OVERLAP_BEGIN), *out = rig_event(&r, TAHR_EVENT_OVERLAP_END);
+            const tahr_event *in = rig_event(&r, TAHR_EVENT_OVERLAP_BEGIN),
+                             *out = rig_event(&r, TAHR_EVENT_OVERLAP_END);
             begin = in ? start + in->time : begin;
             end = out ? start + out->time : end;
         }

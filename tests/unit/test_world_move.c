@@ -122,7 +122,8 @@ static void half_a_turn_nearly_is_the_fastest_that_can_be_told(void **unused)
 static void the_revision_is_one_of_poses_and_motions(void **unused)
 {
     rig r;
-    tahr_body_pose a = {1, 0, {{0, 0, 0.5}, LEVEL}}, b = {1, 0, {{1, 0, 0.5}, LEVEL}}, c = {2, 0, {{11, 0, 0.5}, LEVEL}};
+    tahr_body_pose a = {1, 0, {{0, 0, 0.5}, LEVEL}}, b = {1, 0, {{1, 0, 0.5}, LEVEL}},
+                   c = {2, 0, {{11, 0, 0.5}, LEVEL}};
     tahr_body_pose both[2] = {b, c}, swapped[3] = {c, a, b};
     (void)unused;
     open_stage(&r);
