@@ -295,7 +295,7 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     vec3 start = step->state.position, began = step->state.velocity;
     double used = duration;
     int pushed = tahr__move(step, chord, hit);
-    int met = hit->blocking && !hit->start_overlap && !hit->unknown;
+    int met = is_met(hit);
     if (met && f->plane_count == 0 && !pushed) {
         step->state.position = start;
         used = meet_on_arc(step, &a, chord, duration, hit);

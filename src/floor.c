@@ -300,7 +300,7 @@ static double adjust_shrunk(tahr__step *step)
     const tahr_hit *hit = &swept.hit;
     double height = dot(sub(step->state.position, before), up);
     shift_floor(step, height);
-    if (asked < 0 && hit->blocking && !hit->start_overlap) {
+    if (asked < 0 && is_blocked(hit)) {
         double distance = dot(sub(step->state.position, swept.location), up);
         if (tahr__is_walkable(step, hit, tahr__was_walkable(step, hit))) {
             fill(&step->state.floor, hit, distance, TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE);

@@ -132,7 +132,7 @@ int tahr__glide_two_walls(tahr__step *step, tahr__glide *g, const tahr__glide_mo
     int up = 0;
     tahr__safe_move(step, m->way, &swept);
     *hit = swept.hit;
-    if (hit->blocking && !hit->start_overlap && !hit->unknown) {
+    if (is_met(hit)) {
         double rest = 1 - hit->fraction;
         step->ahead = m->time * hit->fraction;
         up = tahr__glide_step_up(step, g, hit, scale(m->way, rest), m->keeps);

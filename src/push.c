@@ -153,7 +153,7 @@ static int push_up_step(tahr__step *step, uint32_t body, const meeting *m)
     tahr__scope_open(step, &scope);
     step->ignore_body = body;
     tahr__sweep(step, &step->limits->shape, from, way, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
-    if (hit.blocking && !hit.start_overlap && !hit.unknown) {
+    if (is_met(&hit)) {
         step->state.position = add_scaled(from, way, hit.fraction);
         covered = tahr__step_up(step, scale(way, 1 - hit.fraction), &hit);
     }

@@ -26,11 +26,6 @@ static int refuse(tahr__step *step, const tahr_hit *hit, double value, double li
     return tahr__decide(step, TAHR_RULE_STEP_UP, 0, hit, value, limit, reason);
 }
 
-static int is_blocked(const tahr_hit *hit)
-{
-    return hit->blocking && !hit->start_overlap;
-}
-
 /* CanStepUp */
 static int can_step_up(const tahr__step *step, const tahr_hit *hit)
 {

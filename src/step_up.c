@@ -50,7 +50,7 @@ static int forward(tahr__step *step, vec3 motion, attempt *a)
         return refuse(step, &ahead, ahead.fraction, 0, "blocked at step height too");
     }
     tahr__sweep(step, &step->limits->shape, step->state.position, scale(a->up, a->lift), c->skin, 0, &above);
-    if (above.blocking && !above.start_overlap) { /* a ceiling: as high as it lets */
+    if (is_blocked(&above)) { /* a ceiling: as high as it lets */
         a->lift *= above.fraction;
         a->covered = free_ahead(step, motion, a->lift, &ahead);
     }

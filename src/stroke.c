@@ -107,26 +107,32 @@ static double passing(const tahr__stroke *s, double v0, double from, double to, 
     return to;
 }
 
+/* m of rise that are not left. */
+typedef struct band {
+    double low, high;
+} band;
+
 /* On a part of the time on which the rise only rises or only sinks. */
-static int passes(const tahr__stroke *s, double v0, double from, double to, double low, double high, double *at)
+static int passes(const tahr__stroke *s, double v0, double from, double to, const band *b, double *at)
 {
     double v, z = rise_at(s, v0, to, &v);
-    if (z <= high && z >= low) {
+    if (z <= b->high && z >= b->low) {
         return 0;
     }
-    *at = passing(s, v0, from, to, z > high ? high : low, z > high);
+    *at = passing(s, v0, from, to, z > b->high ? b->high : b->low, z > b->high);
     return 1;
 }
 
 double tahr__stroke_leaves(const tahr__stroke *s, vec3 velocity, double t, double low, double high)
 {
+    const band between = {low, high};
     double v0 = dot(velocity, s->up), v, at = t;
     rise_at(s, v0, t, &v);
     double turn = (v0 > 0 && v < 0) || (v0 < 0 && v > 0) ? turning_point(s, v0, t) : 0;
-    if (turn > 0 && passes(s, v0, 0, turn, low, high, &at)) {
+    if (turn > 0 && passes(s, v0, 0, turn, &between, &at)) {
         return at;
     }
-    passes(s, v0, turn, t, low, high, &at);
+    passes(s, v0, turn, t, &between, &at);
     return at;
 }
 

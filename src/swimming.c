@@ -272,8 +272,7 @@ static int move_piece(tahr__step *step, tahr__glide *g, const piece *p, tahr_hit
     }
     step->state.velocity = then;
     tahr__glide_use(step, g, used);
-    return hit->blocking && !hit->unknown && !hit->start_overlap &&
-           tahr__glide_step_up(step, g, hit, scale(way, 1 - hit->fraction), stands_here);
+    return is_met(hit) && tahr__glide_step_up(step, g, hit, scale(way, 1 - hit->fraction), stands_here);
 }
 
 /* One piece of the slice, from where the water is known. Returns 0 where the slice ends early: *next says how. */

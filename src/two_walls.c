@@ -120,11 +120,6 @@ void tahr__handle_impact(tahr__step *step, const tahr_hit *hit)
     tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(step->state.velocity, hit->normal), 0));
 }
 
-static int is_blocked(const tahr_hit *hit)
-{
-    return hit->blocking && !hit->start_overlap;
-}
-
 static int is_worth_a_sweep(const tahr__step *step, vec3 v)
 {
     double least = NO_MOTION * step->config->pull_back;

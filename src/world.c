@@ -12,33 +12,35 @@
 #include "sized.h"
 #include "world_memory.h"
 
-tahr_status tahr_world_desc_init(tahr_world_desc *desc, size_t size)
+/* A description with nothing in it but its size. */
+static tahr_status clear_sized(void *desc, size_t size, size_t least)
 {
+    const uint32_t struct_size = (uint32_t)size;
     if (!desc) {
         return TAHR_E_NULL;
     }
-    if (size < sizeof *desc) {
+    if (size < least) {
         return TAHR_E_STRUCT_SIZE;
     }
     memset(desc, 0, size);
-    desc->struct_size = (uint32_t)size;
+    memcpy(desc, &struct_size, sizeof struct_size);
     return TAHR_OK;
+}
+
+tahr_status tahr_world_desc_init(tahr_world_desc *desc, size_t size)
+{
+    return clear_sized(desc, size, sizeof *desc);
 }
 
 tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint32_t type)
 {
-    if (!desc) {
-        return TAHR_E_NULL;
+    tahr_status status = clear_sized(desc, size, sizeof *desc);
+    if (status >= 0) {
+        desc->type = type;
+        desc->mask = 0xFFFFFFFFu;
+        desc->pose.orientation.w = 1;
     }
-    if (size < sizeof *desc) {
-        return TAHR_E_STRUCT_SIZE;
-    }
-    memset(desc, 0, size);
-    desc->struct_size = (uint32_t)size;
-    desc->type = type;
-    desc->mask = 0xFFFFFFFFu;
-    desc->pose.orientation.w = 1;
-    return TAHR_OK;
+    return status;
 }
 
 static void silent(void *user, int32_t level, const char *message)
