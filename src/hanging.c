@@ -68,12 +68,12 @@ int tahr__find_edge(tahr__step *step, vec3 facing, double below, tahr_hit *edge)
     return tahr__decide(step, TAHR_RULE_LEDGE_GRAB, !ceiling.blocking, edge, below, 0, "an edge");
 }
 
-static int is_spent(const tahr__step *step, vec3 facing, const tahr_hit *edge)
+/* Whichever way it faces: between two walls close to each other nobody would come down any more. */
+static int is_spent(const tahr__step *step, const tahr_hit *edge)
 {
     const tahr_floor *old = &step->state.floor;
     double apart = dot(sub(edge->point, old->point), step->state.up), reach = step->config->ledge_grab;
-    return step->state.flags & TAHR_STATE_EDGE_SPENT && dot(old->normal, facing) > 0.5 && apart < reach &&
-           apart > -reach;
+    return step->state.flags & TAHR_STATE_EDGE_SPENT && apart < reach && apart > -reach;
 }
 
 static void keep_edge(tahr__step *step, vec3 facing, const tahr_hit *edge)
@@ -120,7 +120,7 @@ int tahr__grab_edge(tahr__step *step, vec3 facing, const tahr_hit *edge)
 {
     tahr_state *s = &step->state;
     double height = -tahr__edge_depth(step, edge);
-    if (step->input->crouch || is_spent(step, facing, edge)) {
+    if (step->input->crouch || is_spent(step, edge)) {
         return tahr__decide(step, TAHR_RULE_LEDGE_GRAB, 0, edge, height, step->config->ledge_grab, "let go");
     }
     if (!level_with(step, edge)) {

@@ -132,10 +132,18 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
             step->state.position = to;
             return NO_FLOOR;
         }
+        const double left = w->left;
+        const vec3 above = step->state.position;
         tahr__keep_floor(step, &floor);
         tahr__path_cut(step, w, inside);
         tahr__path_look_ahead(step, w);
         settle(step);
+        /* Something beside the way down holds it up: what was found below the rim of the foot is no floor to go on. */
+        if (dot(sub(above, step->state.position), step->state.up) < step->config->skin) {
+            w->left = left;
+            step->state.position = to;
+            return NO_FLOOR;
+        }
         tahr__path_carry_floor(w, step);
     }
     w->lost = w->duration - tahr__path_used(w);
