@@ -7,7 +7,7 @@
 void tahr__trail_begin(tahr__trail *trail, tahr__step *step)
 {
     const tahr_state *s = &step->state;
-    trail->count = trail->timed = trail->resolved = trail->held = trail->asked = 0;
+    trail->count = trail->timed = trail->resolved = trail->held = trail->spans = trail->asked = 0;
     trail->current = s->mode == TAHR_MODE_WALKING && s->floor_revision == step->world->revision &&
                      vec_equal(s->floor_position, s->position);
     trail->swept = trail->clear = 0;

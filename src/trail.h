@@ -38,6 +38,7 @@ typedef struct tahr__trail {
     uint32_t timed;    /* the first so many legs have their times */
     uint32_t resolved; /* legs that were asked about and forgotten */
     uint32_t held;     /* 1: a scope may take legs back; until the slice ends */
+    uint32_t spans;    /* 1: that scope goes on over the ends of slices (wading.c) */
     uint32_t asked;    /* sweeps for sensors */
     uint32_t current;  /* at the start of the step neither the character nor the world had moved since the last one */
     uint32_t swept, clear;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * room.h: a room with a lift, a belt, a pool, a sensor and a crate, in which something moves now and then, and a character
- * of whom anything may be asked. */
+ * room.h: a room with a lift, a belt, a pool, a sensor and a crate, in which something moves now and then, and a
+ * character of whom anything may be asked. */
 #ifndef ROOM_H
 #define ROOM_H
 

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "sensor_rig.h"
+#include "stage.h"
 
 /* When a sensor was entered and left, in the rig's time; < 0: it was not. Every step's events are in order. */
 typedef struct visit {
@@ -140,12 +141,55 @@ static void row_X3_a_thin_sensor_is_begun_then_ended_in_the_step_that_passes_it(
     }
 }
 
+/* Down a slope of 30 degrees into the water, which is a sensor too, in one long step: the walk that leads too deep is
+ * taken back, and begins the sensor once, when a walk without water does. */
+static tahr_event wade_in(uint32_t kind, uint32_t *mode)
+{
+    const double half = 15 * 3.14159265358979323846 / 180;
+    tahr_body_desc bodies[2] = {stage_ground(), stage_box(fake_vec(0, 0, -10), fake_vec(50, 50, 10))};
+    tahr_config c;
+    rig r;
+    bodies[0].pose.orientation = (tahr_quat){0, sin(half), 0, cos(half)}; /* its top would be lower by 1 / cos - 1 */
+    bodies[0].pose.position = fake_vec(-sin(2 * half), 0, -cos(2 * half));
+    bodies[1].flags = kind;
+    assert_int_equal(tahr_config_init(&c, sizeof c, TAHR_PRESET_UNREAL), TAHR_OK);
+    c.max_substep = 0.02;
+    c.max_substeps = 32;
+    rig_open_bodies(&r, bodies, 2, &c, fake_vec(-0.8, 0, 1.6));
+    rig_settle(&r);
+    r.input.move = fake_vec(1, 0, 0);
+    r.state.velocity = fake_vec(6, 0, 0);
+    rig_step(&r, 0.6);
+    rig_assert_in_order(&r, 0.6);
+    assert_int_equal(sensor_events(&r, TAHR_EVENT_OVERLAP_BEGIN), 1);
+    assert_int_equal(sensor_events(&r, TAHR_EVENT_OVERLAP_END), 0);
+    assert_true(r.state.touched_count == 1 && r.state.touched[0] == 1);
+    tahr_event e = *rig_event(&r, TAHR_EVENT_OVERLAP_BEGIN);
+    *mode = r.state.mode;
+    rig_close(&r);
+    return e;
+}
+
+static void a_walk_that_is_taken_back_at_the_water_line_begins_its_sensor_once(void **unused)
+{
+    uint32_t mode;
+    (void)unused;
+    tahr_event dry = wade_in(TAHR_BODY_SENSOR, &mode);
+    assert_int_equal(mode, TAHR_MODE_WALKING);
+    tahr_event wet = wade_in(TAHR_BODY_FLUID, &mode);
+    assert_int_equal(mode, TAHR_MODE_SWIMMING);
+    assert_true(dry.time > 0.02 && dry.time < 0.3);
+    assert_near(wet.time, dry.time, 1e-9);
+    assert_near(wet.position.x, dry.position.x, 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_walk_at_constant_speed_enters_and_leaves_on_time),
         cmocka_unit_test(a_walk_that_speeds_up_enters_and_leaves_on_time),
         cmocka_unit_test(a_fall_enters_and_leaves_on_time),
-        cmocka_unit_test(row_X3_a_thin_sensor_is_begun_then_ended_in_the_step_that_passes_it)};
+        cmocka_unit_test(row_X3_a_thin_sensor_is_begun_then_ended_in_the_step_that_passes_it),
+        cmocka_unit_test(a_walk_that_is_taken_back_at_the_water_line_begins_its_sensor_once)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * test_rollback_inputs.c: with all that an input may ask for, among bodies that move now and then, in water and on edges:
- * any earlier state, with the bodies put back, goes the same way again, on the same mover and in another world. */
+ * test_rollback_inputs.c: with all that an input may ask for, among bodies that move now and then, in water and on
+ * edges: any earlier state, with the bodies put back, goes the same way again, on the same mover and in another
+ * world. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_sleep_inputs.c: with all that an input may ask for, among bodies that move now and then, in water and on edges: a
- * mover that sleeps goes the same way as one that never does. */
+ * test_sleep_inputs.c: with all that an input may ask for, among bodies that move now and then, in water and on edges:
+ * a mover that sleeps goes the same way as one that never does. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
