@@ -7,11 +7,13 @@
 
 #include "core.h"
 
-/* Does the state remember nothing, from radius on? Then it is all of it in order. */
+/* Does the state remember nothing, from radius on? Then all of that is in order. */
 static inline int state_is_blank(const tahr_mover *mover, const tahr_state *s)
 {
-    const size_t from = offsetof(tahr_state, radius);
-    return memcmp((const char *)s + from, (const char *)&mover->blank + from, sizeof *s - from) == 0;
+    const size_t from = offsetof(tahr_state, base);
+    const tahr_shape *shape = &mover->config.shape;
+    return memcmp(&s->radius, &shape->radius, 2 * sizeof s->radius) == 0 && /* and half_height, in both */
+           memcmp((const char *)s + from, (const char *)&tahr__blank + from, sizeof *s - from) == 0;
 }
 
 /* Is everything else in order too, and as simple as it almost always is? What is not gets the whole check, which names

@@ -90,8 +90,8 @@ static void forget_base(tahr_base *base)
     base->pose.orientation.w = 1;
 }
 
-/* Hands the velocity of the base over to who leaves it: the present one, or the one remembered since it stopped. */
-static void leave_base(tahr__step *step)
+/* What a base hands to who leaves it: its present velocity, or the one remembered since it stopped. */
+static vec3 handed_over(tahr__step *step)
 {
     tahr_state *s = &step->state;
     tahr_body_motion motion;
@@ -100,7 +100,13 @@ static void leave_base(tahr__step *step)
         vec3 now = tahr__point_velocity(&motion, step_foot(step), (step->config->impart & TAHR_IMPART_TURN) != 0);
         v = length_squared(now) > 0 || s->lift_left == 0 ? now : v;
     }
-    v = imparted(step, v);
+    return imparted(step, v);
+}
+
+static void leave_base(tahr__step *step)
+{
+    tahr_state *s = &step->state;
+    vec3 v = handed_over(step);
     s->velocity = bounded(add(s->velocity, v));
     forget_base(&s->base);
     s->base.velocity = add(v, vec(0, 0, 0));
@@ -243,21 +249,61 @@ static void follow(tahr__step *step, double dt)
     step->frame_velocity = tahr__point_velocity(&motion, step_foot(step), 1);
 }
 
-/* What is left of an imparted velocity decays; what something else has stopped already is not taken away again. */
-static void decay(tahr__step *step, double dt)
+/* An imparted velocity v decays for so long: until then it moves by its mean, which finish_decay takes off to what is left
+ * in the end. Returns the mean's part of it. */
+static double begin_decay(tahr__step *step, vec3 v, double time)
+{
+    double half_life = step->config->imparted_half_life, size = length(v);
+    if (size == 0 || half_life == 0 || time <= 0) {
+        return 1;
+    }
+    double x = 0.6931471805599453 * time / half_life, lost = -tahr__expm1(-x);
+    double left = size * (1 - lost);
+    step->decay_mean = size * min_of(lost / x, 1);
+    step->decay_left = left < 1e-9 ? 0 : left;
+    return step->decay_mean / size;
+}
+
+/* What something else has stopped already is not taken away again. */
+static void take_off(tahr__step *step, vec3 v, double much)
+{
+    vec3 way = unit(v);
+    step->state.velocity = add_scaled(step->state.velocity, way, -clamp(dot(step->state.velocity, way), 0, much));
+}
+
+static void finish_decay(tahr__step *step)
 {
     tahr_state *s = &step->state;
-    vec3 v = s->base.velocity;
-    double size = length(v);
-    if (size == 0 || step->config->imparted_half_life == 0) {
+    if (step->decay_mean > 0) {
+        take_off(step, s->base.velocity, step->decay_mean - step->decay_left);
+        s->base.velocity = add(scale(unit(s->base.velocity), step->decay_left), vec(0, 0, 0));
+        step->decay_mean = 0;
+    }
+}
+
+static void decay(tahr__step *step, double time)
+{
+    vec3 v = step->state.base.velocity;
+    double part = begin_decay(step, v, time);
+    if (part < 1) {
+        take_off(step, v, length(v) * (1 - part));
+    }
+}
+
+void tahr__step_off(tahr__step *step)
+{
+    double left = step->dt - step->time - step->ahead;
+    if (!step->frame_is_base || step->frame_body == TAHR_NO_BODY || step->state.base.body == TAHR_NO_BODY) {
         return;
     }
-    double lost = -size * tahr__expm1(-0.6931471805599453 * dt / step->config->imparted_half_life);
-    double left = size - lost < 1e-9 ? 0 : size - lost;
-    vec3 way = scale(v, 1 / size);
-    double taken = clamp(dot(s->velocity, way), 0, size - left);
-    s->velocity = add_scaled(s->velocity, way, -taken);
-    s->base.velocity = add(scale(way, left), vec(0, 0, 0));
+    if (length_squared(step->frame_velocity) == 0) { /* it has stopped: what it hands over nothing else carries */
+        leave_frame(step);
+        decay(step, left);
+        base_changed(step, TAHR_NO_BODY);
+        return;
+    }
+    vec3 v = handed_over(step);
+    step->state.velocity = add_scaled(step->state.velocity, v, begin_decay(step, v, left) - 1);
 }
 
 /* What it stands on has begun to move. */
@@ -283,6 +329,7 @@ void tahr__ride(tahr__step *step, double dt)
     int moved = world->moved_count > 0 && s->base.seen != seen;
     step->frame_body = TAHR_NO_BODY;
     step->frame_is_base = 0;
+    step->decay_mean = 0;
     if (s->mode != TAHR_MODE_NONE) {
         if (moved && s->base.body == TAHR_NO_BODY) {
             adopt_base(step);
@@ -345,6 +392,7 @@ void tahr__note_base(tahr__step *step)
         if (old != TAHR_NO_BODY && s->base.body != TAHR_NO_BODY) { /* frozen, or put into another mode */
             forget_base(&s->base);
         }
+        finish_decay(step);
         if (s->mode == TAHR_MODE_WALKING) {
             s->base.velocity = vec(0, 0, 0);
             s->lift_left = 0;

@@ -11,6 +11,7 @@
 
 void tahr__ride(tahr__step *step, double dt);
 void tahr__note_base(tahr__step *step);
+void tahr__step_off(tahr__step *step);
 void tahr__board(tahr__step *step, uint32_t body);
 
 /* Sweeps the character by motion, bent along what is in the way. Returns m that it fell short. At most 4 moves. */
@@ -29,6 +30,14 @@ static inline void tahr__take_base(tahr__step *step)
 {
     if (step->world->has & TAHR__HAS_BASES) {
         tahr__note_base(step);
+    }
+}
+
+/* Leaves its floor: by a jump, off a ledge. */
+static inline void tahr__part_from_base(tahr__step *step)
+{
+    if (step->world->has & TAHR__HAS_BASES && (step->state.lift_left > 0 || step->config->imparted_half_life > 0)) {
+        tahr__step_off(step);
     }
 }
 

@@ -89,6 +89,7 @@ typedef struct tahr__limits {
     double width;               /* m, half width of the shape: what perch and edge rules measure against */
     double around;              /* m, radius of the circle around the shape seen along its axis */
     double speed;               /* m/s that a whole stick asks for on ground */
+    double beside, below;       /* m beyond its motion that a step asks about */
     double axis;                /* m, half of the segment that rounding makes a capsule, or half the height of a box */
     tahr__pull pull;            /* of config.gravity, in the plane */
     tahr__foot foot;            /* of the whole shape */
@@ -118,6 +119,9 @@ typedef struct tahr__custom {
     void *user;
 } tahr__custom;
 
+/* What a state remembers, from base on, that has nothing to remember. */
+extern const tahr_state tahr__blank;
+
 struct tahr_mover {
     tahr_world *world;
     tahr_config config;
@@ -125,8 +129,7 @@ struct tahr_mover {
     void *cache;
     size_t cache_size;
     uint32_t busy;
-    uint32_t plain;   /* 1: neither world nor config hold anything that a state remembers */
-    tahr_state blank; /* what a state remembers that has nothing to remember: from radius on */
+    uint32_t plain; /* 1: neither world nor config hold anything that a state remembers */
     tahr__custom custom;
     tahr__sleep sleep;
 };
@@ -155,14 +158,16 @@ struct tahr__step {
     uint32_t frame_body;      /* what state.velocity is relative to in this step, or TAHR_NO_BODY (base_motion.c) */
     uint32_t frame_is_base;   /* 1: it stood on it; 0: it meets it in the air */
     vec3 frame_velocity;      /* m/s, of that body at the foot */
+    double decay_mean;        /* m/s, of an imparted velocity in what is left of this step; 0: none decays */
+    double decay_left;        /* m/s, of it at the end of the step */
     double dt;                /* s of the whole step */
+    double push_left;         /* m of depenetration still allowed */
     double time;              /* s since the start of the step, at the begin of the slice */
     double ahead;             /* s from there to what is being worked on: events happen then */
-    double push_left;         /* m of depenetration still allowed */
     uint32_t queries;         /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
+    tahr_status error;        /* sticky: after it every query answers "blocked here" */
     uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
     uint32_t apexes;          /* of them cut short at an apex */
-    tahr_status error;        /* sticky: after it every query answers "blocked here" */
 };
 
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */

@@ -162,6 +162,12 @@ static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
     }
     tahr__supplied met = {.hit = hit};
     tahr__find_floor(step, step->config->snap_distance, &met, floor);
+    /* Which of the faces of an edge a motion meets is the motion's affair, what stands on it is not: a wish along the top
+     * would hold it up in the air for good. */
+    if (!floor_is_walkable(floor) && !(floor->flags & TAHR_FLOOR_FACE) &&
+        dot(hit->normal, hit->surface_normal) < 1 - 1e-6) {
+        tahr__find_floor(step, step->config->snap_distance, NULL, floor);
+    }
     int near = floor->distance <= step->config->floor_max * step->config->skin;
     return tahr__decide(step, TAHR_RULE_LANDING, floor_is_walkable(floor) && near, hit, floor->distance,
                         step->config->floor_max * step->config->skin, "floor where it fell");

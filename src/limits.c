@@ -30,6 +30,8 @@ tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t
     tahr__limits limits;
     double sine;
     limits.shape = *s;
+    limits.beside = 4 * c->skin;
+    limits.below = c->snap_distance + c->perch_extra;
     limits.usual = c->integrator == TAHR_INTEGRATOR_EXACT && c->slide_solver == TAHR_SLIDE_JOINT &&
                    c->separation == TAHR_SEPARATION_MARGIN && c->depenetration == TAHR_DEPENETRATION_JOINT;
     tahr__sincos(c->walkable_angle, &sine, &limits.walkable);

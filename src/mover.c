@@ -67,7 +67,6 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
     mover->cache = cache;
-    tahr_state_init(&mover->blank, &mover->config, &(vec3){0, 0, 0});
     mover->cache_size = cache_size;
     *out = mover;
     return TAHR_OK;
@@ -89,12 +88,12 @@ static void announce(tahr__step *step, double dt, int stance)
 {
     const tahr_config *c = step->config;
     vec3 v = step->state.velocity;
-    double level = max_of(length(v), c->max_speed) * dt + 4 * c->skin;
+    double level = max_of(length(v), c->max_speed) * dt + step->limits->beside;
     double fall = step->state.mode == TAHR_MODE_FALLING ? 0.5 * step->pull->size * dt * dt : 0;
     double rise = max_of(c->step_height, c->jump_speed * dt);
-    double drop = c->snap_distance + c->perch_extra + fall;
+    double drop = step->limits->below + fall;
     vec3 up = step->state.up, p = step->state.position;
-    vec3 away = vec(max_of(up.x, -up.x), max_of(up.y, -up.y), max_of(up.z, -up.z));
+    vec3 away = vec(fabs(up.x), fabs(up.y), fabs(up.z));
     double around = step->limits->around + level;
     vec3 half = add_scaled(vec(around, around, around), away, step->limits->axis + 0.5 * (rise + drop));
     vec3 middle = add_scaled(p, up, 0.5 * (rise - drop));
@@ -319,15 +318,14 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         pull = tahr__pull_of(along_plane(&mover->limits, input->gravity));
         step.pull = &pull;
     }
-    step.time = 0;
-    step.ahead = 0;
-    step.push_left = mover->config.max_depenetration;
-    step.queries = 0;
-    step.iterations = step.apexes = 0;
     step.ignore_body = TAHR_NO_BODY;
     step.just_teleported = 0;
     step.dt = dt;
+    step.push_left = mover->config.max_depenetration;
+    step.time = step.ahead = 0;
+    step.queries = 0;
     step.error = TAHR_OK;
+    step.iterations = step.apexes = 0;
     step.trail = NULL;
     if (step.world->has & TAHR__HAS_SENSORS) {
         tahr__trail_begin(&trail, &step);

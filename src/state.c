@@ -3,19 +3,23 @@
 #include <string.h>
 
 #include "sized.h"
-#include "vec.h"
+#include "core.h"
 #include <tahr/tahr.h>
 
 _Static_assert(sizeof(tahr_state) == 512, "tahr_state is 512 bytes for a whole ABI range");
 
+#define NOBODY TAHR_NO_BODY
+const tahr_state tahr__blank = {.base = {.body = NOBODY, .pose = {.orientation = {0, 0, 0, 1}}},
+                                .touched = {NOBODY, NOBODY, NOBODY, NOBODY, NOBODY, NOBODY, NOBODY, NOBODY},
+                                .wall_body = NOBODY,
+                                .drop_body = NOBODY};
+#undef NOBODY
+
 /* What belongs to the place that a character is at. */
 static void forget_places(tahr_state *state)
 {
-    state->base = (tahr_base){.body = TAHR_NO_BODY};
-    state->base.pose.orientation.w = 1;
-    for (int i = 0; i < TAHR_MAX_TOUCHED; i++) {
-        state->touched[i] = TAHR_NO_BODY;
-    }
+    state->base = tahr__blank.base;
+    memcpy(state->touched, tahr__blank.touched, sizeof state->touched);
     state->touched_count = 0;
     state->coyote_left = state->lift_left = state->wall_left = 0;
     state->wall_normal = vec(0, 0, 0);

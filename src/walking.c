@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "base_motion.h"
 #include "floor.h"
 #include "ledge.h"
 #include "move.h"
@@ -27,6 +28,7 @@ void tahr__leave_floor(tahr__step *step)
         double rise = dot(floor->surface_normal, v) / dot(floor->surface_normal, step->state.up);
         step->state.velocity = scale(v, sqrt(size2 / (size2 + rise * rise)));
     }
+    tahr__part_from_base(step);
 }
 
 /* Leaves the floor at the place, and the time, where it ended. */
@@ -39,11 +41,11 @@ static tahr__next fall_off(tahr__step *step, tahr__path *w, vec3 to, double part
     tahr__path_cut(step, w, part);
     double used = tahr__path_used(w);
     step->state.velocity = tahr__law_advance(&w->law, w->velocity, used).velocity;
+    step->time += w->began + used;
+    step->ahead = 0;
     tahr__leave_floor(step);
     tahr__keep_floor(step, &none);
     step->state.floor_revision = 0;
-    step->time += w->began + used;
-    step->ahead = 0;
     tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, TAHR_LEFT_LEDGE);
     tahr__next next = {TAHR_MODE_FALLING, w->duration - used};
     return next;

@@ -41,6 +41,13 @@ static int comes_before(const tahr_hit *a, const tahr_hit *b)
     return a->body != b->body ? a->body < b->body : a->feature < b->feature;
 }
 
+/* Of sensors: depth is no order, for it is another one at every place. */
+static int answered_before(const tahr_hit *a, const tahr_hit *b)
+{
+    if (a->fraction != b->fraction) return a->fraction < b->fraction;
+    return a->body != b->body ? a->body < b->body : a->feature < b->feature;
+}
+
 static void keep_sensor(search *s, const tahr_hit *hit)
 {
     uint32_t i = 0;
@@ -54,9 +61,9 @@ static void keep_sensor(search *s, const tahr_hit *hit)
     } else {
         uint32_t last = 0;
         for (i = 1; i < MAX_SENSORS; i++) {
-            if (comes_before(&s->sensors[last], &s->sensors[i])) last = i;
+            if (answered_before(&s->sensors[last], &s->sensors[i])) last = i;
         }
-        if (comes_before(hit, &s->sensors[last])) s->sensors[last] = *hit;
+        if (answered_before(hit, &s->sensors[last])) s->sensors[last] = *hit;
         s->lost = 1;
     }
 }
@@ -165,12 +172,12 @@ static uint32_t write_hits(search *s, tahr_hit *hits, uint32_t capacity, int *lo
         uint32_t at = count;
         if (s->found && hit.fraction > s->best.fraction) continue;
         *lost |= count == room;
-        if (count == room && (room == 0 || !comes_before(&hit, &hits[room - 1]))) continue;
+        if (count == room && (room == 0 || !answered_before(&hit, &hits[room - 1]))) continue;
         if (count == room)
             at = room - 1;
         else
             count++;
-        for (; at > 0 && comes_before(&hit, &hits[at - 1]); at--)
+        for (; at > 0 && answered_before(&hit, &hits[at - 1]); at--)
             hits[at] = hits[at - 1];
         hits[at] = hit;
     }

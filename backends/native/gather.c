@@ -155,8 +155,9 @@ uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr_
     tahr__lanes_query q;
     lanes_query(s, &q);
     uint32_t count = query->world->cull(&lanes, &q, found), kept = 0;
-    if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY)
-        return query->sensors == TAHR__SENSORS_ONLY ? 0 : count;
+    if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY &&
+        query->sensors != TAHR__SENSORS_ONLY)
+        return count;
     for (uint32_t i = 0; i < count; i++) {
         found[kept] = found[i];
         kept += (uint32_t)concerns(query, &all[found[i].index]);

@@ -84,6 +84,12 @@ void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat or
     }
 }
 
+/* Of sensors: depth is no order, for it is another one in every precision and at every place. */
+static int answered_before(const tahr__found *a, const tahr__found *b)
+{
+    return a->t != b->t ? a->t < b->t : tahr__named_before(a, b);
+}
+
 static void note_sensor(sweep_state *s, const tahr__found *f)
 {
     for (uint32_t i = 0; i < s->sensor_count; i++) {
@@ -97,9 +103,9 @@ static void note_sensor(sweep_state *s, const tahr__found *f)
     }
     uint32_t last = 0;
     for (uint32_t i = 1; i < SENSORS; i++) {
-        if (tahr__found_before(&s->sensors[last], &s->sensors[i])) last = i;
+        if (answered_before(&s->sensors[last], &s->sensors[i])) last = i;
     }
-    if (tahr__found_before(f, &s->sensors[last])) s->sensors[last] = *f;
+    if (answered_before(f, &s->sensors[last])) s->sensors[last] = *f;
     s->lost = 1;
 }
 
@@ -299,7 +305,7 @@ static tahr_status report(sweep_state *s, tahr_hit *hits, uint32_t capacity, uin
         if (s->tied && s->sensors[i].t > s->first) continue;
         tahr__found f = s->sensors[i];
         uint32_t k = kept++;
-        for (; k > 0 && tahr__found_before(&f, &s->sensors[k - 1]); k--)
+        for (; k > 0 && answered_before(&f, &s->sensors[k - 1]); k--)
             s->sensors[k] = s->sensors[k - 1];
         s->sensors[k] = f;
     }
@@ -324,9 +330,8 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.mask = sweep->mask;
     query.ignore_body = sweep->ignore_body;
     query.flags = sweep->flags;
-    query.sensors = sweep->flags & TAHR_SWEEP_SENSORS ? TAHR__SENSORS_ONLY
-                    : capacity > 1                    ? TAHR__SENSORS_TOO
-                                                      : TAHR__SENSORS_NONE;
+    query.sensors = capacity > 1 ? TAHR__SENSORS_TOO : TAHR__SENSORS_NONE;
+    if (sweep->flags & TAHR_SWEEP_SENSORS) query.sensors = TAHR__SENSORS_ONLY;
     s.search.query = &query;
     s.search.box = tahr__query_box(&query, 1.0);
     s.search.reach = query.radius + query.margin;

@@ -9,7 +9,7 @@
 
 #include "scene_check.h"
 
-enum { MAX_FILES = 128 };
+enum { MAX_FILES = 256 };
 
 typedef struct filter {
     const char *scene, *backend;
@@ -43,6 +43,10 @@ static int list_scenes(char **files)
     }
     if (folder) {
         closedir(folder);
+    }
+    if (count == MAX_FILES) {
+        printf("too many scenes\n");
+        exit(1);
     }
     qsort(files, (size_t)count, sizeof *files, by_name);
     return count;

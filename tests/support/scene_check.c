@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene_measure.h"
 #include "scene_motion.h"
 
 int scene_violated(scene_case *c, double time, const char *what, double value, double limit)
@@ -70,7 +71,7 @@ static int check_vector(scene_case *c)
     for (int i = 0; i < c->record->count; i++) {
         const scene_sample *s = &c->record->samples[i];
         if (fabs(s->time - at) < 1e-9) {
-            return compare(c, at, text(c, "kind"), velocity ? s->state.velocity : s->state.position, wanted);
+            return compare(c, at, text(c, "kind"), velocity ? scene_velocity(c, s) : s->state.position, wanted);
         }
     }
     return scene_violated(c, at, "no step ends there; time", c->scene->duration, at);
@@ -147,7 +148,7 @@ static int check_event(scene_case *c)
         }
         double time = scene_member(c, "time", e->time), value = scene_member(c, "value", e->value);
         double time_tolerance = scene_member(c, "time_tolerance", tolerance * fmax(1, time));
-        if (lands_level(e)) {
+        if (lands_level(e) && c->scene->config.separation == TAHR_SEPARATION_MARGIN) {
             time_tolerance = fmin(time_tolerance, 1e-9 * time + 2 * c->backend->level_error);
             tolerance = fmin(tolerance, 1e-9 + 2 * c->backend->level_error);
         }
@@ -158,6 +159,9 @@ static int check_event(scene_case *c)
         }
         if (!(fabs(e->value - value) <= tolerance * fmax(1, fabs(value)))) {
             return scene_violated(c, e->time, "value of the event", e->value, value);
+        }
+        if (json_object_get(c->item, "body") && (double)e->body != scene_member(c, "body", 0)) {
+            return scene_violated(c, e->time, "body of the event", e->body, scene_member(c, "body", 0));
         }
         return !wanted || (scene_vec3(c->scene, wanted, &place) && compare(c, e->time, "place", e->position, place));
     }
@@ -179,31 +183,6 @@ static int check_events(scene_case *c)
     return count == wanted ? 1 : scene_violated(c, last, text(c, "type"), count, wanted);
 }
 
-static double way_between(const scene_sample *a, const scene_sample *b)
-{
-    tahr_vec3 p = a->state.position, q = b->state.position;
-    return sqrt((q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y) + (q.z - p.z) * (q.z - p.z));
-}
-
-static double measure(const scene_case *c, const scene_sample *s, const char *of)
-{
-    const tahr_state *t = &s->state;
-    if (strcmp(of, "x") == 0) return t->position.x;
-    if (strcmp(of, "y") == 0) return t->position.y;
-    if (strcmp(of, "z") == 0) return t->position.z;
-    if (strcmp(of, "clearance") == 0) return s->clearance;
-    if (strcmp(of, "sweeps") == 0) return s->sweeps;
-    if (strcmp(of, "queries") == 0) return s->queries;
-    if (strcmp(of, "step_offset") == 0) return s->step_offset;
-    if (strcmp(of, "half_height") == 0) return t->half_height;
-    if (strcmp(of, "rise") == 0) return t->velocity.z;
-    if (strcmp(of, "speed") == 0) return sqrt(t->velocity.x * t->velocity.x + t->velocity.y * t->velocity.y);
-    if (strcmp(of, "path_speed") == 0 && s > c->record->samples) {
-        return way_between(s - 1, s) / s->dt;
-    }
-    return NAN;
-}
-
 static int check_range(scene_case *c)
 {
     const char *of = text(c, "of");
@@ -211,7 +190,7 @@ static int check_range(scene_case *c)
         const scene_sample *s = &c->record->samples[i];
         scene_names_set(&c->scene->names, "t", s->time);
         double low = scene_member(c, "min", -INFINITY), high = scene_member(c, "max", INFINITY);
-        double value = measure(c, s, of);
+        double value = scene_measure(c, s, of);
         if (scene_in_window(c, s) && !(value >= low && value <= high)) {
             return scene_violated(c, s->time, of, value, value < low ? low : high);
         }
@@ -258,8 +237,8 @@ static int check_idle(scene_case *c)
             continue;
         }
         if (first && pushes(s) && c->backend->push > 0) {
-            if (!(way_between(first, s) <= c->backend->push)) {
-                return scene_violated(c, s->time, "way moved by pushing", way_between(first, s), c->backend->push);
+            if (!(scene_way(first, s) <= c->backend->push)) {
+                return scene_violated(c, s->time, "way moved by pushing", scene_way(first, s), c->backend->push);
             }
         } else if (first && memcmp(&first->state, &s->state, sizeof s->state) != 0) {
             return scene_violated(c, s->time, "state changed by one bit or more; z", s->state.position.z,
@@ -285,7 +264,7 @@ static int compare_paths(scene_case *c, const tahr_pose *frame)
         scene_sample *there = &other.samples[i];
         tahr_vec3 p = there->state.position, o = frame->position;
         there->state.position = scene_turn_back(frame->orientation, (tahr_vec3){p.x - o.x, p.y - o.y, p.z - o.z});
-        double way = way_between(&c->record->samples[i], there);
+        double way = scene_way(&c->record->samples[i], there);
         if (!(way <= tolerance)) {
             ok = scene_violated(c, c->record->samples[i].time, "distance to the path in the other frame", way, 0);
         }
@@ -328,6 +307,9 @@ static const struct {
 
 static int check_one(scene_case *c)
 {
+    if (scene_member(c, "if", 1) == 0) {
+        return !c->failure[0];
+    }
     for (size_t k = 0; k < sizeof KINDS / sizeof KINDS[0]; k++) {
         if (strcmp(KINDS[k].kind, text(c, "kind")) == 0) {
             return KINDS[k].check(c) && !c->failure[0];
@@ -337,15 +319,27 @@ static int check_one(scene_case *c)
     return 0;
 }
 
-/* In every scene: once free, at least skin stays free after every move, and nobody is crushed. */
+/* m, that stays free of everything that blocks. PULL_BACK keeps a part of each motion off, which along a wall is nothing. */
+static double kept_free(const scene_case *c)
+{
+    int skin = c->scene->config.separation == TAHR_SEPARATION_MARGIN;
+    return skin ? c->backend->clearance * c->scene->config.skin : 0;
+}
+
+/* In every scene: once free, that much stays free after every move, nobody is crushed, and no step asks more than was
+ * promised. */
 static int check_always(scene_case *c)
 {
-    double needed = c->backend->clearance * c->scene->config.skin - c->backend->slack;
+    const double most = TAHR_MAX_QUERIES_PER_STEP + TAHR_MAX_SENSOR_QUERIES_PER_STEP;
+    double needed = kept_free(c) - c->backend->slack;
     int was_free = 0;
     for (int i = 0; i < c->record->count; i++) {
         const scene_sample *s = &c->record->samples[i];
         if (was_free && !(s->clearance >= needed) && !c->scene->may_be_crushed) {
-            return scene_violated(c, s->time, "clearance", s->clearance, c->backend->clearance * c->scene->config.skin);
+            return scene_violated(c, s->time, "clearance", s->clearance, kept_free(c));
+        }
+        if (s->queries > most) {
+            return scene_violated(c, s->time, "queries of a step", s->queries, most);
         }
         if ((s->flags & TAHR_REPORT_CRUSHED) && !c->scene->may_be_crushed) {
             return scene_violated(c, s->time, "crushed", 1, 0);

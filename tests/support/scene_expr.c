@@ -54,7 +54,11 @@ static double apply(reader *r, const char *name, double x)
     if (strcmp(name, "asin") == 0) return asin(x) / DEGREE;
     if (strcmp(name, "acos") == 0) return acos(x) / DEGREE;
     if (strcmp(name, "log") == 0) return log(x);
+    if (strcmp(name, "exp") == 0) return exp(x);
     if (strcmp(name, "abs") == 0) return fabs(x);
+    if (strcmp(name, "floor") == 0) return floor(x);
+    if (strcmp(name, "ramp") == 0) return fmax(x, 0);
+    if (strcmp(name, "step") == 0) return x >= -1e-9 ? 1 : 0; /* also of times that are sums */
     r->wrong = "unknown function";
     return 0;
 }

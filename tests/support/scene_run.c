@@ -102,6 +102,15 @@ static double clearance(runner *run)
     return nearest;
 }
 
+static double immersion(runner *run)
+{
+    const tahr_state *s = &run->state;
+    tahr_fluid_query query = {
+        .position = s->position, .up = s->up, .radius = s->radius, .half_height = s->half_height, .mask = run->config.mask};
+    tahr_fluid fluid;
+    return tahr_world_fluid(run->world, &query, &fluid) < 0 ? -1e9 : fluid.immersion;
+}
+
 static void keep(runner *run, double time, double dt, const tahr_report *report, const tahr_input *input)
 {
     scene_record *r = run->record;
@@ -112,6 +121,7 @@ static void keep(runner *run, double time, double dt, const tahr_report *report,
     sample->dt = dt;
     sample->state = run->state;
     sample->clearance = clearance(run);
+    sample->immersion = immersion(run);
     if (!report) {
         return;
     }

@@ -10,6 +10,7 @@ typedef struct scene_sample {
     double time, dt; /* s; time is the end of the step */
     tahr_state state;
     double clearance;   /* m to the nearest thing that blocks, at most 2 skin */
+    double immersion;   /* part of its axis that is in a fluid */
     double step_offset; /* m */
     uint32_t sweeps, queries, flags;
     tahr_input input;
