@@ -162,8 +162,8 @@ static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
     }
     tahr__supplied met = {.hit = hit};
     tahr__find_floor(step, step->config->snap_distance, &met, floor);
-    /* Which of the faces of an edge a motion meets is the motion's affair, what stands on it is not: a wish along the top
-     * would hold it up in the air for good. */
+    /* Which of the faces of an edge a motion meets is the motion's affair, what stands on it is not: a wish along the
+     * top would hold it up in the air for good. */
     if (!floor_is_walkable(floor) && !(floor->flags & TAHR_FLOOR_FACE) &&
         dot(hit->normal, hit->surface_normal) < 1 - 1e-6) {
         tahr__find_floor(step, step->config->snap_distance, NULL, floor);
