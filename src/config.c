@@ -60,7 +60,7 @@ static void precise(tahr_config *c)
     c->swim_immersion = 0.65;
     c->buoyancy = 1;
     c->fluid_friction = 0.3;
-    c->water_exit_speed = 4.2;
+    c->water_exit_speed = 5.5;
     c->fly_speed = 6;
     c->fly_drag = 0.15;
     c->jump_release_gravity = 1;
@@ -100,6 +100,7 @@ static void unreal(tahr_config *c)
     c->walk_off_ledges_crouched = 0;
     c->stop_speed = 0.1; /* BRAKE_TO_STOP_VELOCITY */
     c->gravity = vec(0, 0, -9.8);
+    c->water_exit_speed = 4.2;
     c->air_control = 0.05;
     c->air_boost = 2;
     c->air_boost_speed = 0.25;

@@ -91,5 +91,4 @@ void playground_feel(tahr_config *config)
     config->ledge_grab = 0.4;
     config->corner_correction = 0.1;
     config->lift_momentum = 0.1;
-    config->water_exit_speed = 6; /* m/s: 1.8 m, from 1.3 m deep in the water over the rim of the pool */
 }

@@ -140,11 +140,12 @@ typedef struct tahr_config {
      * less than 0.9 of swim_immersion, and falls at less than 0.8 of it. In the air: the law of walking with fly_drag
      * as its braking. */
     double swim_speed;       /* m/s [3] */
-    double swim_immersion;   /* [0.65] part of the height under the surface from which on it swims; never above 1 /
-                            * buoyancy */
+    double swim_immersion;   /* [0.65] part of the height under the surface from which on it swims; never above
+                              * 1 / buoyancy */
     double buoyancy;         /* of gravity [1], when wholly immersed; 1: neither sinks nor rises */
     double fluid_friction;   /* 1/s [0.3] drag of a fluid that says none of its own */
-    double water_exit_speed; /* m/s [4.2] upward, of a jump at the surface */
+    double water_exit_speed; /* m/s [5.5 | 4.2] upward, of a jump at the surface: 5.5 takes the preset over a rim
+                              * at its height */
     double fly_speed;        /* m/s [6] */
     double fly_drag;         /* 1/s [0.15] drag of flying without input */
 
