@@ -82,11 +82,11 @@ static void a_jump_at_the_surface_leaves_the_water_and_one_below_does_not(void *
             top = e ? e->position.z : top;
             if (k == 0) {
                 const tahr_event *jumped = rig_event(&r, TAHR_EVENT_JUMPED);
-                assert_true(jumped && jumped->time == 0 && jumped->value == 4.2);
+                assert_true(jumped && jumped->time == 0 && jumped->value == 5.5);
                 assert_false(rig_event(&r, TAHR_EVENT_LEFT_GROUND) != NULL);
             }
         }
-        assert_near(top, from + 4.2 * 4.2 / (2 * 9.81), 1e-9);
+        assert_near(top, from + 5.5 * 5.5 / (2 * 9.81), 1e-9);
         assert_int_equal(r.state.mode, TAHR_MODE_FALLING);
         pool_run(&r, 3, dt);
         assert_int_equal(r.state.mode, TAHR_MODE_SWIMMING); /* the button was held: no second jump */
