@@ -6,8 +6,8 @@
 
 #include "core.h"
 
-/* Each asks the world's backend. Returns what it returned, or TAHR_E_BACKEND after a message that names the slot and the
- * field. Normals come back as exact units. */
+/* Each asks the world's backend. Returns what it returned, or TAHR_E_BACKEND after a message that names the slot and
+ * the field. Normals come back as exact units. */
 tahr_status tahr__answer_contacts(const tahr_world *world, tahr_query_context *context, const tahr_contact_query *query,
                                   tahr_contact *contacts, uint32_t capacity, uint32_t *count);
 tahr_status tahr__answer_ray(const tahr_world *world, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit,

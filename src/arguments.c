@@ -208,5 +208,6 @@ tahr_status tahr__check_arguments(const tahr_mover *mover, const tahr_input *inp
     const char *bad = bad_input(input, &mover->config.shape);
     bad = bad ? bad : bad_state(state, &mover->config.shape);
     bad = bad ? bad : bad_rest(state, mover);
-    return bad ? tahr__complain(log, TAHR_E_ARGUMENT, "tahr_mover_step", bad, "is out of range or not finite") : TAHR_OK;
+    return bad ? tahr__complain(log, TAHR_E_ARGUMENT, "tahr_mover_step", bad, "is out of range or not finite")
+               : TAHR_OK;
 }

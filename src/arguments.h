@@ -16,8 +16,8 @@ static inline int state_is_blank(const tahr_mover *mover, const tahr_state *s)
            memcmp((const char *)s + from, (const char *)&tahr__blank + from, sizeof *s - from) == 0;
 }
 
-/* Is everything else in order too, and as simple as it almost always is? What is not gets the whole check, which names it.
- * A sum is finite only if all its terms are, and a comparison with a NaN is false. */
+/* Is everything else in order too, and as simple as it almost always is? What is not gets the whole check, which names
+ * it. A sum is finite only if all its terms are, and a comparison with a NaN is false. */
 static inline int arguments_are_usual(const tahr_mover *mover, const tahr_input *in, double dt, const tahr_state *s,
                                       const tahr_report *report)
 {

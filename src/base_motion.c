@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * base_motion.c: riding and leaving bodies that move. A base is followed whatever its speed: also a lift that sinks faster
- * than anything falls. */
+ * base_motion.c: riding and leaving bodies that move. A base is followed whatever its speed: also a lift that sinks
+ * faster than anything falls. */
 #include "base_motion.h"
 
 #include <string.h>
@@ -249,8 +249,8 @@ static void follow(tahr__step *step, double dt)
     step->frame_velocity = tahr__point_velocity(&motion, step_foot(step), 1);
 }
 
-/* An imparted velocity v decays for so long: until then it moves by its mean, which finish_decay takes off to what is left
- * in the end. Returns the mean's part of it. */
+/* An imparted velocity v decays for so long: until then it moves by its mean, which finish_decay takes off to what is
+ * left in the end. Returns the mean's part of it. */
 static double begin_decay(tahr__step *step, vec3 v, double time)
 {
     double half_life = step->config->imparted_half_life, size = length(v);

@@ -2,8 +2,8 @@
  * base_motion.h: riding and leaving bodies that move.
  *
  * The velocity of a character that stands on a body is relative to it. Bodies move before the characters' steps: a step
- * begins by carrying the character with its base, and what remains of it happens on a base at rest. So a jump, a fall off
- * the edge or a landing within the step go relative to the base too, and its velocity is handed over at the end. */
+ * begins by carrying the character with its base, and what remains of it happens on a base at rest. So a jump, a fall
+ * off the edge or a landing within the step go relative to the base too, and its velocity is handed over at the end. */
 #ifndef TAHR_BASE_MOTION_H
 #define TAHR_BASE_MOTION_H
 

@@ -201,7 +201,8 @@ const tahr_backend tahr__callbacks_backend = {
     .struct_size = sizeof(tahr_backend),
     .abi_major = TAHR_ABI_MAJOR,
     .abi_minor = TAHR_ABI_MINOR,
-    .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE | TAHR_CAP_BOX,
+    .capabilities =
+        TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE | TAHR_CAP_BOX,
     .name = "callbacks",
     .version = "user",
     .close = close_callbacks,

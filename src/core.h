@@ -34,8 +34,9 @@ typedef struct tahr__body_note {
 enum {
     TAHR__HAS_SENSORS = 1 << 0,
     TAHR__HAS_FLUIDS = 1 << 1,
+    TAHR__HAS_BASES = 1 << 2,          /* bodies that move, drive a conveyor, or can be pushed */
     TAHR__HAS_MOVING_SENSORS = 1 << 3, /* or some that may: nothing is known of a user's own */
-    TAHR__HAS_BASES = 1 << 2           /* bodies that move, drive a conveyor, or can be pushed */
+    TAHR__HAS_SQUEEZERS = 1 << 4       /* described bodies that block and may be placed again */
 };
 
 struct tahr_world {
@@ -51,9 +52,10 @@ struct tahr_world {
     uint32_t moves;       /* calls of tahr_world_move, from 1 */
     uint32_t *moved;
     tahr__memory memory;
-    uint64_t revision; /* never 0; a pure function of the poses of all bodies and of the touches */
-    uint64_t motion;   /* the same of their motions; 0: all at rest */
-    uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a motion */
+    uint64_t revision;      /* never 0; a pure function of the poses of all bodies and of the touches */
+    uint64_t motion;        /* the same of their motions; 0: all at rest */
+    uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a
+                             * motion */
     tahr__body_note *bodies;
 };
 
@@ -174,10 +176,11 @@ typedef struct tahr__next {
     double time_left; /* s */
 } tahr__next;
 
-/* Has anything in the world ever been moved? Then characters may be squeezed. */
+/* May bodies squeeze a character? Asked of the scene, not of what was moved so far: a rollback must find the same
+ * answer. */
 static inline int step_squeezes(const tahr__step *step)
 {
-    return step->world->moves > 1;
+    return (step->world->has & TAHR__HAS_SQUEEZERS) != 0;
 }
 
 static inline vec3 step_foot(const tahr__step *step)

@@ -40,7 +40,8 @@ static tahr_status bad_argument(const tahr_world *world, const char *function, c
 static tahr_status null_argument(const tahr_world *world, const char *function, const void *query, const void *answers,
                                  const char *name)
 {
-    return tahr__complain(&world->log, TAHR_E_NULL, function, !query ? "query" : (!answers ? name : "count"), "is NULL");
+    return tahr__complain(&world->log, TAHR_E_NULL, function, !query ? "query" : (!answers ? name : "count"),
+                          "is NULL");
 }
 
 tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,

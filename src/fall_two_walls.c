@@ -87,8 +87,8 @@ static double apex_time(const tahr__step *step, const fall *f, vec3 after)
     return f->h * before / (before - end);
 }
 
-/* Ends the slice at the apex, which otherwise a low frame rate cuts off. The rest of its time comes after; this slice does
- * not count. */
+/* Ends the slice at the apex, which otherwise a low frame rate cuts off. The rest of its time comes after; this slice
+ * does not count. */
 static void end_at_apex(tahr__step *step, fall *f, const tahr__law *law, double apex, vec3 *after)
 {
     if (step->config->integrator == TAHR_INTEGRATOR_EXACT) {
@@ -149,8 +149,8 @@ static int hangs(tahr__step *step, fall *f)
     return 1;
 }
 
-/* What was met and is no floor: a corner is gone past, a wall noted and perhaps jumped off. Returns 1 if the slice is over
- * for it. */
+/* What was met and is no floor: a corner is gone past, a wall noted and perhaps jumped off. Returns 1 if the slice is
+ * over for it. */
 static int feels(tahr__step *step, fall *f, const tahr_hit *hit)
 {
     int asked = press_is_remembered(step), feel = (int)step->limits->feel;
@@ -251,8 +251,9 @@ static void step_aside(tahr__step *step, vec3 first, vec3 second)
     tahr__safe_move(step, scale(side, 10 * step->config->pull_back), &swept);
 }
 
-/* Held between a floor and a wall that the perch rule takes for air: hardly moved (0.2 cm/s, 4 cm2/s) with a walkable face
- * under it. Unreal kicks such a character in a random direction; here it is always the one away from both faces. */
+/* Held between a floor and a wall that the perch rule takes for air: hardly moved (0.2 cm/s, 4 cm2/s) with a walkable
+ * face under it. Unreal kicks such a character in a random direction; here it is always the one away from both
+ * faces. */
 static void leave_ditch(tahr__step *step, const fall *f, const tahr_hit *first, vec3 second)
 {
     const tahr_config *c = step->config;
@@ -403,8 +404,10 @@ tahr__next tahr__fall_two_walls(tahr__step *step, double time)
     if (answer == ENDS) {
         step->report.time_lost += f.left;
     }
-    static const uint32_t modes[] = {
-        [GOES_ON] = TAHR_MODE_FALLING, [ENDS] = TAHR_MODE_FALLING, [LANDS] = TAHR_MODE_WALKING, [HANGS] = TAHR_MODE_HANGING};
+    static const uint32_t modes[] = {[GOES_ON] = TAHR_MODE_FALLING,
+                                     [ENDS] = TAHR_MODE_FALLING,
+                                     [LANDS] = TAHR_MODE_WALKING,
+                                     [HANGS] = TAHR_MODE_HANGING};
     tahr__next next = {modes[answer], answer == LANDS || answer == HANGS ? f.left : 0};
     return next;
 }

@@ -162,8 +162,8 @@ static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
     }
     tahr__supplied met = {.hit = hit};
     tahr__find_floor(step, step->config->snap_distance, &met, floor);
-    /* Which of the faces of an edge a motion meets is the motion's affair, what stands on it is not: a wish along the top
-     * would hold it up in the air for good. */
+    /* Which of the faces of an edge a motion meets is the motion's affair, what stands on it is not: a wish along the
+     * top would hold it up in the air for good. */
     if (!floor_is_walkable(floor) && !(floor->flags & TAHR_FLOOR_FACE) &&
         dot(hit->normal, hit->surface_normal) < 1 - 1e-6) {
         tahr__find_floor(step, step->config->snap_distance, NULL, floor);
@@ -301,7 +301,7 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     vec3 start = step->state.position, began = step->state.velocity;
     double used = duration;
     int pushed = tahr__move(step, chord, hit);
-    int met = hit->blocking && !hit->start_overlap && !hit->unknown;
+    int met = is_met(hit);
     if (met && f->plane_count == 0 && !pushed) {
         step->state.position = start;
         used = meet_on_arc(step, &a, chord, duration, hit);

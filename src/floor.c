@@ -39,7 +39,8 @@ int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable)
     double limit = tahr__walkable_limit(step, hit, was_walkable);
     double up = dot(hit->surface_normal, step->state.up);
     int walkable = hit->blocking && !hit->start_overlap && hit->walkable_rule != TAHR_WALKABLE_NEVER;
-    return tahr__decide(step, TAHR_RULE_WALKABLE, walkable && up >= limit, hit, up, limit, "cosine of the face's slope");
+    return tahr__decide(step, TAHR_RULE_WALKABLE, walkable && up >= limit, hit, up, limit,
+                        "cosine of the face's slope");
 }
 
 static double inside_box(const tahr__step *step, vec3 offset)
@@ -157,7 +158,8 @@ static int may_move(const tahr_world *world, uint32_t body)
     return body == TAHR_NO_BODY || (world->has & TAHR__HAS_BASES) != 0;
 }
 
-/* bAlwaysCheckFloor and bForceNextFloorCheck: nothing moved since the floor was looked for, nor was the height put right. */
+/* bAlwaysCheckFloor and bForceNextFloorCheck: nothing moved since the floor was looked for, nor was the height put
+ * right. */
 static int takes_cached_floor(tahr__step *step)
 {
     const tahr_state *s = &step->state;
@@ -221,7 +223,8 @@ static void find_shrunk(tahr__step *step, double reach, const tahr__supplied *su
                              .radius = step->limits->width,
                              .supplied = supplied};
     tahr__compute_floor_distance(step, &look, floor);
-    doubt_rim(step, distance + (walking ? c->perch_extra : 0), floor); /* what a ray found lies under the axis: no doubt */
+    doubt_rim(step, distance + (walking ? c->perch_extra : 0), floor); /* what a ray found lies under the axis: no
+                                                                        * doubt */
     int steep = (floor->flags & TAHR_FLOOR_BLOCKING) && !(floor->flags & TAHR_FLOOR_FACE);
     if (steep && !floor_is_walkable(floor) && c->slide_solver == TAHR_SLIDE_JOINT && wedge(step, floor)) {
         floor->flags |= TAHR_FLOOR_WALKABLE; /* for a solver that comes to rest between walls */
@@ -297,7 +300,7 @@ static double adjust_shrunk(tahr__step *step)
     const tahr_hit *hit = &swept.hit;
     double height = dot(sub(step->state.position, before), up);
     shift_floor(step, height);
-    if (asked < 0 && hit->blocking && !hit->start_overlap) {
+    if (asked < 0 && is_blocked(hit)) {
         double distance = dot(sub(step->state.position, swept.location), up);
         if (tahr__is_walkable(step, hit, tahr__was_walkable(step, hit))) {
             fill(&step->state.floor, hit, distance, TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE);

@@ -42,8 +42,8 @@ static int touches_rim(const tahr__step *step, const tahr_hit *hit, vec3 centre,
     return !flat && !hit->unknown && !tahr__is_within_edge_tolerance(step, centre, hit->point, radius);
 }
 
-/* The character's shape with a part `kept` of its straight part, `inset` thinner. [out] shrink: m by which both ends are
- * shorter. */
+/* The character's shape with a part `kept` of its straight part, `inset` thinner. [out] shrink: m by which both ends
+ * are shorter. */
 static tahr__foot probe_of(const tahr__step *step, double kept, double inset, double *shrink)
 {
     tahr_shape s = step->limits->shape;

@@ -3,7 +3,8 @@
  *
  * The ends of a shape that touches, or overlaps, what it stands on cannot be swept from where they are. A shape that is
  * shorter at both ends can, and finds the depth of an overlap as a negative distance. Lengths named in centimetres are
- * those of the field; here they are parts of config.skin, edge_tolerance and pull_back, and so grow with the character. */
+ * those of the field; here they are parts of config.skin, edge_tolerance and pull_back, and so grow with the
+ * character. */
 #ifndef TAHR_FLOOR_DISTANCE_H
 #define TAHR_FLOOR_DISTANCE_H
 

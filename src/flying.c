@@ -43,8 +43,9 @@ static double time_of_part(const tahr__law *law, vec3 v, double piece, vec3 whol
     if (part <= 0 || part >= 1 || length_squared(whole) == 0) {
         return part <= 0 ? 0 : piece;
     }
-    return dot(v, whole) < 0 && part * part * length_squared(whole) < 1e-10 ? 0 /* touched before it turned round */
-                                                                            : tahr__law_time(law, v, piece, whole, part);
+    return dot(v, whole) < 0 && part * part * length_squared(whole) < 1e-10
+               ? 0 /* touched before it turned round */
+               : tahr__law_time(law, v, piece, whole, part);
 }
 
 /* STEPPED: one velocity for all of it. */

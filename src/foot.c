@@ -2,8 +2,8 @@
  * foot.c: see foot.h. */
 #include "foot.h"
 
-/* An upright capsule that moves along its own axis enters new space with its lower cap alone: a sphere there is the same
- * sweep and a fraction of the geometry. What overlaps higher up is found by the sweep of the move. */
+/* An upright capsule that moves along its own axis enters new space with its lower cap alone: a sphere there is the
+ * same sweep and a fraction of the geometry. What overlaps higher up is found by the sweep of the move. */
 tahr__foot tahr__foot_of(const tahr_shape *shape, uint32_t capabilities)
 {
     tahr__foot foot = {*shape, 0};

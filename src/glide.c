@@ -95,7 +95,6 @@ int tahr__glide_step_up(tahr__step *step, tahr__glide *g, const tahr_hit *hit, v
 {
     const tahr__swept swept = {.hit = *hit, .location = step->state.position, .motion = rest};
     vec3 level = step_level(step, rest);
-    const uint32_t just_teleported = step->just_teleported;
     tahr__scope scope;
     int found;
     if (!is_front(step, hit, level)) {
@@ -109,7 +108,6 @@ int tahr__glide_step_up(tahr__step *step, tahr__glide *g, const tahr_hit *hit, v
         return 1;
     }
     tahr__scope_revert(step, &scope);
-    step->just_teleported = just_teleported;
     return 0;
 }
 
@@ -134,7 +132,7 @@ int tahr__glide_two_walls(tahr__step *step, tahr__glide *g, const tahr__glide_mo
     int up = 0;
     tahr__safe_move(step, m->way, &swept);
     *hit = swept.hit;
-    if (hit->blocking && !hit->start_overlap && !hit->unknown) {
+    if (is_met(hit)) {
         double rest = 1 - hit->fraction;
         step->ahead = m->time * hit->fraction;
         up = tahr__glide_step_up(step, g, hit, scale(m->way, rest), m->keeps);

@@ -40,14 +40,15 @@ void tahr__glide_use(tahr__step *step, tahr__glide *glide, double time);
  * none). No query. */
 int tahr__glide_meet(tahr__step *step, tahr__glide *glide, const tahr_hit *hit);
 
-/* Over what was met, if that is as low as a step from the foot on, and the motion level enough. rest: what is left of it.
- * Returns 1 if it stands on it now, on the state's floor, with `keeps` or without an opinion of it; 0 with everything as
- * it was. 3 to 12 queries where the front is steep, else none. */
-int tahr__glide_step_up(tahr__step *step, tahr__glide *glide, const tahr_hit *hit, vec3 rest, int (*keeps)(tahr__step *));
+/* Over what was met, if that is as low as a step from the foot on, and the motion level enough. rest: what is left of
+ * it. Returns 1 if it stands on it now, on the state's floor, with `keeps` or without an opinion of it; 0 with
+ * everything as it was. 3 to 12 queries where the front is steep, else none. */
+int tahr__glide_step_up(tahr__step *step, tahr__glide *glide, const tahr_hit *hit, vec3 rest,
+                        int (*keeps)(tahr__step *));
 
-/* config.slide_solver TWO_WALLS: the whole piece of `time` seconds at once, over, or along one surface and a second one. The
- * velocity of one that was blocked is what was covered. keeps as above. [out] hit: what was met first. Returns 1 if it
- * stepped up. 1 to 4 sweeps, up to 12 queries for a step, and what overlaps ask. */
+/* config.slide_solver TWO_WALLS: the whole piece of `time` seconds at once, over, or along one surface and a second
+ * one. The velocity of one that was blocked is what was covered. keeps as above. [out] hit: what was met first. Returns
+ * 1 if it stepped up. 1 to 4 sweeps, up to 12 queries for a step, and what overlaps ask. */
 typedef struct tahr__glide_motion {
     vec3 way;
     double time; /* s */

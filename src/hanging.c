@@ -111,7 +111,7 @@ static void come_flush(tahr__step *step, vec3 facing)
     double skin = step->config->skin;
     tahr_hit hit;
     tahr__sweep(step, &step->limits->shape, step->state.position, scale(facing, -skin), skin, 0, &hit);
-    if (hit.blocking && !hit.start_overlap && !hit.unknown) {
+    if (is_met(&hit)) {
         step->state.position = add_scaled(step->state.position, facing, -skin * hit.fraction);
     }
 }

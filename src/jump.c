@@ -57,8 +57,8 @@ double tahr__gravity_factor(const tahr__step *step, double rise)
     return s->flags & TAHR_STATE_JUMPING && up ? step->config->jump_release_gravity : 1;
 }
 
-/* A jump that gravity slows down from the start is held up by starting it again in every step: how high it goes depends on
- * the frame rate. Up to a nanosecond is the rounding of a time that was used up. */
+/* A jump that gravity slows down from the start is held up by starting it again in every step: how high it goes depends
+ * on the frame rate. Up to a nanosecond is the rounding of a time that was used up. */
 static void hold_jump(tahr__step *step)
 {
     tahr_state *s = &step->state;

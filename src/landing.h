@@ -16,8 +16,8 @@ int tahr__should_check_landing_spot(const tahr__step *step, const tahr_hit *hit)
 /* Such a look: a floor, and a valid spot. 1 to 6 queries. */
 int tahr__finds_landing_spot(tahr__step *step);
 
-/* ProcessLanded: walks from here on, on the floor that is found and at its height. hit: what was landed on. 1 to 6 queries
- * and a safe move. */
+/* ProcessLanded: walks from here on, on the floor that is found and at its height. hit: what was landed on. 1 to 6
+ * queries and a safe move. */
 void tahr__process_landed(tahr__step *step, const tahr_hit *hit);
 
 #endif

@@ -6,8 +6,8 @@
 #include "core.h"
 #include "path.h"
 
-/* What the input adds to the velocity at the begin of a step: a launch, which leaves the ground; an impulse, which leaves
- * it if it points upward; a drive, which is the velocity for this step. No query. */
+/* What the input adds to the velocity at the begin of a step: a launch, which leaves the ground; an impulse, which
+ * leaves it if it points upward; a drive, which is the velocity for this step. No query. */
 void tahr__launch(tahr__step *step);
 
 enum { TAHR__DRIFT = TAHR_INPUT_DRIVE | TAHR_INPUT_DRIVE_ADD };

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * lip.c: the front of a step that is too steep to stand on: bevelled, rounded, or marked as never walkable.
  *
- * What is too steep and no higher than a step, between one floor and another, is a step, whatever its front looks like: a
- * vertical front is climbed, and no front is harder than that. Where a foot touches it depends on how far the foot has
- * come; the two floors do not. They are looked for where the face, if it went on, would leave the height of a step, so
- * that no lip is too wide to look over and a slope that goes on is none, wherever on it the foot is. */
+ * What is too steep and no higher than a step, between one floor and another, is a step, whatever its front looks like:
+ * a vertical front is climbed, and no front is harder than that. Where a foot touches it depends on how far the foot
+ * has come; the two floors do not. They are looked for where the face, if it went on, would leave the height of a step,
+ * so that no lip is too wide to look over and a slope that goes on is none, wherever on it the foot is. */
 #include "lip.h"
 
 #include "floor.h"

@@ -8,8 +8,8 @@
 /* m, of a height that is compared with the step height. */
 #define TAHR__HEIGHT_ROUNDING 1e-6
 
-/* Is there a floor behind the unwalkable face of a hit, no lower than the hit and no higher than a step above `base` (m,
- * along up)? 1 or 2 rays. */
+/* Is there a floor behind the unwalkable face of a hit, no lower than the hit and no higher than a step above `base`
+ * (m, along up)? 1 or 2 rays. */
 int tahr__tread_behind(tahr__step *step, const tahr_hit *hit, double base);
 
 /* Is the unwalkable face of a hit the front of a step, with a floor before it and one behind it? At most 4 rays. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * modes.c: the state machine: one table of modes, one of the ways from one to another. A mode returns the time that it left
- * over and the mode that should go on; only here does the mode change. The README's state diagram is printed from the
- * second table (tests/state_diagram.sh reads these lines). */
+ * modes.c: the state machine: one table of modes, one of the ways from one to another. A mode returns the time that it
+ * left over and the mode that should go on; only here does the mode change. The README's state diagram is printed from
+ * the second table (tests/state_diagram.sh reads these lines). */
 #include "modes.h"
 
 #include "custom.h"

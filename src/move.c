@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * move.c: moving the character's shape: one sweep with a skin or a pull-back, and the depenetration by a joint solve. */
+ * move.c: moving the character's shape: one sweep with a skin or a pull-back, and the depenetration by a joint
+ * solve. */
 #include "move.h"
 
 #include <string.h>
@@ -210,7 +211,8 @@ int tahr__depenetrate(tahr__step *step)
     tahr_contact contacts[CONTACTS];
     double skin = clear_of(step->config);
     vec3 start = step->state.position;
-    /* A floor is up to 1.5 skin away: pressed from above the character may not be pushed into it, only to be pushed back. */
+    /* A floor is up to 1.5 skin away: pressed from above the character may not be pushed into it, only to be pushed
+     * back. */
     int squeezes = step_squeezes(step);
     double near = squeezes ? 1.5 * skin : skin;
     uint32_t count = tahr__contacts(step, step->state.position, near, contacts, CONTACTS);

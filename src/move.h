@@ -15,6 +15,18 @@ typedef struct tahr__swept {
     uint32_t reserved;
 } tahr__swept;
 
+/* IsValidBlockingHit: stopped on the way, not from the start by an overlap. */
+static inline int is_blocked(const tahr_hit *hit)
+{
+    return hit->blocking && !hit->start_overlap;
+}
+
+/* The same, and known what by: something that can be slid along or landed on. */
+static inline int is_met(const tahr_hit *hit)
+{
+    return hit->blocking && !hit->start_overlap && !hit->unknown;
+}
+
 /* Sweeps the character by motion, keeping skin, and puts it where the sweep ended. An overlap at the start is resolved
  * first and the motion tried once more. [out] hit. Returns 1 if there was one. One sweep; at most
  * 2 + TAHR__DEPENETRATION_QUERIES. */
@@ -49,8 +61,8 @@ double tahr__pull_back_part(const tahr_config *config, double length);
 /* The fraction t of such a motion after the pull-back. */
 double tahr__pull_back(const tahr_config *config, double t, double length);
 
-/* GetPenetrationAdjustment: the push out of a hit that is a start in overlap, no longer than config.max_depenetration, or
- * _character out of a TAHR_BODY_CHARACTER; zero of another hit. (A simulated proxy of the field is a character with
+/* GetPenetrationAdjustment: the push out of a hit that is a start in overlap, no longer than config.max_depenetration,
+ * or _character out of a TAHR_BODY_CHARACTER; zero of another hit. (A simulated proxy of the field is a character with
  * smaller values of these two.) No query. */
 vec3 tahr__penetration_adjustment(const tahr__step *step, const tahr_hit *hit);
 

@@ -32,11 +32,6 @@ vec3 tahr__ground_movement_delta(const tahr__step *step, vec3 delta, const tahr_
     return step->config->keep_level_speed ? tahr__cap_rise(step, lifted, rise, size) : scale(unit(lifted), size);
 }
 
-static int is_blocked(const tahr_hit *hit)
-{
-    return hit->blocking && !hit->start_overlap;
-}
-
 /* Held by an overlap that did not resolve: a slide along it may still come free, else the motion would hitch. */
 static void leave_overlap(tahr__step *step, vec3 delta, tahr__swept *swept)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * move_along_floor.h: a level motion, taken along the floor, onto ramps and steps, with config.slide_solver TWO_WALLS. */
+ * move_along_floor.h: a level motion, taken along the floor, onto ramps and steps, with config.slide_solver
+ * TWO_WALLS. */
 #ifndef TAHR_MOVE_ALONG_FLOOR_H
 #define TAHR_MOVE_ALONG_FLOOR_H
 

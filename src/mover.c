@@ -143,8 +143,8 @@ static void end(tahr__step *step)
     }
 }
 
-/* plain: nothing was asked for but to go and to jump, nothing is remembered, and the world holds nothing that moves or is
- * only felt. Most steps are. */
+/* plain: nothing was asked for but to go and to jump, nothing is remembered, and the world holds nothing that moves or
+ * is only felt. Most steps are. */
 static void run(tahr__step *step, double dt, int plain)
 {
     plain = plain && is_upright(step);
@@ -271,7 +271,8 @@ static void detect_stuck(tahr__step *step, const tahr_state *before)
     }
 }
 
-tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report)
+tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report)
 {
     if (!mover) {
         return TAHR_E_NULL;
@@ -304,7 +305,8 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.limits = &mover->limits;
     step.custom = &mover->custom;
     step.world = mover->world;
-    if (!blank && (state->half_height != mover->config.shape.half_height || state->radius != mover->config.shape.radius)) {
+    if (!blank &&
+        (state->half_height != mover->config.shape.half_height || state->radius != mover->config.shape.radius)) {
         tahr__use_shape(&step, state->radius, state->half_height);
     }
     step.input = input;

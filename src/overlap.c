@@ -214,10 +214,10 @@ void tahr__sense(tahr__step *step)
 void tahr__end_slice(tahr__step *step)
 {
     tahr__trail *trail = step->trail;
-    trail->held = 0;
+    trail->held = trail->spans;
     tahr__trail_stamp(step, trail->slice, step->time);
     trail->slice = step->time;
-    if (trail->count > TAHR__LEGS / 2) {
+    if (trail->count > TAHR__LEGS / 2 && !trail->held) {
         tahr__sense(step);
     }
 }

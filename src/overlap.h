@@ -15,7 +15,8 @@ void tahr__sense(tahr__step *step);
 /* A slice of time is over, which began where the last one ended: nothing of it is taken back any more. */
 void tahr__end_slice(tahr__step *step);
 
-/* The same at the end of a step, and about what changed without a motion. Only where there is a trail, like the two above. */
+/* The same at the end of a step, and about what changed without a motion. Only where there is a trail, like the two
+ * above. */
 void tahr__find_overlaps(tahr__step *step);
 
 /* The character went here between two times (s from the start of the step). */

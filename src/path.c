@@ -13,8 +13,8 @@
 #include "step_up.h"
 #include "stepped.h"
 
-/* The velocity asked for, and how it is approached. Along walls what they leave of it is asked for: pushing slantwise into
- * a wall is walking along it at the wish's part along it, at every rate. */
+/* The velocity asked for, and how it is approached. Along walls what they leave of it is asked for: pushing slantwise
+ * into a wall is walking along it at the wish's part along it, at every rate. */
 static inline void set_law(tahr__path *w, const tahr__step *step)
 {
     const tahr_config *c = step->config;
@@ -120,10 +120,10 @@ void tahr__path_bend(tahr__step *step, tahr__path *w)
     end_piece(step, w, used, tahr__law_advance(&w->law, w->velocity, used).velocity);
 }
 
-/* The bevelled edge of a step is no slope to slow down on. On a slope the contact lies up to 0.25 m off the axis: if the
- * ground half-way between them is not in the plane of the contact, the face is smaller than that. Below 15 degrees a bevel
- * costs 3 % of its own width and is not looked at. One ray, until the face has been found to be a slope: as long as it
- * holds the character it stays one. */
+/* The bevelled edge of a step is no slope to slow down on. On a slope the contact lies up to 0.25 m off the axis: if
+ * the ground half-way between them is not in the plane of the contact, the face is smaller than that. Below 15 degrees
+ * a bevel costs 3 % of its own width and is not looked at. One ray, until the face has been found to be a slope: as
+ * long as it holds the character it stays one. */
 void tahr__path_find_slope(tahr__path *w, tahr__step *step)
 {
     const double steep = 0.966;
@@ -162,14 +162,16 @@ static vec3 along_floor(const tahr__path *w, const tahr__step *step, vec3 level)
     }
     double size = length(level);
     vec3 lifted = add_scaled(level, step->state.up, rise + w->ease * size);
-    if (rise * rise > 1.5 * size * size) { /* steeper than 51 degrees is only walkable by an override, and never a bevel */
+    if (rise * rise > 1.5 * size * size) { /* steeper than 51 degrees is only walkable by an override, and never a
+                                            * bevel */
         climb = rise;
     }
     return step->config->keep_level_speed ? tahr__cap_rise(step, lifted, rise, size)
                                           : scale(lifted, size / sqrt(size * size + climb * climb));
 }
 
-/* A walkable face in the way: go on along it. Its contact normal must be walkable too; the lip of a step is not a ramp. */
+/* A walkable face in the way: go on along it. Its contact normal must be walkable too; the lip of a step is not a
+ * ramp. */
 static int take_ramp(tahr__step *step, tahr__path *w, const tahr_hit *hit)
 {
     double up = dot(hit->normal, step->state.up), limit = tahr__walkable_limit(step, hit, 0);
@@ -177,7 +179,8 @@ static int take_ramp(tahr__step *step, tahr__path *w, const tahr_hit *hit)
         return tahr__decide(step, TAHR_RULE_RAMP, 0, hit, up, limit, "too steep to go on along");
     }
     for (uint32_t i = 0; i < w->ramp_count; i++) {
-        if (dot(w->ramps[i], hit->normal) > 1 - 1e-14) { /* rounding touched it again: keep off a little more each time */
+        if (dot(w->ramps[i], hit->normal) > 1 - 1e-14) { /* rounding touched it again: keep off a little more each
+                                                          * time */
             w->ease = w->ease > 0 ? 10 * w->ease : 1e-9;
             return tahr__decide(step, TAHR_RULE_RAMP, 1, hit, up, w->ease, "going along it already");
         }
@@ -204,8 +207,9 @@ static int take_step(tahr__step *step, tahr__path *w, vec3 level, const tahr_hit
     return 1;
 }
 
-/* The walls that one wall is to something that stays on the ramps. One that leans over is in the way of the ramp that rises
- * most, whichever that is for a direction: it is a wall for each of them. Returns 0 if one of them leaves no way at all. */
+/* The walls that one wall is to something that stays on the ramps. One that leans over is in the way of the ramp that
+ * rises most, whichever that is for a direction: it is a wall for each of them. Returns 0 if one of them leaves no way
+ * at all. */
 static int add_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit)
 {
     uint32_t count = dot(hit->normal, step->state.up) < 0 && w->ramp_count > 1 ? w->ramp_count : 1;

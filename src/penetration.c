@@ -7,7 +7,8 @@
 #include "report.h"
 #include "trail.h"
 
-/* Added to the depth, and the depth itself where that is not known: 0.125 cm in the field (PenetrationPullbackDistance). */
+/* Added to the depth, and the depth itself where that is not known: 0.125 cm in the field
+ * (PenetrationPullbackDistance). */
 static double extra_push(const tahr_config *c)
 {
     return 1.25 * c->pull_back;
@@ -82,7 +83,8 @@ static void tell(tahr__step *step, const tahr__swept *swept, int moved)
         step->report.residual = max_of(step->report.residual, swept->hit.depth);
         tahr__event(step, TAHR_EVENT_CRUSHED, &swept->hit, swept->hit.depth);
     }
-    tahr__decide(step, TAHR_RULE_DEPENETRATION, moved, &swept->hit, swept->hit.depth, size, "pushed out of one surface");
+    tahr__decide(step, TAHR_RULE_DEPENETRATION, moved, &swept->hit, swept->hit.depth, size,
+                 "pushed out of one surface");
 }
 
 int tahr__resolve_penetration(tahr__step *step, vec3 adjustment, const tahr__swept *swept)

@@ -45,7 +45,8 @@ int tahr__compute_perch(tahr__step *step, const tahr__perch_look *look, tahr_flo
 int tahr__holds_on_lip(tahr__step *step, const tahr_hit *hit)
 {
     int lip = step->state.mode == TAHR_MODE_WALKING && tahr__is_lip(step, hit);
-    return tahr__decide(step, TAHR_RULE_PERCH, lip, hit, dot(hit->surface_normal, step->state.up), 0, "front of a step");
+    return tahr__decide(step, TAHR_RULE_PERCH, lip, hit, dot(hit->surface_normal, step->state.up), 0,
+                        "front of a step");
 }
 
 /* Under a face that is itself no floor it may lie no deeper than a step: that is a bevelled step, not a rock to lean

@@ -9,7 +9,8 @@
 /* Shorter than this a normal laid into the plane is rounding and has no direction. */
 static const double FACES_OUT = 1e-6;
 
-/* Who overlaps what faces out of the plane more than this is not pushed away twenty times as far in the plane: crushed. */
+/* Who overlaps what faces out of the plane more than this is not pushed away twenty times as far in the plane:
+ * crushed. */
 static const double PUSHES = 0.05;
 
 int tahr__plane_surface(const tahr__step *step, vec3 *normal, double *offset)

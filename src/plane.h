@@ -23,8 +23,8 @@ static inline int may_rise(const tahr__step *step)
     return !is_in_plane(step) || (out < 1e-6 && out > -1e-6);
 }
 
-/* Makes what a surface forbids into what it forbids in the plane: normal . x >= offset. Returns 0, and a half-space that
- * forbids nothing, for a surface that faces out of the plane, which nothing in it can meet or leave. */
+/* Makes what a surface forbids into what it forbids in the plane: normal . x >= offset. Returns 0, and a half-space
+ * that forbids nothing, for a surface that faces out of the plane, which nothing in it can meet or leave. */
 int tahr__plane_surface(const tahr__step *step, vec3 *normal, double *offset);
 
 /* Holds the input and the velocity in the plane, for the step; and at its end the place and the velocity. No query. */

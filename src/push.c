@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * push.c: bodies that move into a character, and characters that push bodies.
  *
- * Seen from a body the character moves: from where it was relative to the body's last pose to where it is relative to this
- * one. That motion is swept against the body alone, so that nothing passes through a character at any speed. */
+ * Seen from a body the character moves: from where it was relative to the body's last pose to where it is relative to
+ * this one. That motion is swept against the body alone, so that nothing passes through a character at any speed. */
 #include "push.h"
 
 #include <string.h>
@@ -12,10 +12,11 @@
 #include "move.h"
 #include "query.h"
 #include "report.h"
+#include "scope.h"
 #include "step_up.h"
 
-/* rad that a body may turn in one straight piece of a relative motion: 5 m off the axis the arc bulges by 6 mm, less than
- * a skin. */
+/* rad that a body may turn in one straight piece of a relative motion: 5 m off the axis the arc bulges by 6 mm, less
+ * than a skin. */
 static const double PIECE = 0.1;
 enum { PIECES = 16 };
 
@@ -100,7 +101,8 @@ static int world_lets(tahr__step *step, uint32_t body, vec3 x, tahr__plane *plan
 {
     tahr_hit hit;
     step->ignore_body = body;
-    tahr__sweep(step, &step->limits->shape, step->state.position, x, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
+    tahr__sweep(step, &step->limits->shape, step->state.position, x, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP,
+                &hit);
     step->ignore_body = TAHR_NO_BODY;
     /* A millionth of a metre short is a plane that is in the set already. */
     if (!hit.blocking || (1 - hit.fraction) * length(x) < 1e-6) {
@@ -110,7 +112,8 @@ static int world_lets(tahr__step *step, uint32_t body, vec3 x, tahr__plane *plan
     return 0;
 }
 
-/* The least way out of the body's way that everything else leaves. Returns 0 if there is none: crushed, or nearly so. */
+/* The least way out of the body's way that everything else leaves. Returns 0 if there is none: crushed, or nearly
+ * so. */
 static int push_out(tahr__step *step, uint32_t body, const meeting *m)
 {
     enum { ROUNDS = 6 };
@@ -142,15 +145,16 @@ static int push_out(tahr__step *step, uint32_t body, const meeting *m)
 /* What walks is pushed up a step in its way. */
 static int push_up_step(tahr__step *step, uint32_t body, const meeting *m)
 {
-    const tahr_state before = step->state;
-    vec3 normal = m->hit.normal;
-    vec3 way = step_level(step, scale(normal, dot(normal, sub(m->at, before.position))));
+    const vec3 from = step->state.position, normal = m->hit.normal;
+    vec3 way = step_level(step, scale(normal, dot(normal, sub(m->at, from))));
     double covered = 0;
+    tahr__scope scope;
     tahr_hit hit;
+    tahr__scope_open(step, &scope);
     step->ignore_body = body;
-    tahr__sweep(step, &step->limits->shape, before.position, way, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
-    if (hit.blocking && !hit.start_overlap && !hit.unknown) {
-        step->state.position = add_scaled(before.position, way, hit.fraction);
+    tahr__sweep(step, &step->limits->shape, from, way, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
+    if (is_met(&hit)) {
+        step->state.position = add_scaled(from, way, hit.fraction);
         covered = tahr__step_up(step, scale(way, 1 - hit.fraction), &hit);
     }
     step->ignore_body = TAHR_NO_BODY;
@@ -161,7 +165,7 @@ static int push_up_step(tahr__step *step, uint32_t body, const meeting *m)
             return 1;
         }
     }
-    step->state = before;
+    tahr__scope_revert(step, &scope);
     return 0;
 }
 

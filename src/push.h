@@ -5,8 +5,8 @@
 
 #include "core.h"
 
-/* What the bodies that tahr_world_move moved do to a character that was at `from` before they did: push it, or, in the air,
- * become what its velocity is relative to. For each body near: 1 to 2 sweeps of 16
+/* What the bodies that tahr_world_move moved do to a character that was at `from` before they did: push it, or, in the
+ * air, become what its velocity is relative to. For each body near: 1 to 2 sweeps of 16
  * pieces at most; 12 for a push, and what a step up asks. */
 void tahr__meet_bodies(tahr__step *step, vec3 from, double dt);
 

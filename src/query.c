@@ -81,7 +81,8 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
     }
 }
 
-uint32_t tahr__sensors(tahr__step *step, vec3 from, vec3 motion, uint32_t ignore_body, tahr_hit *hits, uint32_t capacity)
+uint32_t tahr__sensors(tahr__step *step, vec3 from, vec3 motion, uint32_t ignore_body, tahr_hit *hits,
+                       uint32_t capacity)
 {
     uint32_t count = 0, kept = 0;
     if (step->error < 0) {

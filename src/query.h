@@ -11,9 +11,10 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
                  tahr_hit *hit);
 
 /* The sensors that the character's shape passes on a motion or is inside of, the first contact with each, ordered by
- * (start_overlap, fraction, body): what start_overlap says it was inside of at the start. Returns the count. One sweep, on
- * top of those that a step may ask. */
-uint32_t tahr__sensors(tahr__step *step, vec3 from, vec3 motion, uint32_t ignore_body, tahr_hit *hits, uint32_t capacity);
+ * (start_overlap, fraction, body): what start_overlap says it was inside of at the start. Returns the count. One sweep,
+ * on top of those that a step may ask. */
+uint32_t tahr__sensors(tahr__step *step, vec3 from, vec3 motion, uint32_t ignore_body, tahr_hit *hits,
+                       uint32_t capacity);
 
 /* Everything within margin of the character's shape at `position`, without sensors. Returns the count, at most
  * capacity. One contact query. */
@@ -26,8 +27,8 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
 /* The first thing between origin and origin + motion. One ray. */
 void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit);
 
-/* How deep the character's shape is in a fluid at `position`; all zero where there is none, and where there cannot be any
- * in this world (then no query). One fluid query. */
+/* How deep the character's shape is in a fluid at `position`; all zero where there is none, and where there cannot be
+ * any in this world (then no query). One fluid query. */
 tahr_fluid tahr__fluid(tahr__step *step, vec3 position);
 
 /* May there be a fluid anywhere in this world? */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * report.h: writing events, decisions and queries into the caller's arrays. */
-#ifndef TAHR_REPORT_H
-#define TAHR_REPORT_H
+#ifndef TAHR_CORE_REPORT_H
+#define TAHR_CORE_REPORT_H
 
 #include "core.h"
 

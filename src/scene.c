@@ -103,7 +103,8 @@ static int holds_fluid(const tahr_world_desc *scene, uint32_t stride)
 {
     for (uint32_t i = 0; i < scene->body_count; i++) {
         uint32_t flags;
-        memcpy(&flags, (const char *)scene->bodies + (size_t)i * stride + offsetof(tahr_body_desc, flags), sizeof flags);
+        memcpy(&flags, (const char *)scene->bodies + (size_t)i * stride + offsetof(tahr_body_desc, flags),
+               sizeof flags);
         if (flags & TAHR_BODY_FLUID) {
             return 1;
         }

@@ -22,6 +22,7 @@ void tahr__scope_revert(tahr__step *step, const tahr__scope *scope)
     r->slides = scope->slides;
     r->step_offset = scope->step_offset;
     r->residual = scope->residual;
+    step->just_teleported = scope->just_teleported;
     step->ahead = scope->ahead;
     if (step->trail) {
         tahr__trail_forget(step, scope->legs);

@@ -14,6 +14,7 @@ typedef struct tahr__scope {
     tahr_floor floor;
     uint32_t state_flags, report_flags;
     uint32_t event_count, events_lost, slides, legs;
+    uint32_t just_teleported;
     double step_offset, residual, ahead;
 } tahr__scope;
 
@@ -33,6 +34,7 @@ static inline void tahr__scope_open(tahr__step *step, tahr__scope *scope)
     scope->slides = r->slides;
     scope->step_offset = r->step_offset;
     scope->residual = r->residual;
+    scope->just_teleported = step->just_teleported;
     scope->ahead = step->ahead;
     if (step->trail) {
         tahr__trail_reach(step);

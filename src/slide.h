@@ -38,13 +38,13 @@ vec3 tahr__handle_slope_boosting(const tahr__step *step, vec3 slide, vec3 delta,
  * on ramps, no higher than a step and out of the floor. No query. */
 vec3 tahr__two_wall_adjust(tahr__step *step, vec3 delta, const tahr_hit *hit, vec3 old_normal);
 
-/* What a character on the ground slides along: walls instead of slopes too steep, and instead of what hangs over a floor
- * that it stands on. `normal`: of the hit. No query. */
+/* What a character on the ground slides along: walls instead of slopes too steep, and instead of what hangs over a
+ * floor that it stands on. `normal`: of the hit. No query. */
 vec3 tahr__slide_normal(tahr__step *step, vec3 delta, vec3 normal, const tahr_hit *hit);
 
-/* SlideAlongSurface: goes on along the surface that blocked swept->hit by a part `time` of delta, and along a second one.
- * Tells of what it runs into. [in,out] swept: of the last sweep. Returns the part of the slide that was made, 0..1. At
- * most 2 safe moves. */
+/* SlideAlongSurface: goes on along the surface that blocked swept->hit by a part `time` of delta, and along a second
+ * one. Tells of what it runs into. [in,out] swept: of the last sweep. Returns the part of the slide that was made,
+ * 0..1. At most 2 safe moves. */
 double tahr__slide_along_surface(tahr__step *step, vec3 delta, double time, vec3 normal, tahr__swept *swept);
 
 /* HandleImpact: says that the character ran into something. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * stance.c: crouching and other changes of the shape.
  *
- * A shape that shrinks about its foot or its centre stays inside of what it was, and needs no question. One that grows is
- * tested where it would be; what is in the way of it above or below may shift it along up, never further than it grows,
- * so that the two shapes always share a place: nothing thin can come to lie between them. */
+ * A shape that shrinks about its foot or its centre stays inside of what it was, and needs no question. One that grows
+ * is tested where it would be; what is in the way of it above or below may shift it along up, never further than it
+ * grows, so that the two shapes always share a place: nothing thin can come to lie between them. */
 #include "stance.h"
 
 #include <string.h>
@@ -13,8 +13,8 @@
 #include "query.h"
 #include "report.h"
 
-/* Of the skin: what a shape keeps to everything fits, but for what backends round away. With a margin that is the skin, which
- * it will keep from then on; taken back from a contact it may be next to nothing. */
+/* Of the skin: what a shape keeps to everything fits, but for what backends round away. With a margin that is the skin,
+ * which it will keep from then on; taken back from a contact it may be next to nothing. */
 static double room_of(const tahr_config *c)
 {
     return (c->separation == TAHR_SEPARATION_MARGIN ? 0.999 : 1e-3) * c->skin;

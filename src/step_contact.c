@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * step_contact.c: config.step_rule CONTACT: up, along, down, and judged by where the shape came down. For the face behind
- * the edge as the judge see step_up.c. */
+ * step_contact.c: config.step_rule CONTACT: up, along, down, and judged by where the shape came down. For the face
+ * behind the edge as the judge see step_up.c. */
 #include "floor.h"
 #include "floor_distance.h"
 #include "plane.h"
@@ -26,11 +26,6 @@ static int refuse(tahr__step *step, const tahr_hit *hit, double value, double li
     return tahr__decide(step, TAHR_RULE_STEP_UP, 0, hit, value, limit, reason);
 }
 
-static int is_blocked(const tahr_hit *hit)
-{
-    return hit->blocking && !hit->start_overlap;
-}
-
 /* CanStepUp */
 static int can_step_up(const tahr__step *step, const tahr_hit *hit)
 {
@@ -38,8 +33,8 @@ static int can_step_up(const tahr__step *step, const tahr_hit *hit)
            !(world_body_flags(step->world, hit->body) & TAHR_BODY_NO_STEP);
 }
 
-/* How far up and down, and from where. On a floor the hover gap is part of the step; the way down is longer by two bands,
- * to come as close to the floor as before. */
+/* How far up and down, and from where. On a floor the hover gap is part of the step; the way down is longer by two
+ * bands, to come as close to the floor as before. */
 static void plan(const tahr__step *step, const tahr__swept *obstacle, attempt *a)
 {
     const tahr_config *c = step->config;
@@ -151,11 +146,9 @@ int tahr__step_up_by_contact(tahr__step *step, vec3 motion, const tahr__swept *o
         return refuse(step, &hit, at, at > cap ? cap : a.base, "met too high, or no higher than the floor");
     }
     const vec3 before = step->state.position;
-    const uint32_t teleported = step->just_teleported;
     tahr__scope_open(step, &scope);
     if (!go_over(step, motion, dot(hit.surface_normal, a.up), before, &a) || step->error < 0) {
         tahr__scope_revert(step, &scope);
-        step->just_teleported = teleported;
         return 0;
     }
     if (a.found_floor) {

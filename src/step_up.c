@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * step_up.c: getting onto low obstacles: forward at step height, then down, judged by the face that is landed on.
  *
- * A round foot that has come 33 mm over a step (2 m/s at 60 Hz) touches its edge with a normal far from upright; judging
- * that normal refuses the step in every frame. The face behind the edge does not depend on how far the foot has come, so
- * the decision is the same at every frame rate, and needs no memory of former frames. */
+ * A round foot that has come 33 mm over a step (2 m/s at 60 Hz) touches its edge with a normal far from upright;
+ * judging that normal refuses the step in every frame. The face behind the edge does not depend on how far the foot has
+ * come, so the decision is the same at every frame rate, and needs no memory of former frames. */
 #include "step_up.h"
 
 #include "floor.h"
@@ -39,8 +39,8 @@ static double free_ahead(tahr__step *step, vec3 motion, double lift, tahr_hit *h
     return part == 1 || part * length(motion) > PROGRESS * step->limits->width ? part : 0;
 }
 
-/* How far the shape could go forward if it were raised; lowers the lift under a ceiling. Forward comes first: a tall wall
- * is then refused by one sweep. */
+/* How far the shape could go forward if it were raised; lowers the lift under a ceiling. Forward comes first: a tall
+ * wall is then refused by one sweep. */
 static int forward(tahr__step *step, vec3 motion, attempt *a)
 {
     const tahr_config *c = step->config;
@@ -50,7 +50,7 @@ static int forward(tahr__step *step, vec3 motion, attempt *a)
         return refuse(step, &ahead, ahead.fraction, 0, "blocked at step height too");
     }
     tahr__sweep(step, &step->limits->shape, step->state.position, scale(a->up, a->lift), c->skin, 0, &above);
-    if (above.blocking && !above.start_overlap) { /* a ceiling: as high as it lets */
+    if (is_blocked(&above)) { /* a ceiling: as high as it lets */
         a->lift *= above.fraction;
         a->covered = free_ahead(step, motion, a->lift, &ahead);
     }
@@ -61,9 +61,9 @@ static int forward(tahr__step *step, vec3 motion, attempt *a)
     return 1;
 }
 
-/* Height of the floor that a step to the height `to` is measured from. Who leans on a face too steep to stand on stands on
- * the floor before it, and no step is higher for how far the foot has come up there. On the front of a step the foot is
- * on that step already, as it is on a sharp edge; asked only where it makes a difference. */
+/* Height of the floor that a step to the height `to` is measured from. Who leans on a face too steep to stand on stands
+ * on the floor before it, and no step is higher for how far the foot has come up there. On the front of a step the foot
+ * is on that step already, as it is on a sharp edge; asked only where it makes a difference. */
 static double floor_height(tahr__step *step, double to)
 {
     const tahr_floor *floor = &step->state.floor;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * stepped.c: velocity and time in steps: explicit Euler, whose error depends on the frame rate (that is the parity). What
- * the numbers are in centimetres: 2048 cm/s2 of acceleration and of braking, drag 16/s = friction 8 * factor 2. */
+ * stepped.c: velocity and time in steps: explicit Euler, whose error depends on the frame rate (that is the parity).
+ * What the numbers are in centimetres: 2048 cm/s2 of acceleration and of braking, drag 16/s = friction 8 * factor 2. */
 #include "stepped.h"
 
 /* Above this part of the square of the asked speed a velocity is braked. */

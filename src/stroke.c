@@ -40,8 +40,8 @@ static double creep(const tahr__stroke *s, double v0, double t, double *v)
     return v0 * answer + s->push * (a - b) / apart;
 }
 
-/* The same by the series of its solution: c[n+2] (n+1)(n+2) = -(k (n+1) c[n+1] + spring c[n]), and push in c[2]. 30 terms
- * of an argument of at most 2 are far below rounding. */
+/* The same by the series of its solution: c[n+2] (n+1)(n+2) = -(k (n+1) c[n+1] + spring c[n]), and push in c[2]. 30
+ * terms of an argument of at most 2 are far below rounding. */
 static double bob(const tahr__stroke *s, double v0, double t, double *v)
 {
     double kt = s->drag * t, st = s->spring * t * t;
@@ -107,26 +107,32 @@ static double passing(const tahr__stroke *s, double v0, double from, double to, 
     return to;
 }
 
+/* m of rise that are not left. */
+typedef struct band {
+    double low, high;
+} band;
+
 /* On a part of the time on which the rise only rises or only sinks. */
-static int passes(const tahr__stroke *s, double v0, double from, double to, double low, double high, double *at)
+static int passes(const tahr__stroke *s, double v0, double from, double to, const band *b, double *at)
 {
     double v, z = rise_at(s, v0, to, &v);
-    if (z <= high && z >= low) {
+    if (z <= b->high && z >= b->low) {
         return 0;
     }
-    *at = passing(s, v0, from, to, z > high ? high : low, z > high);
+    *at = passing(s, v0, from, to, z > b->high ? b->high : b->low, z > b->high);
     return 1;
 }
 
 double tahr__stroke_leaves(const tahr__stroke *s, vec3 velocity, double t, double low, double high)
 {
+    const band between = {low, high};
     double v0 = dot(velocity, s->up), v, at = t;
     rise_at(s, v0, t, &v);
     double turn = (v0 > 0 && v < 0) || (v0 < 0 && v > 0) ? turning_point(s, v0, t) : 0;
-    if (turn > 0 && passes(s, v0, 0, turn, low, high, &at)) {
+    if (turn > 0 && passes(s, v0, 0, turn, &between, &at)) {
         return at;
     }
-    passes(s, v0, turn, t, low, high, &at);
+    passes(s, v0, turn, t, &between, &at);
     return at;
 }
 

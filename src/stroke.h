@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * stroke.h: how a swimmer's velocity answers to wish, drag, current and buoyancy, in closed form. Asks nothing, allocates
- * nothing. */
+ * stroke.h: how a swimmer's velocity answers to wish, drag, current and buoyancy, in closed form. Asks nothing,
+ * allocates nothing. */
 #ifndef TAHR_STROKE_H
 #define TAHR_STROKE_H
 

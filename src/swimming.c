@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * swimming.c: one slice of swimming.
  *
- * Thrust and drag are in proportion to velocities, weight and buoyancy to the immersion: all of it is one linear equation
- * (stroke.h), so that the same second of swimming is the same at every frame rate, and so is a bob at the surface. An
- * upward wish carries less the higher it comes out: full thrust wholly immersed, none at the line from which on it swims.
- * That, and not a cut, keeps a swimmer in the water. */
+ * Thrust and drag are in proportion to velocities, weight and buoyancy to the immersion: all of it is one linear
+ * equation (stroke.h), so that the same second of swimming is the same at every frame rate, and so is a bob at the
+ * surface. An upward wish carries less the higher it comes out: full thrust wholly immersed, none at the line from
+ * which on it swims. That, and not a cut, keeps a swimmer in the water. */
 #include "swimming.h"
 
 #include "elementary.h"
@@ -183,8 +183,8 @@ static double stroke_time(const tahr__step *step, const tahr__glide *g, const ta
     return t;
 }
 
-/* Cuts a piece at the line where the water begins not to carry all of it, or no longer carries. [out] ahead: the water at
- * its end. Returns 1 if that is still so after it, 0 if the piece was cut. */
+/* Cuts a piece at the line where the water begins not to carry all of it, or no longer carries. [out] ahead: the water
+ * at its end. Returns 1 if that is still so after it, 0 if the piece was cut. */
 static int cut_piece(tahr__step *step, piece *p, double immersion, tahr_fluid *ahead)
 {
     const tahr__way way = {p, piece_at};
@@ -197,9 +197,9 @@ static int cut_piece(tahr__step *step, piece *p, double immersion, tahr_fluid *a
     return 0;
 }
 
-/* config.integrator STEPPED. Out of the water no faster up than a third of the speed, except by what is still immersed; in
- * the shallows hardly any thrust upward (0.1 cm/s2); half of the friction turns, all of it brakes, and the fluid itself
- * takes its half too. */
+/* config.integrator STEPPED. Out of the water no faster up than a third of the speed, except by what is still immersed;
+ * in the shallows hardly any thrust upward (0.1 cm/s2); half of the friction turns, all of it brakes, and the fluid
+ * itself takes its half too. */
 static vec3 stepped_velocity(const tahr__step *step, const tahr_fluid *water, double t)
 {
     const tahr_config *c = step->config;
@@ -266,13 +266,13 @@ static int move_piece(tahr__step *step, tahr__glide *g, const piece *p, tahr_hit
     double used = p->time;
     tahr__move(step, way, hit);
     if (hit->blocking) {
-        used = p->stroke ? tahr__stroke_time(p->stroke, p->velocity, p->time, way, hit->fraction) : used * hit->fraction;
+        used =
+            p->stroke ? tahr__stroke_time(p->stroke, p->velocity, p->time, way, hit->fraction) : used * hit->fraction;
         along_piece(p, used, &then);
     }
     step->state.velocity = then;
     tahr__glide_use(step, g, used);
-    return hit->blocking && !hit->unknown && !hit->start_overlap &&
-           tahr__glide_step_up(step, g, hit, scale(way, 1 - hit->fraction), stands_here);
+    return is_met(hit) && tahr__glide_step_up(step, g, hit, scale(way, 1 - hit->fraction), stands_here);
 }
 
 /* One piece of the slice, from where the water is known. Returns 0 where the slice ends early: *next says how. */

@@ -12,8 +12,8 @@ double tahr__swim_line(const tahr_config *config);
 /* PhysSwimming: one slice of at most `time` seconds. */
 tahr__next tahr__swim(tahr__step *step, double time);
 
-/* One slice of walking in a world with fluids: ends where the fluid takes over. 1 fluid query more than walking; where it
- * ends in deep water the walk is gone up to 6 times more to find that place. */
+/* One slice of walking in a world with fluids: ends where the fluid takes over. 1 fluid query more than walking; where
+ * it ends in deep water the walk is gone up to 6 times more to find that place. */
 tahr__next tahr__wade(tahr__step *step, double time);
 
 /* Immersion of one that stands: where its foot is, or on the ledge whose edge it is on. One fluid query. */
@@ -28,9 +28,9 @@ typedef struct tahr__way {
     vec3 (*at)(const void *self, double t);
 } tahr__way;
 
-/* s within duration at which the immersion passes `line`, in the direction that it does: the end, where it is `end`, lies
- * beyond. The place is beyond the line by about a nanometre. Exact where the surface is level (1 fluid query, if the end
- * is partly immersed); elsewhere halved. At most 12 fluid queries. */
+/* s within duration at which the immersion passes `line`, in the direction that it does: the end, where it is `end`,
+ * lies beyond. The place is beyond the line by about a nanometre. Exact where the surface is level (1 fluid query, if
+ * the end is partly immersed); elsewhere halved. At most 12 fluid queries. */
 double tahr__passing_time(tahr__step *step, const tahr__way *way, double duration, double end, double line, int deeper);
 
 /* The jump button went down while swimming: leaves the water at its surface. One fluid query. */

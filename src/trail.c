@@ -7,7 +7,7 @@
 void tahr__trail_begin(tahr__trail *trail, tahr__step *step)
 {
     const tahr_state *s = &step->state;
-    trail->count = trail->timed = trail->resolved = trail->held = trail->asked = 0;
+    trail->count = trail->timed = trail->resolved = trail->held = trail->spans = trail->asked = 0;
     trail->current = s->mode == TAHR_MODE_WALKING && s->floor_revision == step->world->revision &&
                      vec_equal(s->floor_position, s->position);
     trail->swept = trail->clear = 0;
@@ -143,8 +143,8 @@ void tahr__trail_forget(tahr__step *step, uint32_t count)
     }
 }
 
-/* From `from` with this velocity and a constant acceleration to `to`: the time, as a part, at which a plane is met that the
- * straight line meets at a fraction. n . v T s + (n . d - n . v T) s^2 = f n . d */
+/* From `from` with this velocity and a constant acceleration to `to`: the time, as a part, at which a plane is met that
+ * the straight line meets at a fraction. n . v T s + (n . d - n . v T) s^2 = f n . d */
 static double fall_part(const tahr__leg *leg, double fraction, vec3 normal)
 {
     double rest = dot(normal, sub(leg->to, leg->from));

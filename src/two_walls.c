@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * two_walls.c: bending a motion along one surface and then along a second one, what is left is dropped: config.slide_solver
- * TWO_WALLS. For the joint projection see slide.c and cone.c. */
+ * two_walls.c: bending a motion along one surface and then along a second one, what is left is dropped:
+ * config.slide_solver TWO_WALLS. For the joint projection see slide.c and cone.c. */
 #include "floor.h"
 #include "plane.h"
 #include "report.h"
@@ -52,7 +52,8 @@ vec3 tahr__handle_slope_boosting(const tahr__step *step, vec3 slide, vec3 delta,
 vec3 tahr__slide_vector(const tahr__step *step, vec3 delta, double time, vec3 normal)
 {
     vec3 slide = base_slide(step, delta, time, normal);
-    return step->state.mode == TAHR_MODE_FALLING ? tahr__handle_slope_boosting(step, slide, delta, time, normal) : slide;
+    return step->state.mode == TAHR_MODE_FALLING ? tahr__handle_slope_boosting(step, slide, delta, time, normal)
+                                                 : slide;
 }
 
 static vec3 base_adjust(const tahr__step *step, vec3 delta, const tahr_hit *hit, vec3 old_normal)
@@ -127,11 +128,6 @@ vec3 tahr__slide_normal(tahr__step *step, vec3 delta, vec3 normal, const tahr_hi
 void tahr__handle_impact(tahr__step *step, const tahr_hit *hit)
 {
     tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(step->state.velocity, hit->normal), 0));
-}
-
-static int is_blocked(const tahr_hit *hit)
-{
-    return hit->blocking && !hit->start_overlap;
 }
 
 static int is_worth_a_sweep(const tahr__step *step, vec3 v)

@@ -24,12 +24,13 @@ typedef struct tahr__motion {
 /* Advances the velocity v (across up) by t >= 0 seconds. Composes: two halves give the whole, to rounding. */
 tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t);
 
-/* s within duration at which a part (0..1) of the way is covered, measured along the whole of it; whole is the displacement
- * after duration and not zero. The speed changes on the way, so the part of the time is not the part of the way. */
+/* s within duration at which a part (0..1) of the way is covered, measured along the whole of it; whole is the
+ * displacement after duration and not zero. The speed changes on the way, so the part of the time is not the part of
+ * the way. */
 double tahr__law_time(const tahr__law *law, vec3 v, double duration, vec3 whole, double part);
 
-/* A fall: the velocity along up is v0 at the start, gravity g (m/s2, > 0, along -up) acts after `hold` seconds, and the fall is
- * never faster than terminal. Returns the rise after t seconds, [out] v the velocity then. */
+/* A fall: the velocity along up is v0 at the start, gravity g (m/s2, > 0, along -up) acts after `hold` seconds, and the
+ * fall is never faster than terminal. Returns the rise after t seconds, [out] v the velocity then. */
 double tahr__fall_advance(double v0, double g, double terminal, double hold, double t, double *v);
 
 #endif

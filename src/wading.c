@@ -16,27 +16,34 @@ enum { TRIES = 6 };
 /* What a walk that leads too deep must forget. */
 typedef struct before {
     tahr__scope scope;
-    double time;
-    uint32_t just_teleported, iterations, apexes; /* STEPPED */
+    double time, time_lost;
+    double slice;                /* of the trail */
+    uint32_t iterations, apexes; /* STEPPED */
 } before;
 
 static void remember(tahr__step *step, before *b)
 {
     tahr__scope_open(step, &b->scope);
     b->time = step->time;
-    b->just_teleported = step->just_teleported;
+    b->time_lost = step->report.time_lost;
     b->iterations = step->iterations;
     b->apexes = step->apexes;
+    if (step->trail) {
+        step->trail->spans = 1;
+        b->slice = step->trail->slice;
+    }
 }
 
 static void go_back(tahr__step *step, const before *b)
 {
     tahr__scope_revert(step, &b->scope);
     step->time = b->time;
-    step->just_teleported = b->just_teleported;
+    step->report.time_lost = b->time_lost;
     step->iterations = b->iterations;
     step->apexes = b->apexes;
-    step->ahead = 0;
+    if (step->trail) {
+        step->trail->slice = b->slice;
+    }
 }
 
 /* On the edge of a ledge the foot still hangs below it. */
@@ -88,7 +95,7 @@ static tahr__next walk_to_line(tahr__step *step, const before *begin, double tim
     return swim_on(step, time - t);
 }
 
-tahr__next tahr__wade(tahr__step *step, double time)
+static tahr__next wade(tahr__step *step, double time)
 {
     before begin;
     double line = tahr__swim_line(step->config);
@@ -104,4 +111,14 @@ tahr__next tahr__wade(tahr__step *step, double time)
     tahr__decide(step, TAHR_RULE_FLUID, 1, NULL, m, line, "deep enough to swim");
     go_back(step, &begin);
     return walk_to_line(step, &begin, time, line, m);
+}
+
+/* Which sensors it was inside of is asked only when nothing can be taken back any more. */
+tahr__next tahr__wade(tahr__step *step, double time)
+{
+    tahr__next next = wade(step, time);
+    if (step->trail) {
+        step->trail->spans = 0;
+    }
+    return next;
 }

@@ -166,17 +166,6 @@ static int hold_at_ledge(tahr__step *step, walk *w)
     return ENDS;
 }
 
-static void settle(tahr__step *step, walk *w)
-{
-    double height = tahr__adjust_height(step);
-    w->settled = height;
-    step->report.step_offset += height;
-    if (height < -2 * step->config->skin) {
-        tahr__event(step, TAHR_EVENT_STEPPED_DOWN, NULL, -height);
-        tahr__decide(step, TAHR_RULE_STEP_DOWN, 1, NULL, -height, step->config->snap_distance, "floor followed down");
-    }
-}
-
 /* Out of what the look for the floor started in: how deep that is the floor does not tell, so a bit in every step. */
 static void leave_overlap(tahr__step *step)
 {
@@ -199,7 +188,7 @@ static void leave_overlap(tahr__step *step)
 static int follow_floor(tahr__step *step, walk *w)
 {
     if (floor_is_walkable(&step->state.floor)) {
-        settle(step, w);
+        w->settled = tahr__settle(step);
         return GOES_ON;
     }
     if (is_overlapped(step)) {

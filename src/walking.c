@@ -51,17 +51,21 @@ static tahr__next fall_off(tahr__step *step, tahr__path *w, vec3 to, double part
     return next;
 }
 
-/* Follows the floor down, or rises off it, and says so when it was a step. */
-static void settle(tahr__step *step)
+double tahr__settle(tahr__step *step)
 {
-    if (floor_is_in_band(step)) {
-        return;
-    }
     double height = tahr__adjust_height(step);
     step->report.step_offset += height;
     if (height < -2 * step->config->skin) {
         tahr__event(step, TAHR_EVENT_STEPPED_DOWN, NULL, -height);
         tahr__decide(step, TAHR_RULE_STEP_DOWN, 1, NULL, -height, step->config->snap_distance, "floor followed down");
+    }
+    return height;
+}
+
+static void settle(tahr__step *step)
+{
+    if (!floor_is_in_band(step)) {
+        tahr__settle(step);
     }
 }
 
@@ -95,10 +99,10 @@ static tahr__next stand(tahr__step *step, double time, int looked)
     return next;
 }
 
-/* Walks on until the floor under the end of the walk is known. Where it seems to end it may only lie lower than one snap
- * reaches from the straight path of a long slice (stairs down at 10 Hz): goes down where it still was, and on from there.
- * Returns FLOOR; NO_FLOOR with the place where it ended as a part of the last piece; or WALK_AGAIN if it may have ended
- * on an earlier piece. */
+/* Walks on until the floor under the end of the walk is known. Where it seems to end it may only lie lower than one
+ * snap reaches from the straight path of a long slice (stairs down at 10 Hz): goes down where it still was, and on from
+ * there. Returns FLOOR; NO_FLOOR with the place where it ended as a part of the last piece; or WALK_AGAIN if it may
+ * have ended on an earlier piece. */
 enum { NO_FLOOR, FLOOR, WALK_AGAIN };
 
 static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
@@ -180,7 +184,8 @@ tahr__next tahr__walk_slice(tahr__step *step, double time)
         tahr__path_find_slope(&w, step);
         w.careful = careful;
         answer = walk_over_floor(step, &w, &part);
-        if (answer == WALK_AGAIN) { /* the path was bent on the way: once more, with a look at the floor at every bend */
+        if (answer == WALK_AGAIN) { /* the path was bent on the way: once more, with a look at the floor at every
+                                     * bend */
             tahr__scope_revert(step, &scope);
         }
     }
@@ -195,6 +200,7 @@ tahr__next tahr__walk_slice(tahr__step *step, double time)
     step->ahead = time;
     settle(step);
     step->time += time;
+    step->ahead = 0;
     tahr__next next = {TAHR_MODE_WALKING, 0};
     return next;
 }

@@ -17,4 +17,7 @@ tahr__next tahr__walk_in_steps(tahr__step *step, double time);
 /* Turns the speed along the floor into the velocity of a body that leaves it: the level part of it. */
 void tahr__leave_floor(tahr__step *step);
 
+/* Follows the floor down, or rises off it, and says so when it was a step. Queries as for tahr__adjust_height. */
+double tahr__settle(tahr__step *step);
+
 #endif

@@ -12,33 +12,35 @@
 #include "sized.h"
 #include "world_memory.h"
 
-tahr_status tahr_world_desc_init(tahr_world_desc *desc, size_t size)
+/* A description with nothing in it but its size. */
+static tahr_status clear_sized(void *desc, size_t size, size_t least)
 {
+    const uint32_t struct_size = (uint32_t)size;
     if (!desc) {
         return TAHR_E_NULL;
     }
-    if (size < sizeof *desc) {
+    if (size < least) {
         return TAHR_E_STRUCT_SIZE;
     }
     memset(desc, 0, size);
-    desc->struct_size = (uint32_t)size;
+    memcpy(desc, &struct_size, sizeof struct_size);
     return TAHR_OK;
+}
+
+tahr_status tahr_world_desc_init(tahr_world_desc *desc, size_t size)
+{
+    return clear_sized(desc, size, sizeof *desc);
 }
 
 tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint32_t type)
 {
-    if (!desc) {
-        return TAHR_E_NULL;
+    tahr_status status = clear_sized(desc, size, sizeof *desc);
+    if (status >= 0) {
+        desc->type = type;
+        desc->mask = 0xFFFFFFFFu;
+        desc->pose.orientation.w = 1;
     }
-    if (size < sizeof *desc) {
-        return TAHR_E_STRUCT_SIZE;
-    }
-    memset(desc, 0, size);
-    desc->struct_size = (uint32_t)size;
-    desc->type = type;
-    desc->mask = 0xFFFFFFFFu;
-    desc->pose.orientation.w = 1;
-    return TAHR_OK;
+    return status;
 }
 
 static void silent(void *user, int32_t level, const char *message)
@@ -183,7 +185,7 @@ static tahr__body_note note_of(uint32_t i, const tahr_body_desc *b)
     if (pose.orientation.x == 0 && pose.orientation.y == 0 && pose.orientation.z == 0 && pose.orientation.w == 0) {
         pose.orientation.w = 1;
     }
-    tahr__body_note note = {.pose_hash = tahr__hash_pose(i, &b->pose),
+    tahr__body_note note = {.pose_hash = tahr__hash_pose(i, &pose),
                             .reach = reach_of(b),
                             .fluid_friction = b->fluid_friction,
                             .surface_velocity = b->surface_velocity,
@@ -198,8 +200,9 @@ static uint32_t has_of(const tahr__body_note *note)
 {
     uint32_t sensor = note->flags & (TAHR_BODY_SENSOR | TAHR_BODY_FLUID);
     uint32_t base = note->flags & TAHR_BODY_MOVABLE || length_squared(note->surface_velocity) > 0 || note->mass > 0;
-    uint32_t moves = sensor && note->flags & TAHR_BODY_MOVABLE;
-    return (sensor ? TAHR__HAS_SENSORS : 0u) | (moves ? TAHR__HAS_MOVING_SENSORS : 0u) |
+    uint32_t moves = note->flags & TAHR_BODY_MOVABLE;
+    uint32_t placed = sensor ? (uint32_t)TAHR__HAS_MOVING_SENSORS : (uint32_t)TAHR__HAS_SQUEEZERS;
+    return (sensor ? TAHR__HAS_SENSORS : 0u) | (moves ? placed : 0u) |
            (note->flags & TAHR_BODY_FLUID ? TAHR__HAS_FLUIDS : 0u) | (base ? TAHR__HAS_BASES : 0u);
 }
 

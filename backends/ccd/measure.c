@@ -87,7 +87,8 @@ static double core_depth(const tahr__ccd_probe *probe, const tahr__ccd_piece *pi
     return tahr__core_leave_triangle(&probe->core, centre, piece->corner, sides == 3 && alone ? 7 : sides, normal);
 }
 
-void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre, tahr__ccd_near *near)
+void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
+                       tahr__ccd_near *near)
 {
     tahr__witness w = {0};
     tahr_vec3 way_out;

@@ -40,7 +40,8 @@ static int visit(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, dou
     return 1;
 }
 
-tahr_status tahr__ccd_ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
+tahr_status tahr__ccd_ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit,
+                          uint32_t *count)
 {
     tahr__ccd_probe probe = {.scene = self,
                              .context = context,

@@ -115,7 +115,8 @@ tahr_status tahr__ccd_sweep(void *self, tahr_query_context *context, const tahr_
                             uint32_t capacity, uint32_t *count);
 tahr_status tahr__ccd_contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
                                tahr_contact *contacts, uint32_t capacity, uint32_t *count);
-tahr_status tahr__ccd_ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count);
+tahr_status tahr__ccd_ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit,
+                          uint32_t *count);
 
 /* probe.c: from queries to probes. Returns 0 if something is not finite: libccd crashes on that. */
 int tahr__ccd_probe_shape(tahr__ccd_probe *probe, const tahr_shape *shape, tahr_vec3 up, tahr_quat orientation);

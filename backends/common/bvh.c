@@ -143,7 +143,8 @@ static uint32_t partition_sah(builder *b, const range *r, const tahr__bvh_box *m
     return i - r->first;
 }
 
-/* Halves by the order the items are in: whatever the heuristic cannot separate (equal middles) or should not any deeper. */
+/* Halves by the order the items are in: whatever the heuristic cannot separate (equal middles) or should not any
+ * deeper. */
 static uint32_t partition(builder *b, const range *r, const tahr__bvh_box *middles)
 {
     uint32_t left = r->level < SAH_LEVELS ? partition_sah(b, r, middles) : 0;
@@ -256,7 +257,8 @@ void tahr__bvh_walk_narrow(tahr__bvh_walk *walk, const tahr_bounds *box)
     walk->narrowed = 1;
 }
 
-void tahr__bvh_walk_begin(tahr__bvh_walk *walk, const tahr__bvh *bvh, const tahr_bounds *box, double reach, tahr_vec3 near)
+void tahr__bvh_walk_begin(tahr__bvh_walk *walk, const tahr__bvh *bvh, const tahr_bounds *box, double reach,
+                          tahr_vec3 near)
 {
     walk->bvh = bvh;
     tahr__bvh_walk_narrow(walk, box);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * bvh.h: a bounding volume hierarchy over boxes: built once by a binned surface area heuristic, walked without recursion.
- * Node bounds are floats relative to a centre, rounded outward, so a walk can only find too much. */
+ * bvh.h: a bounding volume hierarchy over boxes: built once by a binned surface area heuristic, walked without
+ * recursion. Node bounds are floats relative to a centre, rounded outward, so a walk can only find too much. */
 #ifndef TAHR_COMMON_BVH_H
 #define TAHR_COMMON_BVH_H
 
@@ -8,7 +8,8 @@
 
 #include <tahr/backend.h>
 
-/* Depth is at most 64 by construction (48 chosen levels, then halving), a walk keeps one node per level beside its path. */
+/* Depth is at most 64 by construction (48 chosen levels, then halving), a walk keeps one node per level beside its
+ * path. */
 enum { TAHR__BVH_STACK = 96, TAHR__BVH_LEAF = 4 };
 
 typedef struct tahr__bvh_node {

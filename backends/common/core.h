@@ -59,7 +59,8 @@ static inline double tahr__core_extent(const tahr__core *core, tahr_vec3 n)
 }
 
 /* How far the core must move, and along which unit normal, to leave a triangle that it touches or crosses. sides: bit 0
- * the front, bit 1 the back, bit 2 past the edges. Returns the depth (>= 0); with no possible way the front is taken. */
+ * the front, bit 1 the back, bit 2 past the edges. Returns the depth (>= 0); with no possible way the front is
+ * taken. */
 double tahr__core_leave_triangle(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 v[3], unsigned sides,
                                  tahr_vec3 *normal);
 

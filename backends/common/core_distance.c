@@ -31,7 +31,8 @@ static tahr_vec3 on_edge(tahr_vec3 q, const tahr_vec3 v[3], int i, uint32_t *fea
     return v_mad(b, e, -(v_dot(v_sub(b, q), e) / length2));
 }
 
-/* Off the face: the nearest point of the edges that the projection is outside of; for a triangle without area of any. */
+/* Off the face: the nearest point of the edges that the projection is outside of; for a triangle without area of
+ * any. */
 static void beside_face(tahr_vec3 q, const tahr_vec3 v[3], const double side[3], int flat, tahr__witness *out)
 {
     double best = -1;
@@ -184,7 +185,8 @@ static void corner_to_box(const tahr__core *core, tahr_vec3 centre, tahr_vec3 p,
     keep_nearer(out, &w);
 }
 
-/* Is there an axis that separates the box from the triangle? (Face normals and edge pairs: complete for two polyhedra.) */
+/* Is there an axis that separates the box from the triangle? (Face normals and edge pairs: complete for two
+ * polyhedra.) */
 static int separated(const tahr__core *core, const tahr_vec3 r[3])
 {
     tahr_vec3 e[3] = {v_sub(r[1], r[0]), v_sub(r[2], r[1]), v_sub(r[0], r[2])};
@@ -245,7 +247,8 @@ void tahr__core_distance(const tahr__core *core, tahr_vec3 centre, const tahr_ve
     tahr__facet_distance(core, centre, &f, out);
 }
 
-/* Tries to leave along +-n: keeps the shortest way. low and high are the other shape's extent along n around the core. */
+/* Tries to leave along +-n: keeps the shortest way. low and high are the other shape's extent along n around the
+ * core. */
 static void try_way(tahr_vec3 n, double low, double high, double *depth, tahr_vec3 *normal)
 {
     double n2 = v_dot(n, n);

@@ -3,8 +3,8 @@
  *
  * Vertices with exactly equal coordinates are welded. Dropped are triangles without area (thinner than 1e-10 of their
  * longest edge: they are no surface, and what they connect is covered by their neighbours or open to a radius of at
- * least a millimetre) and exact duplicates (same corners, same winding; the lowest index stays). Triangles are stored in
- * leaf order of the tree; source says which triangle of the caller one is. */
+ * least a millimetre) and exact duplicates (same corners, same winding; the lowest index stays). Triangles are stored
+ * in leaf order of the tree; source says which triangle of the caller one is. */
 #ifndef TAHR_COMMON_MESH_H
 #define TAHR_COMMON_MESH_H
 

@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-/* Contacts looked at for one answer. A character touches a few planes; more than this many are reported as truncated. */
+/* Contacts looked at for one answer. A character touches a few planes; more than this many are reported as
+ * truncated. */
 enum { MOST = 256 };
 /* Two records of one place: neighbours that meet the shape in a shared edge, duplicates, both halves of a face. */
 #define SAME 1e-9

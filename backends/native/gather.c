@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * gather.c: one character's cache of nearby static primitives, and the search that uses it where it holds everything. */
+ * gather.c: one character's cache of nearby static primitives, and the search that uses it where it holds
+ * everything. */
 #include "scene.h"
 
 #include <string.h>
@@ -118,7 +119,8 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
 static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
 {
     const tahr__query *query = s->query;
-    /* d_up alone covers the rounding of the lanes' differences only down to 1e-7 of the reach; the slack covers zero. */
+    /* d_up alone covers the rounding of the lanes' differences only down to 1e-7 of the reach; the slack covers
+     * zero. */
     q->limit = d_up((s->reach + 1e-6) * (s->reach + 1e-6) * (1 + 1e-5));
     q->lo[0] = d_down(s->box.min.x);
     q->lo[1] = d_down(s->box.min.y);

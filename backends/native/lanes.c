@@ -77,9 +77,9 @@ static float box_distance(const tahr__lanes *lanes, uint32_t i, const float lo[3
     return (square[0] + square[1]) + square[2];
 }
 
-/* By the plane and the farthest edge: seen along that edge the triangle is a ray, and the nearest point of the segment lies
- * h above its line and o beyond its end. The plane through that end across the way to the point separates them, and the
- * distance to it changes evenly. Returns the time before which it is out of reach; NEVER. */
+/* By the plane and the farthest edge: seen along that edge the triangle is a ray, and the nearest point of the segment
+ * lies h above its line and o beyond its end. The plane through that end across the way to the point separates them,
+ * and the distance to it changes evenly. Returns the time before which it is out of reach; NEVER. */
 static float time_within(const tahr__lanes *lanes, uint32_t i, const tahr__lanes_query *q)
 {
     const float *s = q->start, *m = q->motion, *at = lanes->blocks + tahr__lane(i, TAHR__LANE_NORMAL);

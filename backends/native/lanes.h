@@ -5,8 +5,8 @@
 
 #include "../common/core.h"
 
-/* What single precision may be off by over the 32 m in which triangles have planes, four times (m): a query adds it to its
- * reach. */
+/* What single precision may be off by over the 32 m in which triangles have planes, four times (m): a query adds it to
+ * its reach. */
 #define TAHR__LANE_SLACK 4e-5
 
 /* Blocks of eight primitives, each 22 rows of eight floats: low corner, high corner, plane normal . x = offset, and the
@@ -38,8 +38,8 @@ void tahr__lanes_put(float *blocks, uint32_t i, const tahr_bounds *box, const ta
 /* Fills the rest of the last block. */
 void tahr__lanes_end(float *blocks, uint32_t count);
 
-/* What is looked for: boxes whose squared distance to [lo, hi] is at most limit, and whose plane and farthest edge do not
- * keep them out of reach of an upright segment of half length half that moves from start by motion. */
+/* What is looked for: boxes whose squared distance to [lo, hi] is at most limit, and whose plane and farthest edge do
+ * not keep them out of reach of an upright segment of half length half that moves from start by motion. */
 typedef struct tahr__lanes_query {
     float lo[3], hi[3], limit;
     float start[3], motion[3], half, reach;
@@ -55,7 +55,8 @@ typedef struct tahr__lanes_found {
 /* Writes all of them, in order, and returns how many. */
 typedef uint32_t tahr__lanes_fn(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found);
 
-/* The scalar twin; four lanes, which every machine has by its compiler's vectors; eight, where the processor has AVX2. */
+/* The scalar twin; four lanes, which every machine has by its compiler's vectors; eight, where the processor has
+ * AVX2. */
 tahr__lanes_fn tahr__lanes_cull_1, tahr__lanes_cull_4, tahr__lanes_cull_8;
 
 /* The fastest that this machine can run. */

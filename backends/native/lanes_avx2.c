@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * lanes_avx2.c: the cull eight lanes at a time. Only called where the processor has AVX2; without FMA, so that it does the
- * operations of the scalar twin. */
+ * lanes_avx2.c: the cull eight lanes at a time. Only called where the processor has AVX2; without FMA, so that it does
+ * the operations of the scalar twin. */
 #include "lanes.h"
 
 #if defined(__GNUC__) && defined(__x86_64__)

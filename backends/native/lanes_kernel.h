@@ -12,7 +12,8 @@ static inline lane at(const float *p)
 
 static inline lane square_gap(const float *block, int axis, lane box_lo, lane box_hi)
 {
-    lane lo = at(block + (TAHR__LANE_LOW + axis) * TAHR__LANES), hi = at(block + (TAHR__LANE_HIGH + axis) * TAHR__LANES);
+    lane lo = at(block + (TAHR__LANE_LOW + axis) * TAHR__LANES),
+         hi = at(block + (TAHR__LANE_HIGH + axis) * TAHR__LANES);
     lane gap = larger(larger(lo - box_hi, box_lo - hi), splat(0));
     return gap * gap;
 }

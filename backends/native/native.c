@@ -5,7 +5,8 @@
 #include <string.h>
 
 enum { CAPACITY_DEFAULT = 128, CAPACITY_MAX = TAHR__CACHE_MOST };
-/* A newer version may add this many bytes to the options; beyond is a size that was never set, and reading it a crash. */
+/* A newer version may add this many bytes to the options; beyond is a size that was never set, and reading it a
+ * crash. */
 #define MOST_UNKNOWN 4096u
 /* m; a gather lasts 12 steps of a wanderer in a dungeon at 0.75, 15 at 1 and 20 at 1.5, where the longer lists cost the
  * sweeps more than fewer gathers save (measured). */
@@ -109,7 +110,8 @@ static tahr_status native_place(void *self, const tahr_body_pose *poses, uint32_
     return tahr__bodies_place(self, poses, count);
 }
 
-static tahr_status native_fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *fluid)
+static tahr_status native_fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query,
+                                tahr_fluid *fluid)
 {
     const tahr__native *world = self;
     (void)context;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * plane.h: what the planes of a triangle say about a motion, before anything is measured. Inline: a sweep asks it of every
- * triangle around. */
+ * plane.h: what the planes of a triangle say about a motion, before anything is measured. Inline: a sweep asks it of
+ * every triangle around. */
 #ifndef TAHR_NATIVE_PLANE_H
 #define TAHR_NATIVE_PLANE_H
 
@@ -20,24 +20,24 @@ static inline double extent_along(const tahr__query *query, tahr_vec3 n)
     return query->core.axis_count < 2 ? upright_extent(query, n) : tahr__box_extent(query, n);
 }
 
-/* Core and triangle are `gap` (> 0) apart along an axis (less the target; times its length) and come nearer by `rate` over
- * the whole motion: the time before which nothing happens; NEVER, if that is beyond the limit or they do not. */
+/* Core and triangle are `gap` (> 0) apart along an axis (less the target; times its length) and come nearer by `rate`
+ * over the whole motion: the time before which nothing happens; NEVER, if that is beyond the limit or they do not. */
 static inline double closing_time(double gap, double rate, double limit)
 {
     /* A little more than the limit, so that the quotient alone decides what ties with it. */
     return gap > limit * rate * (1 + 1e-15) ? NEVER : gap / rate;
 }
 
-/* Does the core stay behind a one-sided face? Contacts from so far behind fail the test for one-sided faces (1e-6 of the
- * distance) anyway. */
+/* Does the core stay behind a one-sided face? Contacts from so far behind fail the test for one-sided faces (1e-6 of
+ * the distance) anyway. */
 static inline int stays_behind(double first, double last, double extent, double reach, double length)
 {
     return d_max(first, last) + extent < -(1e-5 * reach + 1e-8) * length;
 }
 
-/* What the plane alone says: a time before which the primitive does not stop the motion; NEVER, if that is beyond limit: the
- * core stays beyond the target on one side of it, or behind a one-sided face, which is all most triangles get. For
- * the distance to the triangle is at least that to any plane that separates. 0: look at the start. */
+/* What the plane alone says: a time before which the primitive does not stop the motion; NEVER, if that is beyond
+ * limit: the core stays beyond the target on one side of it, or behind a one-sided face, which is all most triangles
+ * get. For the distance to the triangle is at least that to any plane that separates. 0: look at the start. */
 static inline double plane_earliest(const tahr__query *query, const tahr__prim *prim, double limit)
 {
     if (prim->kind & TAHR__PLANELESS) return 0;
@@ -58,9 +58,9 @@ static inline double plane_earliest(const tahr__query *query, const tahr__prim *
 /* Taken off distances, so that no rounding of what follows, a thousandth of it, makes a time too late (m). */
 #define ROOM 1e-7
 
-/* The same by the edges, not before `earliest`, what the plane says: for ordering and leaving out, not to begin at. Seen
- * along an edge the triangle is a ray, and the core a point h above its line and o beyond its end; the plane through that
- * end across the way to the point separates them. Of the edges the one that is farthest is asked. */
+/* The same by the edges, not before `earliest`, what the plane says: for ordering and leaving out, not to begin at.
+ * Seen along an edge the triangle is a ray, and the core a point h above its line and o beyond its end; the plane
+ * through that end across the way to the point separates them. Of the edges the one that is farthest is asked. */
 static inline double edges_earliest(const tahr__query *query, const tahr__prim *prim, double limit, double earliest)
 {
     if (prim->kind & TAHR__PLANELESS) return earliest;

@@ -100,8 +100,8 @@ static unsigned sides_of(const tahr__query *query, const tahr__prim *prim)
     return alone ? 7 : 3;
 }
 
-/* The distance of the core. To a triangle wholly below the lower end of an upright segment that end is the nearest, to one
- * wholly above it the upper one: exact, and a third of the work. */
+/* The distance of the core. To a triangle wholly below the lower end of an upright segment that end is the nearest, to
+ * one wholly above it the upper one: exact, and a third of the work. */
 static void measure(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, tahr__witness *out)
 {
     const tahr_vec3 *v = prim->facet.v;
@@ -232,9 +232,9 @@ static int judge(const flight *f, const tahr__contact_normals *normals, int at_s
     return TAHR__BLOCKED;
 }
 
-/* Goes on until something is decided. A contact that belongs to a nearer neighbour is not this triangle's: its turn comes
- * when it is as near as that neighbour was, at the latest when it is as near as anything beside the start (beside, a
- * gap). The first time it steps back instead: most often the neighbour blocks before. */
+/* Goes on until something is decided. A contact that belongs to a nearer neighbour is not this triangle's: its turn
+ * comes when it is as near as that neighbour was, at the latest when it is as near as anything beside the start
+ * (beside, a gap). The first time it steps back instead: most often the neighbour blocks before. */
 static int fly(flight *f, double limit, const double *beside, tahr__found *out)
 {
     const tahr__query *query = f->query;

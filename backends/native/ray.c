@@ -92,7 +92,8 @@ static void visit(tahr__search *search, const tahr__prim *prim)
     search->narrowed = 1;
 }
 
-tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr_ray *ray, tahr_hit *hit, uint32_t *count)
+tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr_ray *ray, tahr_hit *hit,
+                             uint32_t *count)
 {
     tahr__query query;
     ray_state s;

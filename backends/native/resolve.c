@@ -33,8 +33,8 @@ static tahr_vec3 face_normal(const work *w, uint32_t triangle)
     return w->map.turned ? m_apply(&w->map.turn, n) : n;
 }
 
-/* Does the triangle (corners v, local) lead from its corner `at` nearer to the core than the touched feature? to: the other
- * corner of a touched edge, 3 for a touched corner. */
+/* Does the triangle (corners v, local) lead from its corner `at` nearer to the core than the touched feature? to: the
+ * other corner of a touched edge, 3 for a touched corner. */
 static int leads_nearer(tahr_vec3 n, const tahr_vec3 v[3], uint32_t at, uint32_t to)
 {
     for (uint32_t i = 1; i < 3; i++) {
@@ -53,8 +53,8 @@ static int leads_nearer(tahr_vec3 n, const tahr_vec3 v[3], uint32_t at, uint32_t
     return 0;
 }
 
-/* A neighbour at the touched edge or corner: is it nearer than that feature, does its face oppose the motion more? 1: no
- * need to look at others. */
+/* A neighbour at the touched edge or corner: is it nearer than that feature, does its face oppose the motion more? 1:
+ * no need to look at others. */
 static int look_at(work *w, uint32_t triangle, uint32_t at, uint32_t to)
 {
     tahr_vec3 n = w->out->normal, f = face_normal(w, triangle), v[3];

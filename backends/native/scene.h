@@ -52,8 +52,8 @@ typedef struct tahr__native {
     tahr__fluids fluids;
 } tahr__native;
 
-/* Where a query is computed: relative to the corner of a 4 m cell, up along +z. Everything in a frame is a pure function
- * of (vertex, pose, origin, up, precision), which is why cached and fresh answers are the same bits. */
+/* Where a query is computed: relative to the corner of a 4 m cell, up along +z. Everything in a frame is a pure
+ * function of (vertex, pose, origin, up, precision), which is why cached and fresh answers are the same bits. */
 typedef struct tahr__frame {
     tahr_vec3 origin, up;
     tahr__mat turn; /* world to local */
@@ -79,8 +79,8 @@ enum {
     TAHR__OF_BOX = 8
 };
 
-/* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. Three lines of memory:
- * what its plane needs, what its edges and the distance to it need, what a contact needs. */
+/* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. Three lines of
+ * memory: what its plane needs, what its edges and the distance to it need, what a contact needs. */
 typedef struct tahr__prim {
     uint32_t item, kind;
     tahr__facet facet; /* local; a segment for round bodies, a point for solids */
@@ -114,7 +114,7 @@ typedef struct tahr__query {
     tahr_vec3 start, motion; /* local */
     double motion_length;
     double radius, margin;
-    double half; /* of an upright segment, 0 for a point */
+    double half;                       /* of an upright segment, 0 for a point */
     uint32_t mask, ignore_body, flags; /* flags: of a sweep; with ONLY_BODY nothing but ignore_body is searched */
     uint32_t sensors;                  /* TAHR__SENSORS_* */
 } tahr__query;
@@ -176,8 +176,8 @@ typedef struct tahr__contact_normals {
     double closer;          /* with TAHR__NEIGHBOUR: distance of the core to the neighbour that is nearer */
 } tahr__contact_normals;
 
-/* witness: of the core at centre. NEIGHBOUR: the nearest point is an edge or corner, and another triangle at it is nearer;
- * closer is the distance to that one if measure was asked for. */
+/* witness: of the core at centre. NEIGHBOUR: the nearest point is an edge or corner, and another triangle at it is
+ * nearer; closer is the distance to that one if measure was asked for. */
 int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
                   tahr_vec3 motion, int measure, tahr__contact_normals *out);
 
@@ -198,9 +198,9 @@ typedef struct tahr__found {
 enum { TAHR__FREE = 0, TAHR__BLOCKED = 1, TAHR__LATER = 2, TAHR__BESIDE = 3 };
 
 /* Does the primitive stop the motion at or before limit (what comes later may be missed)? earliest: what plane.h
- * says, at most limit. BESIDE: within the margin at the start (out->gap) and not blocking. LATER, only without beside: not
- * before out->t; ask again with beside, the smallest gap of all that were BESIDE (the margin if none), when everything has
- * been asked. */
+ * says, at most limit. BESIDE: within the margin at the start (out->gap) and not blocking. LATER, only without beside:
+ * not before out->t; ask again with beside, the smallest gap of all that were BESIDE (the margin if none), when
+ * everything has been asked. */
 typedef struct tahr__ask {
     double earliest, limit;
     const double *beside;

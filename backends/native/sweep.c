@@ -8,8 +8,8 @@
 /* Sensor bodies remembered in one sweep; each reports its first contact. */
 enum { SENSORS = 32 };
 
-/* Surfaces met at the same time, and the way (m) that counts as the same: ten times what rounding does to positions 1e6 m
- * out, and no more than what the double narrow phase promises. */
+/* Surfaces met at the same time, and the way (m) that counts as the same: ten times what rounding does to positions 1e6
+ * m out, and no more than what the double narrow phase promises. */
 enum { TIES = 8 };
 #define HAIR 1e-9
 
@@ -120,8 +120,8 @@ static int overlap_first(sweep_state *s, const tahr__found *f)
 }
 
 /* Keeps all that blocks within a hair of the first. Which of two surfaces that a walker touches at once is met first is
- * rounding, and whole paths would hang on it: of those the one with the lowest name is reported, at the first one's time.
- * Beyond TIES the highest names are dropped. Returns whether it is one of them. */
+ * rounding, and whole paths would hang on it: of those the one with the lowest name is reported, at the first one's
+ * time. Beyond TIES the highest names are dropped. Returns whether it is one of them. */
 static int tie(sweep_state *s, const tahr__found *f)
 {
     if (f->overlap) return overlap_first(s, f);

@@ -139,7 +139,8 @@ static int plane_meets_cell(const struct checker *checker, const tahr_vec3 abc[3
 {
     tahr_vec3 normal = vec_cross(vec_sub(abc[1], abc[0]), vec_sub(abc[2], abc[0]));
     double half = checker->cell * 0.5;
-    tahr_vec3 middle = vec_add(checker->origin, (tahr_vec3){(2 * x + 1) * half, (2 * y + 1) * half, (2 * z + 1) * half});
+    tahr_vec3 middle =
+        vec_add(checker->origin, (tahr_vec3){(2 * x + 1) * half, (2 * y + 1) * half, (2 * z + 1) * half});
     double reach = (fabs(normal.x) + fabs(normal.y) + fabs(normal.z)) * half;
     return fabs(vec_dot(normal, vec_sub(middle, abc[0]))) <= reach * 1.001;
 }

@@ -178,7 +178,8 @@ static void add_creases(struct level *level)
     sketch_quad(&sketch, left, top_left, back_left, heel_left);
     sketch_quad(&sketch, right, heel_right, back_right, top_right);
     sketch_quad(&sketch, heel_left, back_left, back_right, heel_right);
-    const tahr_vec3 peak = {-6, -3.5, 2}, base[4] = {{-7.4, -4.9, 0}, {-4.6, -4.9, 0}, {-4.6, -2.1, 0}, {-7.4, -2.1, 0}};
+    const tahr_vec3 peak = {-6, -3.5, 2},
+                    base[4] = {{-7.4, -4.9, 0}, {-4.6, -4.9, 0}, {-4.6, -2.1, 0}, {-7.4, -2.1, 0}};
     for (int i = 0; i < 4; i++) {
         sketch_triangle(&sketch, base[i], base[(i + 1) % 4], peak);
     }

@@ -51,7 +51,8 @@ static void add_pool(struct level *level)
     sketch_triangle(&sketch, b, e, top_b);
     sketch_triangle(&sketch, c, f, top_c);
     sketch_finish(&sketch, level);
-    level_add_pool(level, (tahr_vec3){(POOL_X0 + POOL_X1) / 2, (POOL_Y0 + POOL_Y1) / 2, (POOL_SURFACE - POOL_DEPTH) / 2},
+    level_add_pool(level,
+                   (tahr_vec3){(POOL_X0 + POOL_X1) / 2, (POOL_Y0 + POOL_Y1) / 2, (POOL_SURFACE - POOL_DEPTH) / 2},
                    (tahr_vec3){(POOL_X1 - POOL_X0) / 2, (POOL_Y1 - POOL_Y0) / 2, (POOL_DEPTH + POOL_SURFACE) / 2});
 }
 

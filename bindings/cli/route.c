@@ -62,7 +62,8 @@ static int read_key(const struct place *place, const char *key, const json_t *va
 {
     if (strcmp(key, "time") == 0) {
         entry->time = json_number_value(value);
-        return json_is_number(value) && entry->time >= 0 ? 0 : complain(place, key, "expected a number of seconds >= 0");
+        return json_is_number(value) && entry->time >= 0 ? 0
+                                                         : complain(place, key, "expected a number of seconds >= 0");
     }
     if (strcmp(key, "move") == 0) {
         return read_vector(place, key, value, &entry->move);

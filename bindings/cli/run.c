@@ -105,7 +105,8 @@ static int create_characters(struct run *run)
         place_character(run, character, 0);
         tahr_status status = tahr_mover_create(run->world, &run->config, &character->mover);
         if (status < 0) {
-            say_error("cannot create character %u on backend '%s': %s", i, o->backend->name, tahr_status_message(status));
+            say_error("cannot create character %u on backend '%s': %s", i, o->backend->name,
+                      tahr_status_message(status));
             failed = -1;
         }
     }

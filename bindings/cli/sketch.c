@@ -38,7 +38,8 @@ void sketch_finish(struct sketch *sketch, struct level *level)
 
 /* A profile of heights over x, drawn out from y0 to y1, with side walls down to `bottom`. Two corners over each other
  * are a riser. */
-void sketch_profile(struct sketch *sketch, const struct corner *profile, size_t count, double y0, double y1, double bottom)
+void sketch_profile(struct sketch *sketch, const struct corner *profile, size_t count, double y0, double y1,
+                    double bottom)
 {
     for (size_t i = 0; i + 1 < count; i++) {
         struct corner a = profile[i], b = profile[i + 1];
@@ -47,7 +48,8 @@ void sketch_profile(struct sketch *sketch, const struct corner *profile, size_t 
         for (int side = 0; side < 2 && b.x > a.x; side++) {
             double y = side ? y1 : y0;
             if (a.z > bottom) {
-                sketch_triangle(sketch, (tahr_vec3){a.x, y, bottom}, (tahr_vec3){b.x, y, b.z}, (tahr_vec3){a.x, y, a.z});
+                sketch_triangle(sketch, (tahr_vec3){a.x, y, bottom}, (tahr_vec3){b.x, y, b.z},
+                                (tahr_vec3){a.x, y, a.z});
             }
             if (b.z > bottom) {
                 sketch_triangle(sketch, (tahr_vec3){a.x, y, bottom}, (tahr_vec3){b.x, y, bottom},

@@ -67,7 +67,8 @@ static int search_column(tahr_world *world, const struct level *level, const tah
     int found = 0, proper = 0; /* found: on faces of the better kind so far */
     at.z = level->bounds.max.z + 1;
     for (int layer = 0; layer < MAX_LAYERS && at.z > lowest; layer++) {
-        tahr_ray ray = {.origin = at, .motion = {0, 0, lowest - at.z}, .mask = config->mask, .ignore_body = TAHR_NO_BODY};
+        tahr_ray ray = {
+            .origin = at, .motion = {0, 0, lowest - at.z}, .mask = config->mask, .ignore_body = TAHR_NO_BODY};
         tahr_hit hit = {0};
         uint32_t count = 0;
         tahr_status status = tahr_world_ray(world, &ray, &hit, &count);

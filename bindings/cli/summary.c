@@ -43,7 +43,8 @@ static void words_oddities(const struct result *r)
     if (r->unknown || r->events[TAHR_EVENT_CRUSHED] || r->query_caps || r->events[TAHR_EVENT_DEPENETRATED]) {
         printf("  odd        %" PRIu64 " pushed out of overlaps, %" PRIu64 " crushed, %" PRIu64 " undecided\n",
                r->events[TAHR_EVENT_DEPENETRATED], r->events[TAHR_EVENT_CRUSHED], r->unknown);
-        printf("             %" PRIu64 " stopped at the query cap, %.3g s not simulated\n", r->query_caps, r->time_lost);
+        printf("             %" PRIu64 " stopped at the query cap, %.3g s not simulated\n", r->query_caps,
+               r->time_lost);
     }
 }
 

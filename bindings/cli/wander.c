@@ -47,9 +47,9 @@ static double sine(double x)
 static double cosine(double x)
 {
     double s = x * x;
-    return 1 -
-           s / 2 *
-               (1 - s / 12 * (1 - s / 30 * (1 - s / 56 * (1 - s / 90 * (1 - s / 132 * (1 - s / 182 * (1 - s / 240)))))));
+    return 1 - s / 2 *
+                   (1 - s / 12 *
+                            (1 - s / 30 * (1 - s / 56 * (1 - s / 90 * (1 - s / 132 * (1 - s / 182 * (1 - s / 240)))))));
 }
 
 tahr_vec3 unit_vector(double turn)

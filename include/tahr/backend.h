@@ -44,7 +44,8 @@ typedef struct tahr_query_context {
 /* The announcement before a step: everything the step is expected to ask about lies in bounds. A hint only. */
 typedef struct tahr_prepare {
     tahr_bounds bounds;
-    tahr_vec3 position; /* of the character at the start of the step; float geometry is local to the 4 m cell it is in */
+    tahr_vec3 position; /* of the character at the start of the step; float geometry is local to the 4 m cell it is
+                         * in */
     tahr_vec3 up;
     uint32_t mask;
     uint32_t reserved;
@@ -88,8 +89,8 @@ typedef struct tahr_backend {
     tahr_status (*place)(void *self, const tahr_body_pose *poses, uint32_t count);
 
     /* Optional: how a body moves, for worlds whose bodies the core did not describe (TAHR_E_NOT_FOUND: it is gone); the
-     * immersion of a shape, *fluid zeroed before the call but for its body, TAHR_NO_BODY. A world with a TAHR_BODY_FLUID in
-     * it needs the slot. */
+     * immersion of a shape, *fluid zeroed before the call but for its body, TAHR_NO_BODY. A world with a
+     * TAHR_BODY_FLUID in it needs the slot. */
     tahr_status (*body_motion)(void *self, uint32_t body, tahr_body_motion *motion);
     tahr_status (*fluid)(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *fluid);
 } tahr_backend;

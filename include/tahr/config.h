@@ -10,51 +10,52 @@ extern "C" {
 #endif
 
 /* PRECISE: closed forms, a constant skin, all planes at once: rate-independent, the default. UNREAL: the behaviour, the
- * constants and the order of queries of Unreal's CharacterMovementComponent, in SI units, for projects that need to move
- * alike. Both are settings of the one code: every line below with two defaults. */
+ * constants and the order of queries of Unreal's CharacterMovementComponent, in SI units, for projects that need to
+ * move alike. Both are settings of the one code: every line below with two defaults. */
 enum { TAHR_PRESET_PRECISE = 1, TAHR_PRESET_UNREAL = 2 };
 
-/* How velocity becomes a displacement. EXACT: the closed form of the whole piece; the same at every frame rate. STEPPED:
- * sub-steps of at most max_substep, the velocity first and then velocity * time; costs accuracy (stopping distances vary
- * threefold between 20 and 120 Hz), buys parity. */
+/* How velocity becomes a displacement. EXACT: the closed form of the whole piece; the same at every frame rate.
+ * STEPPED: sub-steps of at most max_substep, the velocity first and then velocity * time; costs accuracy (stopping
+ * distances vary threefold between 20 and 120 Hz), buys parity. */
 enum { TAHR_INTEGRATOR_EXACT = 1, TAHR_INTEGRATOR_STEPPED = 2 };
 
-/* How a motion is bent. JOINT: projected on all touched planes at once, walls met at their exact time; no drift in gutters
- * and no ping-pong in corners. TWO_WALLS: one slide and one adjustment for a second wall, what is left is dropped; at most
- * 2 sweeps, parity. */
+/* How a motion is bent. JOINT: projected on all touched planes at once, walls met at their exact time; no drift in
+ * gutters and no ping-pong in corners. TWO_WALLS: one slide and one adjustment for a second wall, what is left is
+ * dropped; at most 2 sweeps, parity. */
 enum { TAHR_SLIDE_JOINT = 1, TAHR_SLIDE_TWO_WALLS = 2 };
 
 /* What keeps the shape off surfaces. MARGIN: sweeps stop a skin away, measured along the normal, whatever the motion.
- * PULL_BACK: sweeps stop at contact and are taken back by a part of the motion; the gap depends on the frame's length. */
+ * PULL_BACK: sweeps stop at contact and are taken back by a part of the motion; the gap depends on the frame's
+ * length. */
 enum { TAHR_SEPARATION_MARGIN = 1, TAHR_SEPARATION_PULL_BACK = 2 };
 
-/* What looks for the floor. WHOLE: the shape with its skin. SHRUNK: a shorter shape without a skin, a thinner one where that
- * touched the rim, then a ray: finds the depth of what is overlapped, and needs up to 3 queries (6 with a perch). The
- * clearance band is then one along up, not along the normal: made for PULL_BACK. */
+/* What looks for the floor. WHOLE: the shape with its skin. SHRUNK: a shorter shape without a skin, a thinner one where
+ * that touched the rim, then a ray: finds the depth of what is overlapped, and needs up to 3 queries (6 with a perch).
+ * The clearance band is then one along up, not along the normal: made for PULL_BACK. */
 enum { TAHR_FLOOR_PROBE_WHOLE = 1, TAHR_FLOOR_PROBE_SHRUNK = 2 };
 
-/* How overlaps are left. JOINT: the least motion that frees of all surfaces together. SINGLE: the depth of one surface at
- * a time, tested and retried; may swap between two walls for a while. */
+/* How overlaps are left. JOINT: the least motion that frees of all surfaces together. SINGLE: the depth of one surface
+ * at a time, tested and retried; may swap between two walls for a while. */
 enum { TAHR_DEPENETRATION_JOINT = 1, TAHR_DEPENETRATION_SINGLE = 2 };
 
-/* What a step up is judged by. TREAD: the face behind the edge, the same at every frame rate. CONTACT: where the shape came
- * down after this frame's motion. */
+/* What a step up is judged by. TREAD: the face behind the edge, the same at every frame rate. CONTACT: where the shape
+ * came down after this frame's motion. */
 enum { TAHR_STEP_BY_TREAD = 1, TAHR_STEP_BY_CONTACT = 2 };
 
-/* Which velocity of a base goes with a character that leaves it: across up; along up, also downward, so that a jump is as
- * high above a lift that sinks as above the ground; and of the base's turning. */
+/* Which velocity of a base goes with a character that leaves it: across up; along up, also downward, so that a jump is
+ * as high above a lift that sinks as above the ground; and of the base's turning. */
 enum { TAHR_IMPART_LEVEL = 1 << 0, TAHR_IMPART_UP = 1 << 1, TAHR_IMPART_TURN = 1 << 2 };
 
 /* Defaults in brackets are those of TAHR_PRESET_PRECISE, and after a bar those of TAHR_PRESET_UNREAL where they differ.
- * Ranges, inclusive, h = shape.half_height (tahr_config_check names what is outside): skin 1e-5 h..0.5 h; pull_back 1e-6
- * h..0.1 h; max_depenetration, max_depenetration_character and perch_threshold 0..1e4 m; plane unit or zero; mass 1e-3..1e6
- * kg; push_force 0..1e9 N; walkable_angle 0..90 degrees and no more with its hysteresis; 1 <= floor_target <= floor_max <=
- * 10; step_height 0..2 h; snap_distance and perch_extra 0..1e3 m; edge_tolerance 0..0.5 h; speeds 0..1e4 m/s,
- * terminal_speed from 1e-3; accelerations 0..1e6 m/s2; gravity -1e4..1e4 m/s2 per axis; frictions, drags and turn_rate
- * 0..1e4 1/s; times 0..1e3 s; air_control and air_boost 0..100; buoyancy 0..10; swim_immersion 0.01..1; jump_release_gravity
- * and fall_gravity 0.1..100; crouched_half_height 1e-6..1e4 m; ledge_grab and
- * corner_correction 0..2 h; arc_tolerance 1e-6 h..h; max_dt 1e-6..10 s; max_substep and braking_substep 1e-3..10 s;
- * switches 0 or 1. */
+ * Ranges, inclusive, h = shape.half_height (tahr_config_check names what is outside): skin 1e-5 h..0.5 h; pull_back
+ * 1e-6 h..0.1 h; max_depenetration, max_depenetration_character and perch_threshold 0..1e4 m; plane unit or zero; mass
+ * 1e-3..1e6 kg; push_force 0..1e9 N; walkable_angle 0..90 degrees and no more with its hysteresis; 1 <= floor_target <=
+ * floor_max <= 10; step_height 0..2 h; snap_distance and perch_extra 0..1e3 m; edge_tolerance 0..0.5 h; speeds 0..1e4
+ * m/s, terminal_speed from 1e-3; accelerations 0..1e6 m/s2; gravity -1e4..1e4 m/s2 per axis; frictions, drags and
+ * turn_rate 0..1e4 1/s; times 0..1e3 s; air_control and air_boost 0..100; buoyancy 0..10; swim_immersion 0.01..1;
+ * jump_release_gravity and fall_gravity 0.1..100; crouched_half_height and the lengths of shape 1e-6..1e4 m;
+ * ledge_grab and corner_correction 0..2 h; arc_tolerance 1e-6 h..h; max_dt 1e-6..10 s; max_substep and braking_substep
+ * 1e-3..10 s; max_slides 1..16; max_substeps 1..64; air_jumps 0..1000; switches 0 or 1. */
 typedef struct tahr_config {
     uint32_t struct_size;
     uint32_t preset;
@@ -67,25 +68,27 @@ typedef struct tahr_config {
     uint32_t floor_probe;   /* TAHR_FLOOR_PROBE_* [WHOLE | SHRUNK] */
     uint32_t depenetration; /* TAHR_DEPENETRATION_* [JOINT | SINGLE] */
     uint32_t step_rule;     /* TAHR_STEP_BY_* [TREAD | CONTACT] */
-    uint32_t flat_base; /* [0] 1, with SHRUNK: a round shape looks for the floor with a box (0.707 of the radius), if the
+    uint32_t
+        flat_base; /* [0] 1, with SHRUNK: a round shape looks for the floor with a box (0.707 of the radius), if the
                          * backend has boxes: does not sink at edges; rests higher over slopes, up to 10 queries; a fall still
                          * slides off what only the outermost edge_tolerance of the round shape meets */
-    uint32_t keep_level_speed; /* [0 | 1] 1: the speed asked for is the level one on ramps, as far as a slice then rises no
+    uint32_t
+        keep_level_speed; /* [0 | 1] 1: the speed asked for is the level one on ramps, as far as a slice then rises no
                                 * more than step_height; 0: the one along the surface */
 
     /* Collision */
     uint32_t mask;       /* [all bits] bodies this character meets; 0: none */
-    uint32_t max_slides; /* [8] sweeps of one slice of walking or falling, then the rest of the motion is dropped; 1..16 */
+    uint32_t max_slides; /* [8] sweeps of one slice of walking or falling, then the rest of the motion is dropped */
     double skin;         /* m [0.01 | 0.019] distance kept from everything that blocks (PULL_BACK: from floors) */
-    double pull_back; /* m [0.001] PULL_BACK: least distance taken back, 0.004 of it the shortest motion; SINGLE: 1.25 of
-                          * it is added to every push, where a shape larger by it fits */
+    double pull_back; /* m [0.001] PULL_BACK: least distance taken back, 0.004 of it the shortest motion; SINGLE: 1.25
+                       * of it is added to every push, where a shape larger by it fits */
     double max_depenetration; /* m [1.0 | 5.0] JOINT: longest way out of overlaps per step; SINGLE: longest push */
     double max_depenetration_character; /* m [1.0] SINGLE: the same, out of a body with TAHR_BODY_CHARACTER */
-    tahr_vec3 plane; /* [0] unit normal of the plane through the character that it stays in (a side-scroller); zero: none.
-                      * Wishes, gravity, launches and pushes count along it. Equal to up (seen from above): nothing
-                      * falls, jumps, steps up or snaps down */
-    double mass;     /* kg [80 | 100] */
-    double push_force; /* N [500 | 500] most that is reported as a push against a body with a mass */
+    tahr_vec3 plane;   /* [0] unit normal of the plane through the character that it stays in (a side-scroller); zero:
+                      * none. Wishes, gravity, launches and pushes count along it. Equal to up (seen from above):
+                      * nothing falls, jumps, steps up or snaps down */
+    double mass;       /* kg [80 | 100] */
+    double push_force; /* N [500] most that is reported as a push against a body with a mass */
 
     /* Floor */
     double walkable_angle;      /* rad [50 | 44.765 degrees] steepest floor that can be stood on */
@@ -111,38 +114,43 @@ typedef struct tahr_config {
     double stop_speed;           /* m/s [0 | 0.1] STEPPED: braking below this is standing */
 
     /* Falling */
-    tahr_vec3 gravity;        /* m/s2 [0, 0, -9.81 | -9.8]; up is opposite */
-    double jump_speed;        /* m/s [4.2] */
-    double jump_hold_time;    /* s [0] a held jump button suspends gravity this long */
-    double terminal_speed;    /* m/s [40] fastest fall */
-    double air_control;       /* of acceleration [0.25 | 0.05] */
-    double air_boost;         /* of air_control [1 | 2] below air_boost_speed */
-    double air_boost_speed;   /* m/s [0 | 0.25] */
-    double air_turn_friction; /* 1/s [0] turn_friction in the air */
-    double arc_tolerance;     /* m [0.001] EXACT: how far the swept chords may lie off the arc of a fall */
-    uint32_t jump_hold_gravity; /* [0 | 1] 1: gravity acts while the button is held, and the jump speed is set anew each step */
-    uint32_t apex_substep; /* [1] STEPPED: a slice of a fall ends at its apex */
+    tahr_vec3 gravity;          /* m/s2 [0, 0, -9.81 | -9.8]; up is opposite */
+    double jump_speed;          /* m/s [4.2] */
+    double jump_hold_time;      /* s [0] a held jump button suspends gravity this long */
+    double terminal_speed;      /* m/s [40] fastest fall */
+    double air_control;         /* of acceleration [0.25 | 0.05] */
+    double air_boost;           /* of air_control [1 | 2] below air_boost_speed */
+    double air_boost_speed;     /* m/s [0 | 0.25] */
+    double air_turn_friction;   /* 1/s [0] turn_friction in the air */
+    double arc_tolerance;       /* m [0.001] EXACT: how far the swept chords may lie off the arc of a fall */
+    uint32_t jump_hold_gravity; /* [0 | 1] 1: gravity acts while the button is held, and the jump speed is set anew each
+                                 * step */
+    uint32_t apex_substep;      /* [1] STEPPED: a slice of a fall ends at its apex */
 
     /* Bases that move */
     uint32_t impart;           /* TAHR_IMPART_* [all] what a base hands to who leaves it */
     uint32_t turn_with_base;   /* [1] the orientation follows the base's yaw */
-    double imparted_half_life; /* s [0] the part of the velocity that a base imparted halves in this time; 0: it stays */
+    double imparted_half_life; /* s [0] the part of the velocity that a base imparted halves in this time; 0: it
+                                * stays */
 
     /* Crouching */
     double crouched_half_height; /* m [0.55 | 0.4] with input.crouch; the radius, if that is more */
     double crouched_speed;       /* m/s [3] */
 
     /* Swimming and flying. EXACT, in water: from rest a full wish accelerates by acceleration and tends to swim_speed;
-     * without one the drag is left (standing from 1 mm/s on); an upward wish loses its thrust on the way from whole immersion
-     * to swim_immersion, so that nobody swims out through the surface. It walks where it meets a floor at less than 0.9 of
-     * swim_immersion, and falls at less than 0.8 of it. In the air: the law of walking with fly_drag as its braking. */
-    double swim_speed; /* m/s [3] */
-    double swim_immersion; /* [0.65] part of the height under the surface from which on it swims; never above 1 / buoyancy */
-    double buoyancy;       /* of gravity [1], when wholly immersed; 1: neither sinks nor rises */
-    double fluid_friction; /* 1/s [0.3] drag of a fluid that says none of its own */
-    double water_exit_speed; /* m/s [5.5 | 4.2] upward, of a jump at the surface: 5.5 takes the preset over a rim at its height */
-    double fly_speed; /* m/s [6] */
-    double fly_drag;  /* 1/s [0.15] drag of flying without input */
+     * without one the drag is left (standing from 1 mm/s on); an upward wish loses its thrust on the way from whole
+     * immersion to swim_immersion, so that nobody swims out through the surface. It walks where it meets a floor at
+     * less than 0.9 of swim_immersion, and falls at less than 0.8 of it. In the air: the law of walking with fly_drag
+     * as its braking. */
+    double swim_speed;       /* m/s [3] */
+    double swim_immersion;   /* [0.65] part of the height under the surface from which on it swims; never above
+                              * 1 / buoyancy */
+    double buoyancy;         /* of gravity [1], when wholly immersed; 1: neither sinks nor rises */
+    double fluid_friction;   /* 1/s [0.3] drag of a fluid that says none of its own */
+    double water_exit_speed; /* m/s [5.5 | 4.2] upward, of a jump at the surface: 5.5 takes the preset over a rim
+                              * at its height */
+    double fly_speed;        /* m/s [6] */
+    double fly_drag;         /* 1/s [0.15] drag of flying without input */
 
     /* Feel: all off by default; times count inside steps, the same at every frame rate. A press of the jump button
      * starts the first that is possible of: a jump from the ground, one within coyote_time, one off a wall, one of
@@ -163,14 +171,14 @@ typedef struct tahr_config {
     double corner_correction; /* m [0: off] a rising head is moved aside at most this far to clear a corner */
     double lift_momentum;     /* s [0] the velocity of a base is still imparted this long after it stopped */
     uint32_t air_jumps;       /* [0] jumps in the air before the next landing, water or edge; walking off a ledge costs
-                               * none; 0..1000 */
+                               * none */
     uint32_t reserved_feel;   /* 0 */
 
     /* Time and turning */
     double max_dt;          /* s [1] longest step accepted */
     double max_substep;     /* s [0.05] STEPPED: longest slice */
     double braking_substep; /* s [1/33] STEPPED: longest piece of braking */
-    uint32_t max_substeps;  /* [8] STEPPED: slices of a step; the last takes all that is left; 1..64 */
+    uint32_t max_substeps;  /* [8] STEPPED: slices of a step; the last takes all that is left */
     uint32_t sleep;         /* [1] 0: compute also a step whose like has just changed nothing */
     double turn_rate;       /* rad/s [12.5 | 6.283] of the orientation toward input.facing */
 } tahr_config;

@@ -16,7 +16,8 @@ enum { TAHR_NATIVE_FLOAT = 0, TAHR_NATIVE_DOUBLE = 1 };
 typedef struct tahr_native_desc {
     uint32_t struct_size;
     uint32_t precision;       /* TAHR_NATIVE_FLOAT or _DOUBLE */
-    uint32_t cache_triangles; /* per character, 280 bytes each, default 128, at most 4096; what does not fit is slower */
+    uint32_t cache_triangles; /* per character, 280 bytes each, default 128, at most 4096; what does not fit is
+                               * slower */
     uint32_t no_cache;        /* 1: every query walks the tree; same bits */
     uint32_t no_simd;         /* 1: the scalar twin; same bits */
     uint32_t reserved;        /* 0 */

@@ -7,6 +7,8 @@
 #include <tahr/types.h>
 #include <tahr/config.h>
 #include <tahr/world.h>
+#include <tahr/state.h>
+#include <tahr/report.h>
 #include <tahr/mover.h>
 #include <tahr/custom_mode.h>
 

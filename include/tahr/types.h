@@ -96,13 +96,14 @@ enum { TAHR_WALKABLE_DEFAULT = 0, TAHR_WALKABLE_INCREASE = 1, TAHR_WALKABLE_DECR
 
 /* Where a shape met something. All vectors world frame. */
 typedef struct tahr_hit {
-    uint32_t blocking;      /* 1: stops the motion; 0: a sensor, or nothing at all */
-    uint32_t start_overlap; /* 1: overlaps at the start: fraction 0, depth and normal say how to get out */
-    uint32_t unknown;       /* 1: the backend gave up; free up to fraction, nothing known beyond */
-    uint32_t sensor;        /* 1: reported, does not block */
-    double fraction;        /* 0..1 of the motion */
-    double distance; /* m, signed distance at that place: the margin of an ordinary hit, less if it was closer already */
-    double depth;    /* m, > 0 only with start_overlap */
+    uint32_t blocking;        /* 1: stops the motion; 0: a sensor, or nothing at all */
+    uint32_t start_overlap;   /* 1: overlaps at the start: fraction 0, depth and normal say how to get out */
+    uint32_t unknown;         /* 1: the backend gave up; free up to fraction, nothing known beyond */
+    uint32_t sensor;          /* 1: reported, does not block */
+    double fraction;          /* 0..1 of the motion */
+    double distance;          /* m, signed distance at that place: the margin of an ordinary hit, less if it was closer
+                      * already */
+    double depth;             /* m, > 0 only with start_overlap */
     tahr_vec3 normal;         /* contact normal, unit, from the surface to the shape */
     tahr_vec3 surface_normal; /* unit, of the face; on an edge or vertex, of its face that opposes the motion most */
     tahr_vec3 point;          /* on the surface */

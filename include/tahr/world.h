@@ -112,23 +112,24 @@ typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *qu
  * hit; only surface_normal is derived. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_ray_fn)(void *user, const tahr_ray *query, tahr_hit *hit);
 
-/* [in] query, [out] hits (capacity of them, zeroed) and *count (0 before the call, at most capacity): the sensors that a
- * motion passes, ends in or begins in, one record each, ordered by (fraction, body), with body, feature, surface and
- * fraction, at which the distance falls to query->margin; those that the shape overlaps at the start (distance < 0) with
- * start_overlap and fraction 0. A motion of zero asks for those alone. What stays zero is derived: normal from the motion (the
- * true one makes the times of events in a fall exact), surface_normal from normal, point from the position.
+/* [in] query, [out] hits (capacity of them, zeroed) and *count (0 before the call, at most capacity): the sensors that
+ * a motion passes, ends in or begins in, one record each, ordered by (fraction, body), with body, feature, surface and
+ * fraction, at which the distance falls to query->margin; those that the shape overlaps at the start (distance < 0)
+ * with start_overlap and fraction 0. A motion of zero asks for those alone. What stays zero is derived: normal from the
+ * motion (the true one makes the times of events in a fall exact), surface_normal from normal, point from the position.
  * Return TAHR_TRUNCATED if there are more. Other statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_sensors_fn)(void *user, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
                                        uint32_t *count);
-/* [in] body, one that your hits name, [out] motion (at rest at the origin before the call). Return TAHR_E_NOT_FOUND for a
- * body that is gone: who stood on it falls. Called at least once a step by who stands on it; must agree with what the
+/* [in] body, one that your hits name, [out] motion (at rest at the origin before the call). Return TAHR_E_NOT_FOUND for
+ * a body that is gone: who stood on it falls. Called at least once a step by who stands on it; must agree with what the
  * queries answer. Other statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_body_fn)(void *user, uint32_t body, tahr_body_motion *motion);
-/* [in] query, [out] fluid (zeroed before the call but for its body, TAHR_NO_BODY: leaving it so means "dry"): immersion within 0..1, friction within 0..1e4, |velocity| up to 1e4. Statuses and threads as for tahr_sweep_fn. */
+/* [in] query, [out] fluid (zeroed before the call but for its body, TAHR_NO_BODY: leaving it so means "dry"): immersion
+ * within 0..1, friction within 0..1e4, |velocity| up to 1e4. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_fluid_fn)(void *user, const tahr_fluid_query *query, tahr_fluid *fluid);
 
-/* Your own collision engine. Only sweep is required; sensors missing: there are none; body missing: nothing moves; fluid
- * missing: there is none; contacts missing: depenetration uses the depth and normal of a
+/* Your own collision engine. Only sweep is required; sensors missing: there are none; body missing: nothing moves;
+ * fluid missing: there is none; contacts missing: depenetration uses the depth and normal of a
  * sweep that starts in overlap, one surface at a time, and nothing is ever found to be a wedge; ray missing: a sphere
  * of 1 mm is swept. Copied; user must stay valid until the world is closed. The sweep must honour tahr_sweep.margin and
  * every shape that a mover has. */
@@ -145,7 +146,8 @@ typedef struct tahr_callbacks {
 } tahr_callbacks;
 
 /* Sets every field to its default: zero, but struct_size, type, mask (all bits) and the orientation (identity). [out]
- * desc of size bytes. Untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE. Since 0.1. */
+ * desc of size bytes. Untouched on error. Allocates nothing; may run on several threads.
+ * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE. Since 0.1. */
 TAHR_API tahr_status tahr_world_desc_init(tahr_world_desc *desc, size_t size);
 TAHR_API tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint32_t type);
 
@@ -156,7 +158,8 @@ TAHR_API tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint
  * a description not zero, or the backend cannot hold such a body), TAHR_E_MEMORY; the log names the body and the field.
  * Allocates. Worlds may be opened, and closed, on several threads at once, if what they share (allocator, log, backend)
  * may be called so; an open world belongs to no thread. Since 0.1. */
-TAHR_API tahr_status tahr_world_open(const struct tahr_backend *backend, const tahr_world_desc *desc, tahr_world **world);
+TAHR_API tahr_status tahr_world_open(const struct tahr_backend *backend, const tahr_world_desc *desc,
+                                     tahr_world **world);
 
 /* Opens a world whose geometry is behind the caller's functions. desc may be NULL; of it only allocator and log are
  * used. [out] world, untouched on failure. Returns TAHR_OK, TAHR_E_NULL (sweep missing), TAHR_E_STRUCT_SIZE,
@@ -169,22 +172,24 @@ TAHR_API tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, 
  * Since 0.1. */
 TAHR_API void tahr_world_close(tahr_world *world);
 
-/* Places movable bodies at new poses, at rest, and advances the revision; the others keep their motion. All or nothing: every pose is checked first.
- * Needs exclusive access: no step may run meanwhile. Characters are not carried: what is placed into one pushes it out in
- * its next step. Use it to put a scene back for a rollback. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND (no such body), TAHR_E_ARGUMENT (not movable, not finite,
- * not a unit quaternion, flags not 0), TAHR_E_UNSUPPORTED (a backend or callbacks that cannot place). Since 0.1. */
+/* Places movable bodies at new poses, at rest, and advances the revision; the others keep their motion. All or nothing:
+ * every pose is checked first. Needs exclusive access: no step may run meanwhile. Characters are not carried: what is
+ * placed into one pushes it out in its next step. Use it to put a scene back for a rollback. Returns TAHR_OK,
+ * TAHR_E_NULL, TAHR_E_NOT_FOUND (no such body), TAHR_E_ARGUMENT (not movable, not finite, not a unit quaternion, flags
+ * not 0), TAHR_E_UNSUPPORTED (a backend or callbacks that cannot place). Since 0.1. */
 TAHR_API tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint32_t count);
 
 /* Moves movable bodies to new poses within dt seconds (> 0, up to 10), and advances the revision. All or nothing. Needs
- * exclusive access. Call it once before the steps of a tick, with every body that moves in it: bodies that are not named,
- * or are where they were, come to rest. In their next step characters are carried by what they stand on, by the exact
- * difference of its poses, and pushed by what moves into them, straight and turning evenly (by less than half a turn). A
- * body named twice goes to its last pose. poses[i].flags: TAHR_POSE_TELEPORT. For a rollback put the bodies back with
- * tahr_world_set and move them again: all bits repeat. Statuses as for tahr_world_set, and TAHR_E_ARGUMENT (dt; flags
- * unknown). Since 0.1. */
+ * exclusive access. Call it once before the steps of a tick, with every body that moves in it: bodies that are not
+ * named, or are where they were, come to rest. In their next step characters are carried by what they stand on, by the
+ * exact difference of its poses, and pushed by what moves into them, straight and turning evenly (by less than half a
+ * turn). A body named twice goes to its last pose. poses[i].flags: TAHR_POSE_TELEPORT. For a rollback put the bodies
+ * back with tahr_world_set and move them again: all bits repeat. Statuses as for tahr_world_set, and TAHR_E_ARGUMENT
+ * (dt; flags unknown). Since 0.1. */
 TAHR_API tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *poses, uint32_t count, double dt);
 
-/* How a body moves now: its speeds are those of the last tahr_world_move, on the way to this pose. World frame, SI units.
+/* How a body moves now: its speeds are those of the last tahr_world_move, on the way to this pose. World frame, SI
+ * units.
  * [out] motion, untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND, TAHR_E_BACKEND
  * (an invalid answer of a callback). Allocates nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_world_body(tahr_world *world, uint32_t body, tahr_body_motion *motion);
@@ -215,10 +220,10 @@ TAHR_API tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_q
                                          uint32_t capacity, uint32_t *count);
 TAHR_API tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, tahr_hit *hit, uint32_t *count);
 
-/* How deep an upright shape is in the fluids of a world: of described bodies the largest part of its axis that lies inside
- * one of them, ties by id. [in] query: radius 0..1e4 m, half_height 1e-6..1e4 m; [out] fluid: immersion 0 and TAHR_NO_BODY
- * where there is none; untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_ARGUMENT, TAHR_E_BACKEND (invalid answer).
- * Allocates nothing; may run on several threads. Since 0.1. */
+/* How deep an upright shape is in the fluids of a world: of described bodies the largest part of its axis that lies
+ * inside one of them, ties by id. [in] query: radius 0..1e4 m, half_height 1e-6..1e4 m; [out] fluid: immersion 0 and
+ * TAHR_NO_BODY where there is none; untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_ARGUMENT, TAHR_E_BACKEND
+ * (invalid answer). Allocates nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_world_fluid(tahr_world *world, const tahr_fluid_query *query, tahr_fluid *fluid);
 
 #ifdef __cplusplus

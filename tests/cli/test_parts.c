@@ -54,7 +54,8 @@ static double minimum(double (*distance)(const struct line *line, double t), con
 /* Distance of line->from to the segment of the triangle that lies parallel to its last side, t of the way to it. */
 static double to_stripe(const struct line *line, double t)
 {
-    tahr_vec3 a = between(line->triangle[0], line->triangle[1], t), b = between(line->triangle[0], line->triangle[2], t);
+    tahr_vec3 a = between(line->triangle[0], line->triangle[1], t),
+              b = between(line->triangle[0], line->triangle[2], t);
     tahr_vec3 along = vec_sub(b, a), rest = vec_sub(line->from, a);
     double squared = vec_dot(along, along), s = squared > 0 ? clamp(vec_dot(rest, along) / squared, 0, 1) : 0;
     return vec_length(vec_sub(rest, vec_scale(along, s)));
@@ -240,7 +241,8 @@ static void quantiles_are_exact_below_65_us_and_within_two_percent_above(void **
     for (uint64_t ns = 1; ns <= 1000; ns++) {
         times_add(&times, ns);
     }
-    assert_true(times_quantile(&times, 0.5) == 500 && times_quantile(&times, 0.99) == 990 && times_mean(&times) == 500.5);
+    assert_true(times_quantile(&times, 0.5) == 500 && times_quantile(&times, 0.99) == 990 &&
+                times_mean(&times) == 500.5);
     for (uint64_t ns = 70000; ns < 400000000; ns += ns / 7) {
         struct times one;
         times_open(&one);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * ladder.c: a ladder as a mode of your own. The ladder is a body with a surface id; who walks into it climbs: forward is up,
- * back is down, a jump lets go, and over the top there is a platform. */
+ * ladder.c: a ladder as a mode of your own. The ladder is a body with a surface id; who walks into it climbs: forward
+ * is up, back is down, a jump lets go, and over the top there is a platform. */
 #include <stdio.h>
 
 #include <tahr/native.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * test_far_routes.c: routes through levels are the same path with the level a thousand kilometres away.
  *
- * A route is what a wanderer with a seed asked for. Positions at 1e6 m have steps of 1.2e-10 m. Where a foot grazes an edge
- * the contact moves by the square root of that, and now and then two rules stand on a knife's edge: such routes part by
- * more than a micrometre. They are known by number and held to a centimetre. */
+ * A route is what a wanderer with a seed asked for. Positions at 1e6 m have steps of 1.2e-10 m. Where a foot grazes an
+ * edge the contact moves by the square root of that, and now and then two rules stand on a knife's edge: such routes
+ * part by more than a micrometre. They are known by number and held to a centimetre. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -312,7 +312,8 @@ static void turning_gravity_does_not_ask_what_the_cache_holds(void **state)
         tahr_config config;
         int no_foot = 0, half = backend->native ? 300 : 60;
         tahr_config_init(&config, sizeof config, TAHR_PRESET_PRECISE);
-        for (int k = -half; k <= half; k++) { /* 1e-8 m apart: float and double, near and far disagree somewhere there */
+        for (int k = -half; k <= half; k++) { /* 1e-8 m apart: float and double, near and far disagree somewhere
+                                               * there */
             tahr_vec3 at = {-0.8234567 + 1.8 + k * 1e-8, 0, 2.1};
             tahr_state cold = turn(world, &config, at, 0, 0), warm = turn(world, &config, at, 0, 2);
             tahr_state shared = turn(world, &config, at, 1, 1);

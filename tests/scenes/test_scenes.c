@@ -85,7 +85,8 @@ static void run_scene(scene *s, int variant, const filter *only, tally *total)
             }
             printf(" %g!", s->rates[i]);
             if (failed < 64) {
-                snprintf(failures[failed++], sizeof failures[0], "%s %g Hz: %.255s", backend->name, s->rates[i], failure);
+                snprintf(failures[failed++], sizeof failures[0], "%s %g Hz: %.255s", backend->name, s->rates[i],
+                         failure);
             }
             total->failures++;
         }

@@ -34,7 +34,8 @@ void fixture_announce(fixture *f, tahr_vec3 position, double half);
 /* One blocking hit, zeroed when free. */
 tahr_hit fixture_hit(fixture *f, const tahr_sweep *sweep);
 
-/* A grid of n x n cells of side cell, heights from a function (NULL: flat), corners at whole multiples; indices 6 n n. */
+/* A grid of n x n cells of side cell, heights from a function (NULL: flat), corners at whole multiples; indices 6 n
+ * n. */
 void fixture_grid(uint32_t n, double cell, double (*height)(double x, double y), double *vertices, uint32_t *indices);
 
 #endif

@@ -12,8 +12,8 @@ typedef struct oracle_core {
 } oracle_core;
 
 /* Distance of the core, moved by t * motion, to the triangle. Enumerates every combination of active constraints of
- * the nearest-point problem (3^axes faces of the core times 7 of the triangle) and solves each as least squares; no case of
- * the geometry is treated specially. */
+ * the nearest-point problem (3^axes faces of the core times 7 of the triangle) and solves each as least squares; no
+ * case of the geometry is treated specially. */
 long double oracle_distance(const oracle_core *core, const double motion[3], long double t, double tri[3][3]);
 
 /* Smallest distance over t in [0, 1], by ternary search: the distance is convex in t. */

@@ -319,7 +319,8 @@ static int check_one(scene_case *c)
     return 0;
 }
 
-/* m, that stays free of everything that blocks. PULL_BACK keeps a part of each motion off, which along a wall is nothing. */
+/* m, that stays free of everything that blocks. PULL_BACK keeps a part of each motion off, which along a wall is
+ * nothing. */
 static double kept_free(const scene_case *c)
 {
     int skin = c->scene->config.separation == TAHR_SEPARATION_MARGIN;

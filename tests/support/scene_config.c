@@ -155,9 +155,10 @@ int scene_config_read(scene *s)
     tahr_config_init(&s->config, sizeof s->config, unreal ? TAHR_PRESET_UNREAL : TAHR_PRESET_PRECISE);
     json_object_foreach(config, name, value)
     {
-        int known = strcmp(name, "preset") == 0 || (strcmp(name, "shape") == 0   ? read_shape(s, value)
-                                                    : strcmp(name, "plane") == 0 ? scene_vec3(s, value, &s->config.plane)
-                                                                                 : read_field(s, name, value));
+        int known =
+            strcmp(name, "preset") == 0 || (strcmp(name, "shape") == 0   ? read_shape(s, value)
+                                            : strcmp(name, "plane") == 0 ? scene_vec3(s, value, &s->config.plane)
+                                                                         : read_field(s, name, value));
         if (!known) {
             return 0;
         }

@@ -11,8 +11,8 @@ enum { SCENE_LEVELS = 4 };
 /* What is walked at length: the two shared levels, and "playground" and "hills", which are generated. */
 extern const char *const SCENE_LEVEL_NAMES[SCENE_LEVELS];
 
-/* Makes the mesh of a level: a generated one, or the shared file of this name. Returns 0 and says why (capacity 256) if it
- * is not there or cannot be read. */
+/* Makes the mesh of a level: a generated one, or the shared file of this name. Returns 0 and says why (capacity 256) if
+ * it is not there or cannot be read. */
 int scene_level_make(const char *name, scene_mesh *mesh, char *why);
 
 /* A mesh body that borrows the arrays of the mesh. */

@@ -105,8 +105,11 @@ static double clearance(runner *run)
 static double immersion(runner *run)
 {
     const tahr_state *s = &run->state;
-    tahr_fluid_query query = {
-        .position = s->position, .up = s->up, .radius = s->radius, .half_height = s->half_height, .mask = run->config.mask};
+    tahr_fluid_query query = {.position = s->position,
+                              .up = s->up,
+                              .radius = s->radius,
+                              .half_height = s->half_height,
+                              .mask = run->config.mask};
     tahr_fluid fluid;
     return tahr_world_fluid(run->world, &query, &fluid) < 0 ? -1e9 : fluid.immersion;
 }

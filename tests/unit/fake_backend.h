@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * fake_backend.h: a backend whose answers a test dictates: the truth about a fake world, the truth with one field spoiled,
- * "unknown", or noise. */
+ * fake_backend.h: a backend whose answers a test dictates: the truth about a fake world, the truth with one field
+ * spoiled, "unknown", or noise. */
 #ifndef FAKE_BACKEND_H
 #define FAKE_BACKEND_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * fake_world.c: exact sweeps of upright shapes against half-spaces and boxes. A box against a capsule is a sphere against
- * the box made longer by the capsule's core; the squared distance along a motion is piecewise quadratic. */
+ * fake_world.c: exact sweeps of upright shapes against half-spaces and boxes. A box against a capsule is a sphere
+ * against the box made longer by the capsule's core; the squared distance along a motion is piecewise quadratic. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -97,7 +97,8 @@ static double reach(const probe *p, v3 n)
 {
     const tahr_shape *s = &p->shape;
     if (s->type == TAHR_SHAPE_BOX) {
-        return s->half_height * fabs(dot3(n, p->up)) + s->half_x * fabs(dot3(n, p->x)) + s->half_y * fabs(dot3(n, p->y));
+        return s->half_height * fabs(dot3(n, p->up)) + s->half_x * fabs(dot3(n, p->x)) +
+               s->half_y * fabs(dot3(n, p->y));
     }
     return s->radius + (s->half_height - s->radius) * fabs(dot3(n, p->up));
 }
@@ -146,7 +147,8 @@ static answer distance_to(const fake_solid *s, const probe *p, v3 at)
     return box_distance(low, high, p->shape.radius, at);
 }
 
-/* First t in (0, 1] at which the squared distance to the grown box falls to r^2; INFINITY: never. The start is outside. */
+/* First t in (0, 1] at which the squared distance to the grown box falls to r^2; INFINITY: never. The start is
+ * outside. */
 static double box_entry(const double low[3], const double high[3], double r, v3 at, v3 motion)
 {
     double p[3] = {at.x, at.y, at.z}, u[3] = {motion.x, motion.y, motion.z};

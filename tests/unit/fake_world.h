@@ -26,8 +26,8 @@ typedef struct fake_solid {
 
 enum { FAKE_SOLIDS = 16 };
 
-/* Solids are given in the world's own frame; `frame` turns that frame into the one that Tahr sees. A solid's index is its
- * body. Boxes need shapes whose up is the own frame's z axis. */
+/* Solids are given in the world's own frame; `frame` turns that frame into the one that Tahr sees. A solid's index is
+ * its body. Boxes need shapes whose up is the own frame's z axis. */
 typedef struct fake_world {
     fake_solid solids[FAKE_SOLIDS];
     uint32_t count;

@@ -25,8 +25,8 @@ tahr_body_desc native_grid_body(native_grid *grid, uint32_t cells, double cell, 
 /* A box, axis-aligned. */
 tahr_body_desc native_box(tahr_vec3 at, tahr_vec3 half_extents);
 
-/* Bodies of every kind over 12 m x 12 m of hills: body 0 the hills, 1 a turned box, 2 a sphere, 3 a movable lying capsule,
- * 4 a movable box, 5 a sensor. */
+/* Bodies of every kind over 12 m x 12 m of hills: body 0 the hills, 1 a turned box, 2 a sphere, 3 a movable lying
+ * capsule, 4 a movable box, 5 a sensor. */
 enum { NATIVE_HILLS = 6 };
 void native_hills(native_grid *grid, tahr_body_desc bodies[NATIVE_HILLS]);
 

@@ -17,8 +17,8 @@ int parity_has(int backend);
 /* cm: 1e-4 of closed forms, 1e-3 of the native backend, 1e-2 of ccd. */
 double parity_tolerance(int backend);
 
-/* Lengths in cm. A plane is solid where normal . x < offset: a half-space, or a square 12 m wide around its point nearest
- * to the origin. */
+/* Lengths in cm. A plane is solid where normal . x < offset: a half-space, or a square 12 m wide around its point
+ * nearest to the origin. */
 enum { PARITY_SOLIDS = 8 };
 typedef struct parity_solid {
     int kind; /* FAKE_HALF_SPACE or FAKE_BOX */
@@ -69,8 +69,8 @@ void parity_put(parity *p, double x, double y, double z);
 /* A floor at this distance (cm) with this normal; flags TAHR_FLOOR_*. */
 void parity_floor(parity *p, double distance, tahr_vec3 normal, uint32_t flags);
 
-/* A table of rows; one id is one row, however often and on how many backends it runs. A number that is wrong is printed with
- * its row, and the end fails. */
+/* A table of rows; one id is one row, however often and on how many backends it runs. A number that is wrong is printed
+ * with its row, and the end fails. */
 enum { PARITY_ROWS = 64 };
 typedef struct parity_table {
     const char *name, *where;
@@ -85,7 +85,8 @@ void parity_row(parity_table *table, const char *id, const char *where);
 void parity_number(parity_table *table, const char *what, double got, double expected, double tolerance);
 /* got in m, expected and tolerance in cm. */
 void parity_length(parity_table *table, const char *what, double got, double expected, double tolerance);
-void parity_vector(parity_table *table, const char *what, tahr_vec3 got, double x, double y, double z, double tolerance);
+void parity_vector(parity_table *table, const char *what, tahr_vec3 got, double x, double y, double z,
+                   double tolerance);
 void parity_count(parity_table *table, const char *what, uint32_t got, uint32_t expected);
 void parity_true(parity_table *table, const char *what, int got);
 /* Prints the rows that are green, and fails if one is red. */

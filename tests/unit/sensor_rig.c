@@ -98,6 +98,11 @@ static tahr_status callback_sensors(void *user, const tahr_sweep *query, tahr_hi
     return TAHR_OK;
 }
 
+uint32_t sensor_gate(sensor_rig *s, double from, double to)
+{
+    return sensor_box(s, fake_vec(from, -16, -2), fake_vec(to, 16, 8));
+}
+
 void sensor_open(sensor_rig *s, const tahr_config *config, tahr_vec3 at)
 {
     if (s->backend == ON_CALLBACKS) {

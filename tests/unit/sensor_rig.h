@@ -23,6 +23,8 @@ int sensor_backends(void);
 void sensor_begin(sensor_rig *s, int backend);
 /* An axis-aligned box, movable; returns its body. */
 uint32_t sensor_box(sensor_rig *s, tahr_vec3 min, tahr_vec3 max);
+/* The same, tall and wide enough to be met by its faces across x alone. */
+uint32_t sensor_gate(sensor_rig *s, double from, double to);
 /* Opens the world; config NULL: the preset. */
 void sensor_open(sensor_rig *s, const tahr_config *config, tahr_vec3 at);
 void sensor_close(sensor_rig *s);

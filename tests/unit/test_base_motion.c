@@ -152,8 +152,9 @@ static void what_is_placed_while_others_move_is_noticed(void **unused)
     }
 }
 
-/* A seesaw of up to 20 degrees. The foot stays over its point of the plank, at the height of a foot that is round: a sphere
- * on a slope touches beside its lowest point, r (1 / cos - 1) = 22 mm higher up; the band of the clearance is 15 mm. */
+/* A seesaw of up to 20 degrees. The foot stays over its point of the plank, at the height of a foot that is round: a
+ * sphere on a slope touches beside its lowest point, r (1 / cos - 1) = 22 mm higher up; the band of the clearance is 15
+ * mm. */
 static void a_base_that_tilts_keeps_who_stands_on_it(void **unused)
 {
     (void)unused;

@@ -85,7 +85,8 @@ static tahr_body_desc box_body(tahr_vec3 at, double half)
     return body;
 }
 
-static tahr_world *open_on(const tahr_backend *backend, const tahr_body_desc *bodies, uint32_t count, const void *options)
+static tahr_world *open_on(const tahr_backend *backend, const tahr_body_desc *bodies, uint32_t count,
+                           const void *options)
 {
     tahr_world_desc desc;
     tahr_world *world = NULL;

@@ -47,7 +47,8 @@ static void projection_is_the_nearest_feasible_point(void **unused)
             planes[i].normal = dice_direction(&seed);
             planes[i].feature = i;
             planes[i].offset =
-                run % 2 ? 0 : dot(planes[i].normal, inside) - oracle_uniform(&seed, 0, 0.5); /* a cone, or a polyhedron */
+                run % 2 ? 0
+                        : dot(planes[i].normal, inside) - oracle_uniform(&seed, 0, 0.5); /* a cone, or a polyhedron */
         }
         assert_int_equal(tahr__project(planes, count, u, &x), 1);
         for (uint32_t i = 0; i < count; i++) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_course.c: what holds in every step of a wanderer on a course of stairs, walls, a corner, a ceiling and a slope. */
+ * test_course.c: what holds in every step of a wanderer on a course of stairs, walls, a corner, a ceiling and a
+ * slope. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -98,8 +99,9 @@ static void start_free_stays_free_by_the_skin(void **unused)
                 print_error("dt %g step %d: clearance %g at %.17g %.17g %.17g, before %.17g %.17g %.17g velocity %g %g "
                             "%g move %g %g jump %u mode %u\n",
                             dts[d], i, gap, r.state.position.x, r.state.position.y, r.state.position.z,
-                            before.position.x, before.position.y, before.position.z, before.velocity.x, before.velocity.y,
-                            before.velocity.z, r.input.move.x, r.input.move.y, r.input.jump, before.mode);
+                            before.position.x, before.position.y, before.position.z, before.velocity.x,
+                            before.velocity.y, before.velocity.z, r.input.move.x, r.input.move.y, r.input.jump,
+                            before.mode);
                 fail();
             }
             assert_true(r.report.sweeps + r.report.contact_queries + r.report.rays <= TAHR_MAX_QUERIES_PER_STEP);

@@ -348,18 +348,19 @@ static void timers_run_out_to_zero_and_the_state_repeats(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(coyote_jump_is_as_high_as_any_other),
-                                       cmocka_unit_test(neither_jump_nor_launch_leaves_coyote_time),
-                                       cmocka_unit_test(coyote_jump_uses_up_the_time_and_a_second_press_does_nothing),
-                                       cmocka_unit_test(buffered_jump_starts_at_the_landing_and_is_as_high_as_any_other),
-                                       cmocka_unit_test(press_earlier_than_the_buffer_is_forgotten),
-                                       cmocka_unit_test(jump_held_from_the_buffer_is_held_as_long_as_any_other),
-                                       cmocka_unit_test(released_jump_is_cut_and_a_new_press_does_not_restore_it),
-                                       cmocka_unit_test(release_gravity_is_for_jumps_alone),
-                                       cmocka_unit_test(air_jumps_reach_the_speed_of_a_jump_and_no_more),
-                                       cmocka_unit_test(walking_off_a_ledge_costs_no_air_jump),
-                                       cmocka_unit_test(coyote_comes_before_the_air_jump),
-                                       cmocka_unit_test(nothing_is_remembered_while_all_is_off),
-                                       cmocka_unit_test(timers_run_out_to_zero_and_the_state_repeats)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coyote_jump_is_as_high_as_any_other),
+        cmocka_unit_test(neither_jump_nor_launch_leaves_coyote_time),
+        cmocka_unit_test(coyote_jump_uses_up_the_time_and_a_second_press_does_nothing),
+        cmocka_unit_test(buffered_jump_starts_at_the_landing_and_is_as_high_as_any_other),
+        cmocka_unit_test(press_earlier_than_the_buffer_is_forgotten),
+        cmocka_unit_test(jump_held_from_the_buffer_is_held_as_long_as_any_other),
+        cmocka_unit_test(released_jump_is_cut_and_a_new_press_does_not_restore_it),
+        cmocka_unit_test(release_gravity_is_for_jumps_alone),
+        cmocka_unit_test(air_jumps_reach_the_speed_of_a_jump_and_no_more),
+        cmocka_unit_test(walking_off_a_ledge_costs_no_air_jump),
+        cmocka_unit_test(coyote_comes_before_the_air_jump),
+        cmocka_unit_test(nothing_is_remembered_while_all_is_off),
+        cmocka_unit_test(timers_run_out_to_zero_and_the_state_repeats)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

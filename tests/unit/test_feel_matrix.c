@@ -133,7 +133,8 @@ static void count(tally *t, const rig *r, const tahr_state *before)
     t->air_jumps += r->state.jump_count > before->jump_count;
 }
 
-static void run(uint32_t helpers, int method, double rate, double (*make)(fake_world *w, const tahr_config *c), tally *t)
+static void run(uint32_t helpers, int method, double rate, double (*make)(fake_world *w, const tahr_config *c),
+                tally *t)
 {
     fake_world w;
     rig r;
@@ -264,9 +265,9 @@ static void all_helpers_stay_sound_among_turned_blocks(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_two_helpers_together_lead_higher_than_the_sum_of_their_jumps),
-                                       cmocka_unit_test(all_helpers_together_lead_no_higher_than_the_sum_of_their_jumps),
-                                       cmocka_unit_test(every_method_keeps_to_the_sum),
-                                       cmocka_unit_test(all_helpers_stay_sound_among_turned_blocks)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_two_helpers_together_lead_higher_than_the_sum_of_their_jumps),
+        cmocka_unit_test(all_helpers_together_lead_no_higher_than_the_sum_of_their_jumps),
+        cmocka_unit_test(every_method_keeps_to_the_sum), cmocka_unit_test(all_helpers_stay_sound_among_turned_blocks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -147,7 +147,8 @@ static int stands_over_edge(double overhang, double lower_floor)
     return stands;
 }
 
-/* Perch threshold 0.15 of radius 0.35: the foot holds up to 0.2 m over the edge, beyond that only with a floor below. */
+/* Perch threshold 0.15 of radius 0.35: the foot holds up to 0.2 m over the edge, beyond that only with a floor
+ * below. */
 static void perching_ends_where_the_thinner_foot_leaves_the_edge(void **unused)
 {
     (void)unused;

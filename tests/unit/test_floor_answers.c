@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_floor_answers.c: TAHR_FLOOR_PROBE_SHRUNK and what backends can do and say: shapes they lack, points of contact that
- * are none, answers that they do not have, rays, and wedges. */
+ * test_floor_answers.c: TAHR_FLOOR_PROBE_SHRUNK and what backends can do and say: shapes they lack, points of contact
+ * that are none, answers that they do not have, rays, and wedges. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -145,7 +145,8 @@ static tahr_status meet_at(void *user, const tahr_ray *query, tahr_hit *hit)
 static void ray_that_starts_inside_finds_nothing(void **unused)
 {
     double fraction = 0;
-    tahr_callbacks callbacks = {.struct_size = sizeof callbacks, .user = &fraction, .sweep = meet_a_wall, .ray = meet_at};
+    tahr_callbacks callbacks = {
+        .struct_size = sizeof callbacks, .user = &fraction, .sweep = meet_a_wall, .ray = meet_at};
     tahr_floor floor;
     parity p;
     (void)unused;

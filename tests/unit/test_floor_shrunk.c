@@ -30,9 +30,9 @@ static void reshape(parity *p, const tahr_shape *shape, tahr_quat frame)
     s->state.mode = TAHR_MODE_WALKING;
 }
 
-/* A capsule of radius r over a plane tilted by a, which lies `gap` below its end on the axis: the cap touches off the axis,
- * r (1 / cos a - 1) earlier. A start in overlap (the ends are drawn in by a tenth of the straight part) is looked at with
- * a radius less by edge_tolerance and a thousandth of pull_back. */
+/* A capsule of radius r over a plane tilted by a, which lies `gap` below its end on the axis: the cap touches off the
+ * axis, r (1 / cos a - 1) earlier. A start in overlap (the ends are drawn in by a tenth of the straight part) is looked
+ * at with a radius less by edge_tolerance and a thousandth of pull_back. */
 static void distance_to_any_slope_is_the_closed_form(void **unused)
 {
     oracle_random dice = {7};
@@ -125,7 +125,8 @@ static void flat_base_does_not_sink_at_edges(void **unused)
                 p.step.state.mode = TAHR_MODE_WALKING;
                 tahr__find_floor(&p.step, c.snap_distance, NULL, &floor);
                 assert_true(floor_is_walkable(&floor));
-                assert_near(100 * floor.distance, 2.15 + (flat ? 0 : rows[i].drop), 0.006); /* as many digits as given */
+                assert_near(100 * floor.distance, 2.15 + (flat ? 0 : rows[i].drop),
+                            0.006); /* as many digits as given */
                 if (flat) {
                     assert_true(floor.normal.z > 1 - 1e-6);
                 }
@@ -274,7 +275,8 @@ static void nothing_asks_more_than_it_may_or_answers_nonsense(void **unused)
     assert_true(most >= 5 && most_flat >= 6 && lines > 50 && perches > 20); /* the scenes are hard enough */
 }
 
-/* A whole character of the other preset, with each probe, comes to rest in the band over a floor, a slope and an edge. */
+/* A whole character of the other preset, with each probe, comes to rest in the band over a floor, a slope and an
+ * edge. */
 static void characters_come_to_rest_in_the_band(void **unused)
 {
     for (int kind = 0; kind < 6; kind++) {

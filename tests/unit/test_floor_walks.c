@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_floor_walks.c: whole characters over hills with every way to look for the floor, together with every way to move:
- * none sinks into the ground or hangs over it, and every step can be taken again. */
+ * test_floor_walks.c: whole characters over hills with every way to look for the floor, together with every way to
+ * move: none sinks into the ground or hangs over it, and every step can be taken again. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,7 +29,8 @@ static double ground(const rig *r, tahr_vec3 at)
     return hit.point.z;
 }
 
-/* Runs about and jumps on 12 m x 12 m of hills with a box on them, near its middle. Every fiftieth step is taken again. */
+/* Runs about and jumps on 12 m x 12 m of hills with a box on them, near its middle. Every fiftieth step is taken
+ * again. */
 static void wander(rig *r, double rate, uint32_t seed)
 {
     oracle_random dice = {seed};

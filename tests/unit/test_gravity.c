@@ -153,8 +153,8 @@ static void gravity_too_strong_or_not_a_number_is_refused(void **unused)
 }
 
 /* Around a planet at 6 m/s, wishing on along the velocity. Every step moves the foot, which up turns about, by d = 6 dt
- * along the tangent at its begin: a lap is 2 pi (radius + gap) / d steps, but for terms of (d / radius)^2 from the tangent,
- * and for two steps in which up, which follows the centre, falls behind the foot at the start. */
+ * along the tangent at its begin: a lap is 2 pi (radius + gap) / d steps, but for terms of (d / radius)^2 from the
+ * tangent, and for two steps in which up, which follows the centre, falls behind the foot at the start. */
 static void go_around(double radius, double rate, int coasts)
 {
     const double dt = 1 / rate, d = 6 * dt;
@@ -226,8 +226,8 @@ static void jumps_around_a_planet_land_on_it(void **unused)
             rig_step(&r, 1 / rig_rates[i]);
             landings += rig_event(&r, TAHR_EVENT_LANDED) != NULL;
             size = sqrt(dot3(r.state.position, r.state.position));
-            /* At 6 m/s around, 9.81 - 6^2 / 20.9 of gravity is left to stop 4.2 m/s; a tenth for its direction, which is
-             * that at the begin of a step. */
+            /* At 6 m/s around, 9.81 - 6^2 / 20.9 of gravity is left to stop 4.2 m/s; a tenth for its direction, which
+             * is that at the begin of a step. */
             assert_true(size > 20 + H + SKIN - 0.02);
             assert_true(size < 20 + H + 2 * SKIN + 1.1 * 4.2 * 4.2 / (2 * (G - 36 / (20 + H))));
         }

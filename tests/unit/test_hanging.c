@@ -186,7 +186,8 @@ static void edge_let_go_is_not_grabbed_before_it_is_out_of_reach(void **unused)
             player_until(&p, 1);
             assert_hangs(&r);
             r.input.crouch = 1;
-            player_until(&p, 1 + 1 / rig_rates[i]); /* one step: longer, and it would crouch, its head below the reach */
+            player_until(&p, 1 + 1 / rig_rates[i]); /* one step: longer, and it would crouch, its head below the
+                                                     * reach */
             assert_int_equal(r.state.mode, TAHR_MODE_FALLING);
             r.input.crouch = 0;
             player_until(&p, t);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * test_layout.c: prints sizes, offsets, constants and prototypes of the public headers, one per line, for comparison with
- * layout.golden. layout.sh generates the list it expands, includes every public header before it, and compiles it as
- * C99, C11, C17 and C++17: all of them must print the same. Fails by itself on padding nobody declared, on a
+ * test_layout.c: prints sizes, offsets, constants and prototypes of the public headers, one per line, for comparison
+ * with layout.golden. layout.sh generates the list it expands, includes every public header before it, and compiles it
+ * as C99, C11, C17 and C++17: all of them must print the same. Fails by itself on padding nobody declared, on a
  * struct_size that is not the first field, and on a state that is not 512 bytes. */
 #include <stdio.h>
 #include <stdlib.h>

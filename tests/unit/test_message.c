@@ -30,7 +30,8 @@ static void a_message_names_function_argument_and_fault(void **unused)
     assert_string_equal(kept.text, "tahr_f: x is NULL");
     assert_int_equal(tahr__complain_value(&log, TAHR_E_ARGUMENT, "tahr_f", "x", 0.1, "too small"), TAHR_E_ARGUMENT);
     assert_string_equal(kept.text, "tahr_f: x is 0.10000000000000001, too small"); /* all digits: NaN hunts need them */
-    assert_int_equal(tahr__complain_value(&log, TAHR_E_ARGUMENT, "tahr_f", "x", -INFINITY, "too small"), TAHR_E_ARGUMENT);
+    assert_int_equal(tahr__complain_value(&log, TAHR_E_ARGUMENT, "tahr_f", "x", -INFINITY, "too small"),
+                     TAHR_E_ARGUMENT);
     assert_string_equal(kept.text, "tahr_f: x is -inf, too small");
     tahr__say(&log, TAHR_LOG_INFO, "tahr_f", "all is well");
     assert_string_equal(kept.text, "tahr_f: all is well");

@@ -213,7 +213,8 @@ static void so_do_those_with_every_integrator_and_every_slide(void **unused)
             c.slide_solver = method >= 2 ? TAHR_SLIDE_TWO_WALLS : TAHR_SLIDE_JOINT;
             open_wander(&w, tahr_backend_v1_native(), &c);
             run(&w, 1 / rig_rates[i], 4000, 11 + (uint64_t)i);
-            assert_true(w.seen[TAHR_MODE_SWIMMING][TAHR_MODE_FALLING] + w.seen[TAHR_MODE_SWIMMING][TAHR_MODE_WALKING] > 0);
+            assert_true(w.seen[TAHR_MODE_SWIMMING][TAHR_MODE_FALLING] + w.seen[TAHR_MODE_SWIMMING][TAHR_MODE_WALKING] >
+                        0);
             assert_true(c.separation != TAHR_SEPARATION_MARGIN || w.deepest < 1e-5);
             close_wander(&w);
         }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_move_methods.c: separation and depenetration are settings of their own: every combination of them moves, slides and
- * gets out of overlaps among planes and boxes, and none ends inside of what it started outside of. */
+ * test_move_methods.c: separation and depenetration are settings of their own: every combination of them moves, slides
+ * and gets out of overlaps among planes and boxes, and none ends inside of what it started outside of. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -156,7 +156,8 @@ typedef struct escapes {
     uint32_t starts, simple, out;
 } escapes;
 
-/* Ticks of small moves from an overlap: never deeper, within the queries, and out at the first tick where it is simple. */
+/* Ticks of small moves from an overlap: never deeper, within the queries, and out at the first tick where it is
+ * simple. */
 static void escape(parity *p, oracle_random *dice, const fake_world *oracle, escapes *e)
 {
     const tahr_config *c = &p->config;
@@ -248,7 +249,8 @@ static void the_joint_solver_walks_with_every_combination(void **unused)
     }
 }
 
-/* The skin is kept along the normal whatever the motion; the pull-back depends on its length: 10 cm and 2 m into one wall. */
+/* The skin is kept along the normal whatever the motion; the pull-back depends on its length: 10 cm and 2 m into one
+ * wall. */
 static void skin_does_not_depend_on_the_motion_and_the_pull_back_does(void **unused)
 {
     static const double gaps[2][2] = {{1.9, 1.9}, {0.101 * 10, 1 + 0.001 * 200}}; /* cm */
@@ -289,7 +291,8 @@ static void pushes_end_where_the_separation_keeps_the_shape(void **unused)
     }
 }
 
-/* At 1000 Hz a crawl of 1 mm/s moves 1e-6 m a step: with a skin that counts, with a pull-back it is too short to be seen. */
+/* At 1000 Hz a crawl of 1 mm/s moves 1e-6 m a step: with a skin that counts, with a pull-back it is too short to be
+ * seen. */
 static void short_moves_count_with_a_skin_only(void **unused)
 {
     parity_scene scene = {.count = 0};
@@ -340,11 +343,12 @@ static void bad_answers_stop_the_move_where_it_is_proven_free(void **unused)
         tahr_status status;
         uint32_t contacts;
         double x; /* expected with a pull-back, cm; of 10 asked */
-    } rows[] = {{{.unknown = 1, .fraction = 0.5}, TAHR_OK, 0, 10 * (0.5 - 0.101)},
-                {{.blocking = 1, .fraction = NAN, .normal = {0, 0, 1}}, TAHR_OK, 0, 0},
-                {{.blocking = 0}, TAHR_E_BACKEND, 0, 0},
-                {{.blocking = 1, .start_overlap = 1, .fraction = 0.5, .depth = 0.02, .normal = {0, 0, 1}}, TAHR_OK, 1, 0},
-                {{.blocking = 1, .start_overlap = 1, .depth = 1e300, .normal = {0, 0, 1}}, TAHR_OK, 1, 0}};
+    } rows[] = {
+        {{.unknown = 1, .fraction = 0.5}, TAHR_OK, 0, 10 * (0.5 - 0.101)},
+        {{.blocking = 1, .fraction = NAN, .normal = {0, 0, 1}}, TAHR_OK, 0, 0},
+        {{.blocking = 0}, TAHR_E_BACKEND, 0, 0},
+        {{.blocking = 1, .start_overlap = 1, .fraction = 0.5, .depth = 0.02, .normal = {0, 0, 1}}, TAHR_OK, 1, 0},
+        {{.blocking = 1, .start_overlap = 1, .depth = 1e300, .normal = {0, 0, 1}}, TAHR_OK, 1, 0}};
     (void)unused;
     for (int i = 0; i < COMBINATIONS; i++) {
         tahr_config c = combination(TAHR_PRESET_UNREAL, i);

@@ -72,7 +72,8 @@ static void dt_zero_changes_nothing_and_zeroes_the_report(void **unused)
     assert_int_equal(tahr_mover_step(r.mover, &r.input, 0, &r.state, &report), TAHR_OK);
     assert_memory_equal(&before, &r.state, sizeof before);
     assert_int_equal(report.flags, 0);
-    assert_int_equal(report.event_count + report.events_lost + report.sweeps + report.slices + report.decision_count, 0);
+    assert_int_equal(report.event_count + report.events_lost + report.sweeps + report.slices + report.decision_count,
+                     0);
     assert_true(report.events == events && report.event_capacity == 4 && report.struct_size == sizeof report);
     assert_true(report.step_offset == 0 && report.residual == 0 && report.time_lost == 0 && report.triangle_tests == 0);
     assert_int_equal(tahr_mover_step(r.mover, &r.input, -0.0, &r.state, NULL), TAHR_OK);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_native_edges.c: the native backend's edges: those inside a surface are never felt, real ones say which face they are. */
+ * test_native_edges.c: the native backend's edges: those inside a surface are never felt, real ones say which face they
+ * are. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -116,7 +117,8 @@ static void meet_ramp(double rise)
         assert_int_equal(h.blocking, 1);
         double x = 1 + 1.5 * h.fraction - 2, z = 0.3 + gap;
         double clearance = (-rise * x + z) / s - 0.3;
-        /* Where the ramp's face is as near as the margin asks, or, if the floor is nearer still, where it is that near. */
+        /* Where the ramp's face is as near as the margin asks, or, if the floor is nearer still, where it is that
+         * near. */
         assert_true(clearance <= 0.01 + 1e-9 && clearance >= gap - 1e-8);
         assert_true(fabs(h.normal.x + rise / s) < 1e-6 && fabs(h.surface_normal.x + rise / s) < 1e-6);
     }

@@ -77,7 +77,8 @@ static double soup_smallest(const soup *s, const oracle_core *core, const double
     return (double)best;
 }
 
-/* Gap error of hits and misses: the distance at the reported place, against the target. Two-sided soup, nothing shared. */
+/* Gap error of hits and misses: the distance at the reported place, against the target. Two-sided soup, nothing
+ * shared. */
 static void sweep_against_truth(uint32_t precision, int kind, double size, double far, double tolerance)
 {
     oracle_random r = {(uint64_t)kind * 77 + precision + (uint64_t)far + (uint64_t)size};
@@ -184,7 +185,8 @@ static void start_follows_the_contract(void **state)
 }
 
 /* The same box three times, the first of them movable: which one is found first must not matter. */
-/* Into a corner of two walls: which one is met first by less than a hair changes nothing but the fraction's last bits. */
+/* Into a corner of two walls: which one is met first by less than a hair changes nothing but the fraction's last
+ * bits. */
 static void a_hair_does_not_decide_which_surface_is_met(void **state)
 {
     (void)state;
@@ -277,8 +279,8 @@ static void sensors_come_before_the_blocking_hit(void **state)
     native_close(&f);
 }
 
-/* Of two flat faces that meet without a margin no point is the nearest; the hit still names the upper face, and a point of
- * it under the box, also where the side of the ledge is met at the same time. */
+/* Of two flat faces that meet without a margin no point is the nearest; the hit still names the upper face, and a point
+ * of it under the box, also where the side of the ledge is met at the same time. */
 static void box_without_a_margin_names_the_face_it_lands_on(void **unused)
 {
     (void)unused;

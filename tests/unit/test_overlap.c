@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * test_overlap.c: sensors are entered and left at the times of closed forms, at every frame rate, on every backend. */
+ * test_overlap.c: what a state remembers of the sensors that it is inside of, and what its events tell, on every
+ * backend. When they are entered and left: test_overlap_times.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,149 +11,13 @@
 
 #include "sensor_rig.h"
 
-/* Tall and wide enough to be met by its faces across x alone. */
-static uint32_t gate(sensor_rig *s, double from, double to)
-{
-    return sensor_box(s, fake_vec(from, -16, -2), fake_vec(to, 16, 8));
-}
-
-/* When a sensor was entered and left, in the rig's time; < 0: it was not. Every step's events are in order. */
-typedef struct visit {
-    double begin, end;
-    int begins, ends;
-} visit;
-
-static void watch(sensor_rig *s, double dt, uint32_t body, visit *v)
-{
-    double start = s->r.time;
-    rig_step(&s->r, dt);
-    rig_assert_in_order(&s->r, dt);
-    for (uint32_t i = 0; i < s->r.report.event_count; i++) {
-        const tahr_event *e = &s->r.events[i];
-        if (e->body != body) {
-            continue;
-        }
-        if (e->type == TAHR_EVENT_OVERLAP_BEGIN) {
-            v->begin = start + e->time;
-            v->begins++;
-            assert_int_equal(e->surface, s->bodies[body].surface);
-        } else if (e->type == TAHR_EVENT_OVERLAP_END) {
-            v->end = start + e->time;
-            v->ends++;
-        }
-    }
-}
-
-static void a_walk_at_constant_speed_enters_and_leaves_on_time(void **unused)
-{
-    (void)unused;
-    for (int backend = 0; backend < sensor_backends(); backend++) {
-        for (int rate = 0; rate < RIG_RATES; rate++) {
-            sensor_rig s;
-            visit v = {-1, -1, 0, 0};
-            sensor_begin(&s, backend);
-            uint32_t body = gate(&s, 4.5, 5.5);
-            sensor_open(&s, NULL, fake_vec(0, 0, 1));
-            rig_settle(&s.r);
-            s.r.time = 0;
-            s.r.state.velocity = fake_vec(6, 0, 0);
-            s.r.input.move = fake_vec(1, 0, 0);
-            while (s.r.time < 1.5) {
-                watch(&s, 1 / rig_rates[rate], body, &v);
-            }
-            assert_true(v.begins == 1 && v.ends == 1);
-            assert_near(v.begin, (4.5 - 0.35) / 6, 1e-9);
-            assert_near(v.end, (5.5 + 0.35) / 6, 1e-9);
-            assert_int_equal(s.r.state.touched_count, 0);
-            sensor_close(&s);
-        }
-    }
-}
-
-/* From rest x = A t^2 / 2 until 6 m/s, then evenly on. */
-static void a_walk_that_speeds_up_enters_and_leaves_on_time(void **unused)
-{
-    const double A = 20.48, reached = 6 / A, there = 0.5 * A * reached * reached;
-    (void)unused;
-    for (int backend = 0; backend < sensor_backends(); backend++) {
-        for (int rate = 0; rate < RIG_RATES; rate++) {
-            sensor_rig s;
-            visit v = {-1, -1, 0, 0};
-            sensor_begin(&s, backend);
-            uint32_t body = gate(&s, 0.75, 1);
-            sensor_open(&s, NULL, fake_vec(0, 0, 1));
-            rig_settle(&s.r);
-            s.r.time = 0;
-            s.r.input.move = fake_vec(1, 0, 0);
-            while (s.r.time < 0.6) {
-                watch(&s, 1 / rig_rates[rate], body, &v);
-            }
-            assert_true(v.begins == 1 && v.ends == 1);
-            assert_near(v.begin, sqrt(2 * (0.75 - 0.35) / A), 1e-9);
-            assert_near(v.end, reached + (1 + 0.35 - there) / 6, 1e-9);
-            sensor_close(&s);
-        }
-    }
-}
-
-/* A fall from rest: z = -g t^2 / 2, though it is swept in chords. */
-static void a_fall_enters_and_leaves_on_time(void **unused)
-{
-    (void)unused;
-    for (int backend = 0; backend < sensor_backends(); backend++) {
-        for (int rate = 0; rate < RIG_RATES; rate++) {
-            sensor_rig s;
-            visit v = {-1, -1, 0, 0};
-            sensor_begin(&s, backend);
-            uint32_t body = sensor_box(&s, fake_vec(-16, -16, 15), fake_vec(16, 16, 16));
-            sensor_open(&s, NULL, fake_vec(0, 0, 20));
-            while (s.r.time < 1.2) {
-                watch(&s, 1 / rig_rates[rate], body, &v);
-            }
-            assert_true(v.begins == 1 && v.ends == 1);
-            assert_near(v.begin, sqrt(2 * (20 - 0.9 - 16) / 9.81), 1e-9);
-            assert_near(v.end, sqrt(2 * (20 + 0.9 - 15) / 9.81), 1e-9);
-            sensor_close(&s);
-        }
-    }
-}
-
-/* Row X3: 1 cm thick, 40 m/s, one step. */
-static void row_X3_a_thin_sensor_is_begun_then_ended_in_the_step_that_passes_it(void **unused)
-{
-    (void)unused;
-    for (int backend = 0; backend < sensor_backends(); backend++) {
-        sensor_rig s;
-        tahr_config c = rig_config();
-        c.gravity = fake_vec(0, 0, 0);
-        sensor_begin(&s, backend);
-        uint32_t body = gate(&s, 1.5, 1.51);
-        sensor_open(&s, &c, fake_vec(0, 0, 3));
-        s.r.state.velocity = fake_vec(40, 0, 0);
-        s.r.input.move = fake_vec(1, 0, 0);
-        rig_step(&s.r, 0.1);
-        rig_assert_in_order(&s.r, 0.1);
-        const tahr_event *begin = sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, body);
-        const tahr_event *end = sensor_event(&s.r, TAHR_EVENT_OVERLAP_END, body);
-        assert_true(begin && end && begin < end);
-        assert_int_equal(sensor_events(&s.r, TAHR_EVENT_OVERLAP_BEGIN), 1);
-        assert_int_equal(sensor_events(&s.r, TAHR_EVENT_OVERLAP_END), 1);
-        assert_near(begin->time, (1.5 - 0.35) / 40, 2e-8); /* the box is rounded by up to 2e-7 m on native */
-        assert_near(end->time, (1.51 + 0.35) / 40, 2e-8);
-        assert_near(begin->position.x, 1.5 - 0.35, 1e-6);
-        assert_near(begin->normal.x, -1, 1e-6);
-        assert_int_equal(s.r.state.touched_count, 0);
-        sensor_close(&s);
-    }
-}
-
 static void standing_inside_changes_nothing_and_sleeps(void **unused)
 {
     (void)unused;
     for (int backend = 0; backend < sensor_backends(); backend++) {
         sensor_rig s;
         sensor_begin(&s, backend);
-        uint32_t body = gate(&s, -2, 2);
+        uint32_t body = sensor_gate(&s, -2, 2);
         sensor_open(&s, NULL, fake_vec(0, 0, 1));
         rig_step(&s.r, 1.0 / 60);
         const tahr_event *begin = sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, body);
@@ -185,7 +49,7 @@ static void sensors_cost_sweeps_only_where_they_are(void **unused)
         sensor_rig with, without;
         sensor_begin(&with, backend);
         sensor_begin(&without, backend);
-        gate(&with, 4.53, 8.53);
+        sensor_gate(&with, 4.53, 8.53);
         sensor_open(&with, NULL, fake_vec(0, 0, 1));
         sensor_open(&without, NULL, fake_vec(0, 0, 1));
         rig_settle(&with.r);
@@ -215,7 +79,7 @@ static void a_sensor_that_is_put_elsewhere_is_left_at_once(void **unused)
         for (int moving = 0; moving < 2; moving++) {
             sensor_rig s;
             sensor_begin(&s, backend);
-            uint32_t body = gate(&s, -4, 4);
+            uint32_t body = sensor_gate(&s, -4, 4);
             sensor_open(&s, NULL, fake_vec(0, 0, 1));
             rig_settle(&s.r);
             s.r.input.move = fake_vec(0, moving, 0);
@@ -223,7 +87,8 @@ static void a_sensor_that_is_put_elsewhere_is_left_at_once(void **unused)
                 int there = i % 2;
                 sensor_put(&s, body, fake_vec(there ? 0 : 30, 0, 3));
                 rig_step(&s.r, 1.0 / 60);
-                const tahr_event *e = sensor_event(&s.r, there ? TAHR_EVENT_OVERLAP_BEGIN : TAHR_EVENT_OVERLAP_END, body);
+                const tahr_event *e =
+                    sensor_event(&s.r, there ? TAHR_EVENT_OVERLAP_BEGIN : TAHR_EVENT_OVERLAP_END, body);
                 assert_true(e && e->time == 0);
                 assert_int_equal(sensor_events(&s.r, TAHR_EVENT_OVERLAP_BEGIN), there);
                 assert_int_equal(sensor_events(&s.r, TAHR_EVENT_OVERLAP_END), !there);
@@ -244,7 +109,7 @@ static void a_sensor_put_ahead_is_left_and_entered_again(void **unused)
     for (int backend = 0; backend < sensor_backends(); backend++) {
         sensor_rig s;
         sensor_begin(&s, backend);
-        uint32_t body = gate(&s, -1, 1);
+        uint32_t body = sensor_gate(&s, -1, 1);
         sensor_open(&s, NULL, fake_vec(0, 0, 1));
         rig_settle(&s.r);
         s.r.state.velocity = fake_vec(6, 0, 0);
@@ -293,7 +158,7 @@ static void more_than_eight_sensors_are_said_to_be_too_many(void **unused)
         sensor_rig s;
         sensor_begin(&s, backend);
         for (int i = 0; i < 10; i++) {
-            gate(&s, -2 - i, 2 + i);
+            sensor_gate(&s, -2 - i, 2 + i);
         }
         sensor_open(&s, NULL, fake_vec(0, 0, 1));
         rig_step(&s.r, 1.0 / 60);
@@ -310,7 +175,8 @@ static void more_than_eight_sensors_are_said_to_be_too_many(void **unused)
         sensor_put(&s, 4, fake_vec(60, 0, 3));
         rig_step(&s.r, 1.0 / 60);
         assert_true(sensor_event(&s.r, TAHR_EVENT_OVERLAP_END, 3) && sensor_event(&s.r, TAHR_EVENT_OVERLAP_END, 4));
-        assert_true(sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, 9) && sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, 10));
+        assert_true(sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, 9) &&
+                    sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, 10));
         assert_int_equal(s.r.report.flags & TAHR_REPORT_TOUCHED_LOST, 0);
         const uint32_t left[8] = {1, 2, 5, 6, 7, 8, 9, 10};
         assert_memory_equal(s.r.state.touched, left, sizeof left);
@@ -327,7 +193,7 @@ static void touching_is_not_inside(void **unused)
         tahr_config c = rig_config();
         c.shape.radius = 0.25;
         sensor_begin(&s, backend);
-        uint32_t body = gate(&s, 0.25, 2.25);
+        uint32_t body = sensor_gate(&s, 0.25, 2.25);
         sensor_open(&s, &c, fake_vec(0, 0, 1));
         rig_settle(&s.r);
         for (int i = 0; i < 30; i++) { /* along the face, and back */
@@ -349,7 +215,7 @@ static void another_mask_ends_what_it_does_not_meet(void **unused)
     sensor_rig s;
     (void)unused;
     sensor_begin(&s, ON_NATIVE);
-    uint32_t body = gate(&s, -2, 2);
+    uint32_t body = sensor_gate(&s, -2, 2);
     s.bodies[body].mask = 4;
     sensor_open(&s, NULL, fake_vec(0, 0, 1));
     rig_settle(&s.r);
@@ -372,7 +238,7 @@ static void a_fluid_is_a_sensor_too(void **unused)
     sensor_rig s;
     (void)unused;
     sensor_begin(&s, ON_NATIVE);
-    uint32_t body = gate(&s, 2, 4);
+    uint32_t body = sensor_gate(&s, 2, 4);
     s.bodies[body].flags = TAHR_BODY_FLUID;
     sensor_open(&s, NULL, fake_vec(3, 0, 12));
     int begins = 0;
@@ -392,8 +258,8 @@ static void overlaps_that_do_not_fit_are_counted(void **unused)
     tahr_event all[RIG_EVENTS], some[RIG_EVENTS + 1];
     (void)unused;
     sensor_begin(&s, ON_NATIVE);
-    gate(&s, -1, 1);
-    gate(&s, 2, 2.5);
+    sensor_gate(&s, -1, 1);
+    sensor_gate(&s, 2, 2.5);
     sensor_box(&s, fake_vec(-16, -16, 2), fake_vec(16, 16, 3));
     sensor_open(&s, NULL, fake_vec(0, 0, 1));
     rig_settle(&s.r);
@@ -457,7 +323,7 @@ static void a_sleeper_wakes_when_its_sensor_goes(void **unused)
         tahr_event events[8];
         tahr_report report = {.struct_size = sizeof report, .events = events, .event_capacity = 8};
         sensor_begin(&s, backend);
-        uint32_t body = gate(&s, -2, 2);
+        uint32_t body = sensor_gate(&s, -2, 2);
         sensor_open(&s, NULL, fake_vec(0, 0, 1));
         rig_settle(&s.r);
         for (int i = 0; i < 3; i++) {
@@ -474,23 +340,17 @@ static void a_sleeper_wakes_when_its_sensor_goes(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_walk_at_constant_speed_enters_and_leaves_on_time),
-        cmocka_unit_test(a_walk_that_speeds_up_enters_and_leaves_on_time),
-        cmocka_unit_test(a_fall_enters_and_leaves_on_time),
-        cmocka_unit_test(row_X3_a_thin_sensor_is_begun_then_ended_in_the_step_that_passes_it),
-        cmocka_unit_test(standing_inside_changes_nothing_and_sleeps),
-        cmocka_unit_test(sensors_cost_sweeps_only_where_they_are),
-        cmocka_unit_test(a_sensor_that_is_put_elsewhere_is_left_at_once),
-        cmocka_unit_test(a_sensor_put_ahead_is_left_and_entered_again),
-        cmocka_unit_test(a_sensor_that_turns_away_is_left),
-        cmocka_unit_test(more_than_eight_sensors_are_said_to_be_too_many),
-        cmocka_unit_test(touching_is_not_inside),
-        cmocka_unit_test(another_mask_ends_what_it_does_not_meet),
-        cmocka_unit_test(a_fluid_is_a_sensor_too),
-        cmocka_unit_test(overlaps_that_do_not_fit_are_counted),
-        cmocka_unit_test(sweeps_for_sensors_are_capped),
-        cmocka_unit_test(a_sleeper_wakes_when_its_sensor_goes),
-    };
+    const struct CMUnitTest tests[] = {cmocka_unit_test(standing_inside_changes_nothing_and_sleeps),
+                                       cmocka_unit_test(sensors_cost_sweeps_only_where_they_are),
+                                       cmocka_unit_test(a_sensor_that_is_put_elsewhere_is_left_at_once),
+                                       cmocka_unit_test(a_sensor_put_ahead_is_left_and_entered_again),
+                                       cmocka_unit_test(a_sensor_that_turns_away_is_left),
+                                       cmocka_unit_test(more_than_eight_sensors_are_said_to_be_too_many),
+                                       cmocka_unit_test(touching_is_not_inside),
+                                       cmocka_unit_test(another_mask_ends_what_it_does_not_meet),
+                                       cmocka_unit_test(a_fluid_is_a_sensor_too),
+                                       cmocka_unit_test(overlaps_that_do_not_fit_are_counted),
+                                       cmocka_unit_test(sweeps_for_sensors_are_capped),
+                                       cmocka_unit_test(a_sleeper_wakes_when_its_sensor_goes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -64,8 +64,8 @@ static void open_pair(sensor_rig *with, sensor_rig *without, int backend, uint32
     for (int i = 0; i < SENSORS_HERE; i++) {
         tahr_vec3 at = {uniform(&seed, -4, 4), uniform(&seed, -4, 4), uniform(&seed, 0, 3)};
         tahr_vec3 h = {uniform(&seed, 0.02, 1.5), uniform(&seed, 0.02, 1.5), uniform(&seed, 0.02, 1.5)};
-        uint32_t body =
-            sensor_box(with, fake_vec(at.x - h.x, at.y - h.y, at.z - h.z), fake_vec(at.x + h.x, at.y + h.y, at.z + h.z));
+        uint32_t body = sensor_box(with, fake_vec(at.x - h.x, at.y - h.y, at.z - h.z),
+                                   fake_vec(at.x + h.x, at.y + h.y, at.z + h.z));
         if (backend != ON_CALLBACKS && i % 3 == 0) {
             with->bodies[body].type = TAHR_BODY_SPHERE;
             with->bodies[body].radius = h.x;

@@ -155,7 +155,8 @@ static void floor_distance_in_three_stages(void **unused)
             }
             make_scene(&rows[i], &scene);
             open_at(&p, &scene, backend, NULL, 88);
-            tahr__floor_look look = {p.step.state.position, parity_cm(47.4001), parity_cm(47.4001), parity_cm(34), NULL};
+            tahr__floor_look look = {p.step.state.position, parity_cm(47.4001), parity_cm(47.4001), parity_cm(34),
+                                     NULL};
             parity_row(&t, rows[i].id, parity_backend_name(backend));
             tahr__compute_floor_distance(&p.step, &look, &floor);
             parity_length(&t, "distance", floor.distance, rows[i].distance, tolerance);
@@ -194,7 +195,8 @@ static void supplied_sweep_counts_if_it_went_straight_down(void **unused)
         hit.surface_normal = hit.normal;
         hit.point = parity_vec(rows[i].off, 0, -4);
         tahr__supplied supplied = {&hit, parity_vec(rows[i].tilt, 0, -rows[i].down), parity_vec(0, 0, 84)};
-        tahr__floor_look look = {p.step.state.position, parity_cm(47.4001), parity_cm(47.4001), parity_cm(34), &supplied};
+        tahr__floor_look look = {p.step.state.position, parity_cm(47.4001), parity_cm(47.4001), parity_cm(34),
+                                 &supplied};
         parity_row(&t, rows[i].id, NULL);
         tahr__compute_floor_distance(&p.step, &look, &floor);
         parity_length(&t, "distance", floor.distance, rows[i].distance, 1e-4);

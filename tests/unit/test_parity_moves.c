@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_parity_moves.c: moving the shape in the unreal preset, row by row in centimetres: walkable test (W), pull-back (B),
- * MoveUpdatedComponent (M), penetration adjustment (R), ResolvePenetration (Z), SafeMoveUpdatedComponent (V). */
+ * test_parity_moves.c: moving the shape in the unreal preset, row by row in centimetres: walkable test (W), pull-back
+ * (B), MoveUpdatedComponent (M), penetration adjustment (R), ResolvePenetration (Z), SafeMoveUpdatedComponent (V). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

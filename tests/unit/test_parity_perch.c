@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_parity_perch.c: perch radius, perch test, perch floor and the floor with a perch of TAHR_FLOOR_PROBE_SHRUNK against
- * numbers worked out by hand, in centimetres, with their queries. */
+ * test_parity_perch.c: perch radius, perch test, perch floor and the floor with a perch of TAHR_FLOOR_PROBE_SHRUNK
+ * against numbers worked out by hand, in centimetres, with their queries. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -162,8 +162,8 @@ static void floor_at_an_edge_is_one_with_a_perch(void **unused)
 }
 
 /* What the foot found on an edge and on the floor below it; everything from K1 and the rules of the perch.
- * replaced: the edge may never be stood on, and 60 cm is out of a ray's reach: the floor below it becomes the floor, as if
- * a ray had found it, with the distance to the edge, so that the foot does not drop through it.
+ * replaced: the edge may never be stood on, and 60 cm is out of a ray's reach: the floor below it becomes the floor, as
+ * if a ray had found it, with the distance to the edge, so that the foot does not drop through it.
  * kept: rising to 2.15 would put the floor below, 87.3 under the edge, out of reach: the distance is called right. */
 static void perch_replaces_what_is_no_floor_and_keeps_the_height(void **unused)
 {

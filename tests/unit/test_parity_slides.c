@@ -97,7 +97,15 @@ static void two_wall_character_rows(void **unused)
         {"U2", TAHR_MODE_WALKING, {20, 5, 0}, N60, 0.25, {-0.6, -0.8, 0}, {3.75, 3.75, 0}, 2.15, 0},
         {"U3", TAHR_MODE_WALKING, {20, 5, -8}, {-0.8, 0, -0.6}, 0, {-0.6, -0.8, 0}, {11.04, 5, 0}, 1.5, 0},
         {"U4", TAHR_MODE_WALKING, {20, 5, -8}, {-0.8, 0, -0.6}, 0, {-0.6, -0.8, 0}, {11.04, 5, -14.72}, 2.15, 0},
-        {"U5", TAHR_MODE_WALKING, {80, 0, 0}, {-0.7042016756583302, 0, 0.71}, 0, {-0.6, -0.8, 0}, {45.3705, 0, 45}, 2.15, 1e-3},
+        {"U5",
+         TAHR_MODE_WALKING,
+         {80, 0, 0},
+         {-0.7042016756583302, 0, 0.71},
+         0,
+         {-0.6, -0.8, 0},
+         {45.3705, 0, 45},
+         2.15,
+         1e-3},
         {"U6", TAHR_MODE_FLYING, {20, 5, 0}, N60, 0.25, {-0.6, -0.8, 0}, {3.75, 3.75, 6.49519}, 2.15, 0},
         {"U6", TAHR_MODE_FALLING, {20, 5, 0}, N60, 0.25, {-0.6, -0.8, 0}, {0, 3.75, 0}, 2.15, 0}};
     (void)unused;
@@ -184,8 +192,8 @@ static void slide_base_rows(void **unused)
     parity_end(&t);
 }
 
-/* The slide of (10, 10, 0) along a wall that faces -x is 10 cm along y: its pull-back is 0.101. Of the 6 cm left a second
- * wall, 60 degrees to the first one, leaves 5.2 cm: its pull-back is 0.101 again. */
+/* The slide of (10, 10, 0) along a wall that faces -x is 10 cm along y: its pull-back is 0.101. Of the 6 cm left a
+ * second wall, 60 degrees to the first one, leaves 5.2 cm: its pull-back is 0.101 again. */
 static void slide_into_a_second_wall_row(void **unused)
 {
     script s = {.answers = {{0.501, {-0.8660254037844386, -0.5, 0}}, {0.601, {-1, 0, 0}}}};
@@ -269,7 +277,8 @@ static void slide_character_rows(void **unused)
         p.step.state.mode = TAHR_MODE_WALKING;
         parity_floor(&p, rows[i].distance, rows[i].floor, STANDING);
         parity_row(&t, rows[i].id, NULL);
-        parity_vector(&t, "normal / 100", scale(tahr__slide_normal(&p.step, delta, n, &hit), 0.01), e.x, e.y, e.z, 1e-6);
+        parity_vector(&t, "normal / 100", scale(tahr__slide_normal(&p.step, delta, n, &hit), 0.01), e.x, e.y, e.z,
+                      1e-6);
         parity_count(&t, "queries", p.step.queries, 0);
         /* What it slides along is what it moves along: level in all but the last. */
         tahr__swept swept = {.hit = hit};

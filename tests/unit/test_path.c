@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_path.c: the path of one long step: what happens on it carries its time, and what is dropped of it is reported. */
+ * test_path.c: the path of one long step: what happens on it carries its time, and what is dropped of it is
+ * reported. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -194,8 +195,8 @@ static void time_that_falling_takes_over_is_not_lost(void **unused)
     rig_close(&r[1]);
 }
 
-/* Two seconds along a gutter into a wall that leans over it and is turned by yaw: either side of the gutter carries, the one
- * that rises more for the way it goes. Returns the time lost. */
+/* Two seconds along a gutter into a wall that leans over it and is turned by yaw: either side of the gutter carries,
+ * the one that rises more for the way it goes. Returns the time lost. */
 static double walk_gutter(double yaw, double way, double dt)
 {
     const double lean = 0.5, side = 0.5;
@@ -218,8 +219,8 @@ static double walk_gutter(double yaw, double way, double dt)
     return lost;
 }
 
-/* Never entered, and at 10 Hz in three directions out of four no time is lost: with one wall only, for the side that comes
- * first, the slides of a long step are used up in every third. */
+/* Never entered, and at 10 Hz in three directions out of four no time is lost: with one wall only, for the side that
+ * comes first, the slides of a long step are used up in every third. */
 static void a_wall_that_leans_over_a_gutter_is_slid_along(void **unused)
 {
     const double dts[] = {0.1, 1.0 / 30, 1.0 / 60, 1.0 / 144};
@@ -237,8 +238,8 @@ static void a_wall_that_leans_over_a_gutter_is_slid_along(void **unused)
     assert_true(4 * whole >= 3 * runs);
 }
 
-/* A plateau that ends at x = 0, and over the void beyond it a wall at x = 1 that bends the way: the floor ends before the
- * wall is met, at the perch radius and the skin over the edge. */
+/* A plateau that ends at x = 0, and over the void beyond it a wall at x = 1 that bends the way: the floor ends before
+ * the wall is met, at the perch radius and the skin over the edge. */
 static void a_floor_that_ends_before_a_bend_is_left_where_it_ends(void **unused)
 {
     const double dts[] = {0.4, 0.3, 0.1, 1.0 / 60};

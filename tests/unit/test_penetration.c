@@ -124,7 +124,8 @@ static void what_does_not_fit_is_swept_by_both_pushes_then_with_the_motion_then_
     }
 }
 
-/* The motion alone is only tried if it leads out; a second surface is only asked if the pushes differ and do not cancel. */
+/* The motion alone is only tried if it leads out; a second surface is only asked if the pushes differ and do not
+ * cancel. */
 static void attempts_that_cannot_help_are_not_made(void **unused)
 {
     script back = {.overlaps = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}}, .contacts = 1};

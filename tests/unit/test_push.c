@@ -79,7 +79,8 @@ static void a_rod_that_spins_short_of_a_character_does_not_touch_it(void **unuse
     rig_open_bodies(&r, bodies, 2, NULL, fake_vec(1.5, -1.95, 1)); /* 2.460 m from the axis: 0.1 m clear of the tips */
     rig_settle(&r);
     tahr_vec3 at = r.state.position;
-    for (int n = 1; n <= 40; n++) { /* 34 degrees a step: the chord of its way, seen from the rod, is 0.107 m further in */
+    for (int n = 1; n <= 40; n++) { /* 34 degrees a step: the chord of its way, seen from the rod, is 0.107 m further
+                                     * in */
         stage_step(&r, 1, (tahr_pose){{0, 0, 1}, stage_yaw(0.6 * n)}, 0.1);
         assert_true(stage_distance(at, r.state.position) < 1e-9);
     }
@@ -101,8 +102,8 @@ static void a_motion_pushes_once_however_many_steps_see_it(void **unused)
     rig_close(&r);
 }
 
-/* Between two walls, 0.1 m into each, and under a press, 0.15 m into it: the least of all depths would be 0.1 m down in the
- * floor, which is 5 cm below. */
+/* Between two walls, 0.1 m into each, and under a press, 0.15 m into it: the least of all depths would be 0.1 m down in
+ * the floor, which is 5 cm below. */
 static void a_crushed_character_is_not_pressed_into_the_floor(void **unused)
 {
     rig r;
@@ -333,7 +334,8 @@ static void hitting_a_body_with_a_mass_reports_its_push(void **unused)
             assert_near(push->position.x, 1.5, 1e-6);
             assert_int_equal(push->body, 1);
         }
-        rig_steps(&r, 30, dt); /* leaning against it goes on pushing: 20.48 / 60 m/s more each step, were it not there */
+        rig_steps(&r, 30, dt); /* leaning against it goes on pushing: 20.48 / 60 m/s more each step, were it not
+                                * there */
         push = rig_event(&r, TAHR_EVENT_PUSHED);
         assert_true((push != NULL) == (masses[k] > 0));
         if (push) {

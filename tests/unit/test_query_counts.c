@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_query_counts.c: the unreal preset asks what is promised: exactly so many queries in nominal scenes, and never more
- * than the most for each function. Those of moves, slides and floors are in test_parity_*.c. */
+ * test_query_counts.c: the unreal preset asks what is promised: exactly so many queries in nominal scenes, and never
+ * more than the most for each function. Those of moves, slides and floors are in test_parity_*.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

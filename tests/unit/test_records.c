@@ -128,8 +128,9 @@ static void records_that_do_not_fit_are_counted_and_flagged(void **unused)
     rig_close(&r);
 }
 
-/* Row X4 by the joint depenetration: 2 cm in the floor, asked to move on: the sweep that finds the overlap, the contacts
- * it is left by, the push, the look at what is left, and the motion again. Without the array nothing is written. */
+/* Row X4 by the joint depenetration: 2 cm in the floor, asked to move on: the sweep that finds the overlap, the
+ * contacts it is left by, the push, the look at what is left, and the motion again. Without the array nothing is
+ * written. */
 static void row_X4_a_move_out_of_the_floor_records_each_query_once(void **unused)
 {
     const uint32_t expected[] = {TAHR_QUERY_SWEEP, TAHR_QUERY_CONTACTS, TAHR_QUERY_SWEEP, TAHR_QUERY_CONTACTS,

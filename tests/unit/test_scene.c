@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_scene.c: the limits of poses and sizes of bodies, at their last accepted value; what is copied and what is not. */
+ * test_scene.c: the limits of poses and sizes of bodies, at their last accepted value; what is copied and what is
+ * not. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

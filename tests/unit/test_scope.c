@@ -41,7 +41,8 @@ static void row_X1_a_step_tells_sensors_once_and_hits_in_order(void **unused)
         assert_int_equal(sensor_events(&s.r, TAHR_EVENT_HIT), 2);
         const tahr_event *begin = sensor_event(&s.r, TAHR_EVENT_OVERLAP_BEGIN, sensor);
         const tahr_event *end = sensor_event(&s.r, TAHR_EVENT_OVERLAP_END, sensor);
-        const tahr_event *first = sensor_event(&s.r, TAHR_EVENT_HIT, 1), *second = sensor_event(&s.r, TAHR_EVENT_HIT, 2);
+        const tahr_event *first = sensor_event(&s.r, TAHR_EVENT_HIT, 1),
+                         *second = sensor_event(&s.r, TAHR_EVENT_HIT, 2);
         assert_true(begin && end && first && second && begin < end && end < first && first < second);
         assert_near(begin->time, (0.75 - 0.35) / 4.8, 1e-9);
         assert_near(end->time, (1 + 0.35) / 4.8, 1e-9);
@@ -194,8 +195,8 @@ static void what_is_walked_again_is_told_once(void **unused)
     }
 }
 
-/* The same sensor where the fall does pass, and one over the floor before: each once, at the times of the law of walking
- * and of the arc. The floor carries a foot up to radius + skin - perch_threshold beyond its end. */
+/* The same sensor where the fall does pass, and one over the floor before: each once, at the times of the law of
+ * walking and of the arc. The floor carries a foot up to radius + skin - perch_threshold beyond its end. */
 static void a_ledge_in_the_middle_of_a_step_keeps_the_times(void **unused)
 {
     const double edge = 64 + 0.35 + 0.01 - 0.15;

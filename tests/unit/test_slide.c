@@ -15,8 +15,9 @@
 static void slide_leaves_every_plane_and_never_lengthens(void **unused)
 {
     double a = 0.3;
-    tahr__plane planes[3] = {
-        {.normal = {0, 0, 1}}, {.normal = {-cos(a), sin(a), 0}, .feature = 1}, {.normal = {-0.6, 0, 0.8}, .feature = 2}};
+    tahr__plane planes[3] = {{.normal = {0, 0, 1}},
+                             {.normal = {-cos(a), sin(a), 0}, .feature = 1},
+                             {.normal = {-0.6, 0, 0.8}, .feature = 2}};
     (void)unused;
     for (uint32_t count = 1; count <= 3; count++) {
         vec3 x = tahr__slide(planes, count, vec(3, 0.5, -1));

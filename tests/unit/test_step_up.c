@@ -128,8 +128,8 @@ static void a_flight_of_stairs_takes_its_level_length_over_speed(void **unused)
     }
 }
 
-/* A step at x = 2, seen from the side and drawn out along y, whose edge is cut off: `run` wide, `slope` degrees steep. The
- * cut is a body of its own if it is never walkable. */
+/* A step at x = 2, seen from the side and drawn out along y, whose edge is cut off: `run` wide, `slope` degrees steep.
+ * The cut is a body of its own if it is never walkable. */
 typedef struct edge {
     double height, slope, run;
     int never;
@@ -178,7 +178,8 @@ static void open_edge(rig *r, edge *e, double x, double z)
     rig_settle(r);
 }
 
-/* Walks over the edge in the direction of `way` (+1 up, -1 down) and fails where it does otherwise than over a sharp one. */
+/* Walks over the edge in the direction of `way` (+1 up, -1 down) and fails where it does otherwise than over a sharp
+ * one. */
 static void walk_over(edge *e, double speed, double rate, int way)
 {
     rig r;
@@ -258,7 +259,8 @@ static void a_slope_too_steep_to_stand_on_is_a_step_if_it_is_no_higher_than_one(
     }
 }
 
-/* The front of a step holds a walker wherever on it the foot is: at rest to the bit, and with the way open on and back. */
+/* The front of a step holds a walker wherever on it the foot is: at rest to the bit, and with the way open on and
+ * back. */
 static void who_stops_half_way_up_a_bevel_rests_there_and_goes_on(void **unused)
 {
     (void)unused;
@@ -286,7 +288,8 @@ static void who_stops_half_way_up_a_bevel_rests_there_and_goes_on(void **unused)
     }
 }
 
-/* Past the edge of a slope that is no step the floor has ended: walked down from above it is not held to, nor from below. */
+/* Past the edge of a slope that is no step the floor has ended: walked down from above it is not held to, nor from
+ * below. */
 static void the_upper_end_of_a_high_steep_slope_holds_nobody(void **unused)
 {
     (void)unused;

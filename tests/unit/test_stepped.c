@@ -66,7 +66,8 @@ static void braking_ends_at_rest(void **unused)
     law.braking = 0;
     assert_near(tahr__velocity_braking(&c, &law, vec(0.09, 0, 0), 0.01).x, 0.09, 0); /* nothing brakes */
     law.drag = 16;
-    assert_near(tahr__velocity_braking(&c, &law, vec(0.09, 0, 0), 0.01).x, 0.09 * 0.84, 1e-15); /* drag alone: to 0.1 mm/s */
+    assert_near(tahr__velocity_braking(&c, &law, vec(0.09, 0, 0), 0.01).x, 0.09 * 0.84, 1e-15); /* drag alone: to 0.1
+                                                                                                 * mm/s */
     assert_true(tahr__velocity_braking(&c, &law, vec(1.1e-4, 0, 0), 0.01).x == 0);
 }
 

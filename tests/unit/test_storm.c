@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_storm.c: boxes that fly about a character at up to 50 m/s: never in it, never through it, nothing pressed into the
- * floor. */
+ * test_storm.c: boxes that fly about a character at up to 50 m/s: never in it, never through it, nothing pressed into
+ * the floor. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -31,7 +31,8 @@ static void begin_storm(storm *s, int boxes, uint64_t seed)
 {
     s->random.state = seed;
     s->boxes = boxes;
-    s->bodies[0] = stage_box(fake_vec(0, 0, -0.02), fake_vec(2e4, 2e4, 0.02)); /* thin: nothing may be pressed through */
+    s->bodies[0] = stage_box(fake_vec(0, 0, -0.02), fake_vec(2e4, 2e4, 0.02)); /* thin: nothing may be pressed
+                                                                                * through */
     s->bodies[0].flags = 0;
     for (int b = 0; b < boxes; b++) {
         s->bodies[b + 1] = stage_box(fake_vec(20 + 3 * b, 0, 5), dice_vec(&s->random, 0.2, 1));
@@ -179,7 +180,8 @@ static void tumbling_boxes_do_not_enter_a_character_unless_they_crush_it(void **
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_box_at_fifty_metres_a_second_does_not_pass_through_a_character),
-                                       cmocka_unit_test(tumbling_boxes_do_not_enter_a_character_unless_they_crush_it)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_box_at_fifty_metres_a_second_does_not_pass_through_a_character),
+        cmocka_unit_test(tumbling_boxes_do_not_enter_a_character_unless_they_crush_it)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

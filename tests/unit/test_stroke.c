@@ -19,7 +19,8 @@ enum { DRAG_COUNT = sizeof DRAGS / sizeof DRAGS[0], SPRING_COUNT = sizeof SPRING
 
 static tahr__stroke stroke(double drag, double spring)
 {
-    tahr__stroke s = {.up = {0, 0, 1}, .target = {1.5, -0.5, 0}, .rate = drag, .drag = drag, .push = 4.7, .spring = spring};
+    tahr__stroke s = {
+        .up = {0, 0, 1}, .target = {1.5, -0.5, 0}, .rate = drag, .drag = drag, .push = 4.7, .spring = spring};
     return s;
 }
 

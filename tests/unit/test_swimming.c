@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_swimming.c: swimming in the deep and at the surface against closed forms, at every rate. Entering and leaving is in
- * test_water_line.c. */
+ * test_swimming.c: swimming in the deep and at the surface against closed forms, at every rate. Entering and leaving is
+ * in test_water_line.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -121,8 +121,8 @@ static void what_buoyancy_does_not_carry_sinks_to_the_speed_that_drag_holds(void
     }
 }
 
-/* Near the surface the lift is in proportion to the height: a damped spring. w^2 = g b / H; at the surface at least half of
- * the critical damping. */
+/* Near the surface the lift is in proportion to the height: a damped spring. w^2 = g b / H; at the surface at least
+ * half of the critical damping. */
 static void a_bob_is_a_damped_spring(void **unused)
 {
     const double b = 1.3, w2 = 9.81 * b / 1.8, d = sqrt(w2) / 2, w = sqrt(w2 - d * d);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_trace.c: every rule shows in a trace what it accepted and what it rejected, and why. */
+ * test_trace.c: every rule of walking and falling shows in a trace what it accepted and what it rejected, and why.
+ * test_trace_modes.c: the other rules, and the other methods. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,71 +10,43 @@
 #include <cmocka.h>
 
 #include "dice.h"
-#include "rig.h"
+#include "trace.h"
 
-static const struct {
-    uint32_t rule, accepted;
-    const char *reason;
-} expected[] = {{TAHR_RULE_WALKABLE, 1, "cosine of the face's slope"},
-                {TAHR_RULE_WALKABLE, 0, "cosine of the face's slope"},
-                {TAHR_RULE_EDGE_TOLERANCE, 0, "touches the rim"},
-                {TAHR_RULE_PERCH, 1, "floor for the inner foot"},
-                {TAHR_RULE_PERCH, 0, "floor for the inner foot"},
-                {TAHR_RULE_FLOOR, 1, "floor distance"},
-                {TAHR_RULE_FLOOR, 0, "floor distance"},
-                {TAHR_RULE_FLOOR, 0, "nothing below"},
-                {TAHR_RULE_CACHED_FLOOR, 1, "neither the character nor the world moved"},
-                {TAHR_RULE_FLOOR_HEIGHT, 1, "clearance outside the band"},
-                {TAHR_RULE_RAMP, 1, "a walkable face"},
-                {TAHR_RULE_RAMP, 0, "too steep to go on along"},
-                {TAHR_RULE_SLIDE, 1, "slides along"},
-                {TAHR_RULE_SLIDE, 0, "squeezed between floor and ceiling"},
-                {TAHR_RULE_STEP_UP, 1, "landed"},
-                {TAHR_RULE_STEP_UP, 0, "blocked at step height too"},
-                {TAHR_RULE_STEP_UP, 0, "no room to rise"},
-                {TAHR_RULE_STEP_UP, 0, "higher than a step"},
-                {TAHR_RULE_STEP_DOWN, 1, "floor followed down"},
-                {TAHR_RULE_LANDING, 1, "floor where it fell"},
-                {TAHR_RULE_LANDING, 0, "floor where it fell"},
-                {TAHR_RULE_LANDING, 0, "not met from above"},
-                {TAHR_RULE_WEDGE, 1, "downward motion that the contacts leave"},
-                {TAHR_RULE_WEDGE, 0, "downward motion that the contacts leave"},
-                {TAHR_RULE_LEDGE, 1, "held at the ledge"},
-                {TAHR_RULE_LEDGE, 0, "no floor on the way here"},
-                {TAHR_RULE_DEPENETRATION, 1, "depth left after the joint push"},
-                {TAHR_RULE_DEPENETRATION, 0, "depth left after the joint push"},
-                {TAHR_RULE_JUMP, 1, "button went down on ground"},
-                {TAHR_RULE_SLOPE, 1, "ground half-way to the contact"},
-                {TAHR_RULE_SWEEP, 1, "nothing in the way"},
-                {TAHR_RULE_SWEEP, 0, "kept the skin to something"},
-                {TAHR_RULE_SWEEP, 0, "undecided, taken for a wall"},
-                {TAHR_RULE_SWEEP, 0, "overlaps something already"}};
-enum { EXPECTED = sizeof expected / sizeof expected[0] };
-static uint32_t seen[EXPECTED];
-
-/* One step, its trace noted. */
-static void note(rig *r, double dt)
-{
-    rig_step(r, dt);
-    assert_int_equal(r->report.decisions_lost, 0);
-    for (uint32_t i = 0; i < r->report.decision_count; i++) {
-        const tahr_decision *d = &r->decisions[i];
-        assert_true(d->reason && d->accepted <= 1 && strcmp(tahr_rule_name(d->rule), "?") != 0);
-        assert_true(isfinite(d->value) && isfinite(d->limit));
-        for (int k = 0; k < EXPECTED; k++) {
-            seen[k] += expected[k].rule == d->rule && expected[k].accepted == d->accepted &&
-                       strcmp(expected[k].reason, d->reason) == 0;
-        }
-    }
-}
-
-static void notes(rig *r, int n, tahr_vec3 move)
-{
-    r->input.move = move;
-    for (int i = 0; i < n; i++) {
-        note(r, 1.0 / 60);
-    }
-}
+static trace_row rows[] = {{TAHR_RULE_WALKABLE, 1, "cosine of the face's slope", 0},
+                           {TAHR_RULE_WALKABLE, 0, "cosine of the face's slope", 0},
+                           {TAHR_RULE_EDGE_TOLERANCE, 0, "touches the rim", 0},
+                           {TAHR_RULE_PERCH, 1, "floor for the inner foot", 0},
+                           {TAHR_RULE_PERCH, 0, "floor for the inner foot", 0},
+                           {TAHR_RULE_FLOOR, 1, "floor distance", 0},
+                           {TAHR_RULE_FLOOR, 0, "floor distance", 0},
+                           {TAHR_RULE_FLOOR, 0, "nothing below", 0},
+                           {TAHR_RULE_CACHED_FLOOR, 1, "neither the character nor the world moved", 0},
+                           {TAHR_RULE_FLOOR_HEIGHT, 1, "clearance outside the band", 0},
+                           {TAHR_RULE_RAMP, 1, "a walkable face", 0},
+                           {TAHR_RULE_RAMP, 0, "too steep to go on along", 0},
+                           {TAHR_RULE_SLIDE, 1, "slides along", 0},
+                           {TAHR_RULE_SLIDE, 0, "squeezed between floor and ceiling", 0},
+                           {TAHR_RULE_STEP_UP, 1, "landed", 0},
+                           {TAHR_RULE_STEP_UP, 0, "blocked at step height too", 0},
+                           {TAHR_RULE_STEP_UP, 0, "no room to rise", 0},
+                           {TAHR_RULE_STEP_UP, 0, "higher than a step", 0},
+                           {TAHR_RULE_STEP_DOWN, 1, "floor followed down", 0},
+                           {TAHR_RULE_LANDING, 1, "floor where it fell", 0},
+                           {TAHR_RULE_LANDING, 0, "floor where it fell", 0},
+                           {TAHR_RULE_LANDING, 0, "not met from above", 0},
+                           {TAHR_RULE_WEDGE, 1, "downward motion that the contacts leave", 0},
+                           {TAHR_RULE_WEDGE, 0, "downward motion that the contacts leave", 0},
+                           {TAHR_RULE_LEDGE, 1, "held at the ledge", 0},
+                           {TAHR_RULE_LEDGE, 0, "no floor on the way here", 0},
+                           {TAHR_RULE_DEPENETRATION, 1, "depth left after the joint push", 0},
+                           {TAHR_RULE_DEPENETRATION, 0, "depth left after the joint push", 0},
+                           {TAHR_RULE_JUMP, 1, "button went down on ground", 0},
+                           {TAHR_RULE_SLOPE, 1, "ground half-way to the contact", 0},
+                           {TAHR_RULE_SWEEP, 1, "nothing in the way", 0},
+                           {TAHR_RULE_SWEEP, 0, "kept the skin to something", 0},
+                           {TAHR_RULE_SWEEP, 0, "undecided, taken for a wall", 0},
+                           {TAHR_RULE_SWEEP, 0, "overlaps something already", 0}};
+static trace all = {rows, sizeof rows / sizeof rows[0]};
 
 static void stand_walk_jump_and_meet_a_wall(void)
 {
@@ -82,10 +55,10 @@ static void stand_walk_jump_and_meet_a_wall(void)
     fake_world_flat(&w);
     fake_add_plane(&w, fake_vec(-1, 0, 0), -3);
     rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
-    notes(&r, 2, fake_vec(0, 0, 0));
-    notes(&r, 60, fake_vec(0.8, 0.6, 0));
+    trace_steps(&all, &r, 2, fake_vec(0, 0, 0));
+    trace_steps(&all, &r, 60, fake_vec(0.8, 0.6, 0));
     r.input.jump = 1;
-    notes(&r, 90, fake_vec(1, 0, 0));
+    trace_steps(&all, &r, 90, fake_vec(1, 0, 0));
     rig_close(&r);
 }
 
@@ -98,21 +71,21 @@ static void climb(void)
     fake_add_box(&w, fake_vec(1, -9, -1), fake_vec(3, 9, 0.3));
     fake_add_box(&w, fake_vec(-3, -9, -1), fake_vec(-1.5, 9, 0.6));
     rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
-    notes(&r, 60, fake_vec(-0.5, 0, 0));
-    notes(&r, 150, fake_vec(0.6, 0, 0));
+    trace_steps(&all, &r, 60, fake_vec(-0.5, 0, 0));
+    trace_steps(&all, &r, 150, fake_vec(0.6, 0, 0));
     fake_add_box(&w, fake_vec(0.2, -9, 1.9), fake_vec(0.9, 9, 3));
-    notes(&r, 150, fake_vec(-1, 0, 0));
+    trace_steps(&all, &r, 150, fake_vec(-1, 0, 0));
     rig_close(&r);
     fake_world_flat(&w);
     fake_add_box(&w, fake_vec(1, -9, -1), fake_vec(3, 9, 0.41)); /* swept over, and yet too high */
     rig_stand(&r, &w, NULL, fake_vec(0, 0, 1));
-    notes(&r, 60, fake_vec(1, 0, 0));
+    trace_steps(&all, &r, 60, fake_vec(1, 0, 0));
     rig_close(&r);
     fake_world_flat(&w);
     fake_add_box(&w, fake_vec(1, -9, -1), fake_vec(3, 9, 0.2));
     fake_add_box(&w, fake_vec(-9, -9, 1.815), fake_vec(9, 9, 3));
     rig_stand(&r, &w, NULL, fake_vec(0, 0, 0.9));
-    notes(&r, 60, fake_vec(1, 0, 0));
+    trace_steps(&all, &r, 60, fake_vec(1, 0, 0));
     rig_close(&r);
 }
 
@@ -123,23 +96,23 @@ static void slopes(void)
     fake_world_flat(&w);
     fake_add_slope(&w, 30);
     rig_stand(&r, &w, NULL, fake_vec(-2, 0, 1));
-    notes(&r, 60, fake_vec(1, 0, 0));
+    trace_steps(&all, &r, 60, fake_vec(1, 0, 0));
     rig_close(&r);
     fake_world_init(&w);
     fake_add_slope(&w, 65);
     rig_open(&r, &w, NULL, fake_vec(0, 0, 2));
-    notes(&r, 60, fake_vec(0, 0, 0));
+    trace_steps(&all, &r, 60, fake_vec(0, 0, 0));
     rig_close(&r);
     fake_world_init(&w); /* a gutter of two such faces */
     fake_add_plane(&w, fake_vec(0.8, 0, 0.6), 0);
     fake_add_plane(&w, fake_vec(-0.8, 0, 0.6), 0);
     rig_open(&r, &w, NULL, fake_vec(0.1, 0, 2));
-    notes(&r, 120, fake_vec(0, 0, 0));
+    trace_steps(&all, &r, 120, fake_vec(0, 0, 0));
     rig_close(&r);
     fake_world_flat(&w); /* a ceiling that comes down */
     fake_add_plane(&w, fake_vec(-0.1, 0, -0.99498743710662), -2);
     rig_stand(&r, &w, NULL, fake_vec(0, 0, 0.95));
-    notes(&r, 120, fake_vec(1, 0, 0));
+    trace_steps(&all, &r, 120, fake_vec(1, 0, 0));
     rig_close(&r);
 }
 
@@ -155,12 +128,12 @@ static void edges(double below)
         fake_add_box(&w, fake_vec(-5, -5, -1), fake_vec(0, 5, 0));
         fake_add_plane(&w, fake_vec(0, 0, 1), below);
         rig_open(&r, &w, NULL, fake_vec(out[i], 0, 1));
-        notes(&r, 30, fake_vec(0, 0, 0));
+        trace_steps(&all, &r, 30, fake_vec(0, 0, 0));
         rig_close(&r);
     }
     for (c.walk_off_ledges = 0; c.walk_off_ledges < 2; c.walk_off_ledges++) {
         rig_stand(&r, &w, &c, fake_vec(-1, 0, 1));
-        notes(&r, 60, fake_vec(1, 0.2, 0));
+        trace_steps(&all, &r, 60, fake_vec(1, 0.2, 0));
         rig_close(&r);
     }
 }
@@ -184,7 +157,7 @@ static void squeeze(void)
     c.sweep = sweep_under_ceiling;
     rig_open_callbacks(&r, &c, NULL, fake_vec(0, 0, 1));
     rig_settle(&r);
-    notes(&r, 5, fake_vec(1, 0, 0));
+    trace_steps(&all, &r, 5, fake_vec(1, 0, 0));
     rig_close(&r);
 }
 
@@ -194,10 +167,10 @@ static void overlaps(void)
     rig r;
     fake_world_flat(&w);
     rig_open(&r, &w, NULL, fake_vec(0, 0, 0.8));
-    notes(&r, 5, fake_vec(1, 0, 0));
+    trace_steps(&all, &r, 5, fake_vec(1, 0, 0));
     fake_add_plane(&w, fake_vec(0, 0, -1), -1.5);
     tahr_world_touch(r.world);
-    notes(&r, 5, fake_vec(1, 0, 0));
+    trace_steps(&all, &r, 5, fake_vec(1, 0, 0));
     rig_close(&r);
 }
 
@@ -214,14 +187,14 @@ static void noise(void)
     for (int i = 0; i < 4000; i++) {
         r.state.position = fake_vec(0, 0, 1);
         r.input.move = dice_direction(&b.seed);
-        note(&r, 0.1);
+        rig_step(&r, 0.1);
+        trace_note(&all, &r);
     }
     rig_close(&r);
 }
 
-static void every_rule_is_traced_with_its_reason(void **unused)
+static void every_rule_of_walking_and_falling_is_traced_with_its_reason(void **unused)
 {
-    uint32_t rules = 0;
     (void)unused;
     stand_walk_jump_and_meet_a_wall();
     climb();
@@ -231,19 +204,7 @@ static void every_rule_is_traced_with_its_reason(void **unused)
     overlaps();
     squeeze();
     noise();
-    for (int k = 0; k < EXPECTED; k++) {
-        if (!seen[k]) {
-            print_error("never %s: %s, %s\n", expected[k].accepted ? "accepted" : "rejected",
-                        tahr_rule_name(expected[k].rule), expected[k].reason);
-        }
-        rules |= seen[k] ? 1u << expected[k].rule : 0;
-    }
-    for (int k = 0; k < EXPECTED; k++) {
-        assert_true(seen[k] > 0);
-    }
-    for (uint32_t rule = 1; rule <= TAHR_RULE_SLOPE; rule++) {
-        assert_true(rules & 1u << rule);
-    }
+    trace_check(&all, TAHR_RULE_WALKABLE, TAHR_RULE_SLOPE);
 }
 
 /* The sweep of a move that is cut short says where, and by what. */
@@ -268,7 +229,7 @@ static void the_sweep_of_a_move_tells_how_far_it_went(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_rule_is_traced_with_its_reason),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_rule_of_walking_and_falling_is_traced_with_its_reason),
                                        cmocka_unit_test(the_sweep_of_a_move_tells_how_far_it_went)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_two_walls.c: characters of the unreal preset, and of every pair of integrator and slide solver, wander over a course
- * of walls, corners, stairs, ramps and ledges. */
+ * test_two_walls.c: characters of the unreal preset, and of every pair of integrator and slide solver, wander over a
+ * course of walls, corners, stairs, ramps and ledges. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -124,9 +124,9 @@ static void count_events(const rig *r, journey *j)
     }
 }
 
-/* The most that a slice of the unreal preset asks: walking 2 moves, a failed step up (9), a slide (2), a floor (6), its height
- * and a look beside a ledge (4); falling 3 moves, a step aside, 3 landing spots (6 each), a look down (6), a floor and its
- * height. Where something overlaps every move may ask 7. */
+/* The most that a slice of the unreal preset asks: walking 2 moves, a failed step up (9), a slide (2), a floor (6), its
+ * height and a look beside a ledge (4); falling 3 moves, a step aside, 3 landing spots (6 each), a look down (6), a
+ * floor and its height. Where something overlaps every move may ask 7. */
 static void check_queries(const rig *r)
 {
     enum { WALKING = 2 + 9 + 2 + 6 + 1 + 4, FALLING = 3 + 1 + 18 + 6 + 6 + 1, ENTRY = 6 };
@@ -197,7 +197,8 @@ static void check_journeys(const tahr_config *config, const char *what, double a
         }
         print_message("%-34s %4g Hz: %5.1f m in 20 s, %.1e m deep, %d hits, %d steps up, %d landings, %d capped\n",
                       what, rates[i], all.way, all.deepest, all.hits, all.steps, all.landings, all.capped);
-        assert_true(all.way > 20 && all.walked > all.fell && all.fell > 0); /* it goes on, on the ground and in the air */
+        assert_true(all.way > 20 && all.walked > all.fell && all.fell > 0); /* it goes on, on the ground and in the
+                                                                             * air */
         assert_true(all.highest > 1.5 && all.hits > 50 && all.landings > 15);
         assert_int_equal(all.capped, 0);
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_two_walls_noise.c: the loops of the unreal preset, and its mixtures with closed forms, over a world whose answers are
- * well-formed noise: nothing that they say makes a state that is no state. */
+ * test_two_walls_noise.c: the loops of the unreal preset, and its mixtures with closed forms, over a world whose
+ * answers are well-formed noise: nothing that they say makes a state that is no state. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -49,7 +49,8 @@ static void step_through(rig *r, fake_backend *b, int i)
     assert_true(r->report.sweeps + r->report.contact_queries + r->report.rays <= TAHR_MAX_QUERIES_PER_STEP);
     assert_true(r->report.slices <= 2u * r->config.max_substeps);
     assert_true(r->report.time_lost <= dt * (1 + 1e-9));
-    /* Its own speed, a fall and a jump; every slice a step and a snap; every query a push out of the deepest overlap. */
+    /* Its own speed, a fall and a jump; every slice a step and a snap; every query a push out of the deepest
+     * overlap. */
     double pushes = r->config.max_depenetration * r->report.contact_queries;
     double most = (speed + 6 + 9.8 * dt + 4.2) * dt + r->report.slices * (4 * r->config.step_height + 0.1) + pushes;
     vec3 moved = sub(r->state.position, before);

@@ -17,7 +17,8 @@ typedef struct oracle {
     long double x, y, vx, vy; /* x along the wish */
 } oracle;
 
-/* The law with a wish along x, at most at the asked speed, by Runge-Kutta on q and by Simpson on p = min(p0 + A t, cap). */
+/* The law with a wish along x, at most at the asked speed, by Runge-Kutta on q and by Simpson on p = min(p0 + A t,
+ * cap). */
 static oracle wish_oracle(const tahr__law *law, double p0, double q0, double t)
 {
     const int steps = 200000;

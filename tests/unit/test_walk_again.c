@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_walk_again.c: a slice that is walked again, because its path was bent before the floor ended, reports what happened
- * once, however little room there is. */
+ * test_walk_again.c: a slice that is walked again, because its path was bent before the floor ended, reports what
+ * happened once, however little room there is. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -89,8 +89,8 @@ static void events_of_a_slice_walked_again_are_reported_once(void **unused)
     assert_true(both > 0); /* met the wall and left the platform in one step */
 }
 
-/* Blocks scattered over a platform and beyond its end: what is met in the void, at the height of the floor, is met only by
- * the first of two walks. */
+/* Blocks scattered over a platform and beyond its end: what is met in the void, at the height of the floor, is met only
+ * by the first of two walks. */
 static void what_only_the_first_walk_met_leaves_no_trace(void **unused)
 {
     oracle_random seed = {4};

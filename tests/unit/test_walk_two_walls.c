@@ -68,7 +68,8 @@ static void the_joint_solver_keeps_the_level_speed_too_if_asked(void **unused)
         rig_steps(&r, (int)(2 * rig_rates[i]), 1 / rig_rates[i]);
         tahr_vec3 from = r.state.position;
         rig_steps(&r, (int)rig_rates[i], 1 / rig_rates[i]);
-        assert_near(r.state.position.x - from.x, 3.6, 1e-6); /* what turned out of the first heading decays with e^(-16) */
+        assert_near(r.state.position.x - from.x, 3.6, 1e-6); /* what turned out of the first heading decays with
+                                                              * e^(-16) */
         assert_near(r.state.position.y - from.y, 4.8, 1e-6);
         rig_close(&r);
     }
@@ -210,7 +211,8 @@ static void sensors_on_the_way_are_met_at_their_time(void **unused)
         while (end < 0 && r.time < 1) {
             double start = r.time;
             rig_step(&r, 1 / rates[i]);
-            const tahr_event *in = rig_event(&r, TAHR_EVENT_OVERLAP_BEGIN), *out = rig_event(&r, TAHR_EVENT_OVERLAP_END);
+            const tahr_event *in = rig_event(&r, TAHR_EVENT_OVERLAP_BEGIN),
+                             *out = rig_event(&r, TAHR_EVENT_OVERLAP_END);
             begin = in ? start + in->time : begin;
             end = out ? start + out->time : end;
         }
@@ -336,7 +338,8 @@ static void ditches_end_a_fall(void **unused)
             rig_step(&r, 1 / rates[i]);
             landings += rig_event(&r, TAHR_EVENT_LANDED) != NULL;
         }
-        double bottom = 0.54 + 0.34 / 0.5; /* both touched: the centre of the lower cap lies r / sin 30 over the crease */
+        double bottom = 0.54 + 0.34 / 0.5; /* both touched: the centre of the lower cap lies r / sin 30 over the
+                                            * crease */
         assert_true(landings > 0);
         assert_near(r.state.position.z, bottom, 0.03); /* the pull-back of the last motions */
         assert_near(r.state.position.x, 0, 0.03);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_walking.c: speeds and distances against the closed forms, query counts, walls, slopes, ledges. What holds on every
- * ground is in test_course.c. */
+ * test_walking.c: speeds and distances against the closed forms, query counts, walls, slopes, ledges. What holds on
+ * every ground is in test_course.c. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -315,18 +315,19 @@ static void ledge_guard_keeps_the_character_up(void **unused)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(distance_after_acceleration_is_the_closed_form),
-                                       cmocka_unit_test(half_a_stick_is_half_the_speed),
-                                       cmocka_unit_test(braking_stops_when_and_where_the_closed_form_says),
-                                       cmocka_unit_test(flat_ground_costs_two_sweeps_walking_one_standing_none_cached),
-                                       cmocka_unit_test(falling_free_costs_one_sweep),
-                                       cmocka_unit_test(what_is_placed_into_an_idle_character_pushes_it_out),
-                                       cmocka_unit_test(idle_character_does_not_move_by_one_bit),
-                                       cmocka_unit_test(speed_along_a_slope_is_the_asked_one),
-                                       cmocka_unit_test(wall_is_slid_along_without_penetration),
-                                       cmocka_unit_test(speed_along_a_wall_is_the_part_of_the_wish_along_it_at_every_rate),
-                                       cmocka_unit_test(acute_corner_is_a_place_to_rest),
-                                       cmocka_unit_test(walking_off_a_ledge_falls_with_the_level_speed),
-                                       cmocka_unit_test(ledge_guard_keeps_the_character_up)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(distance_after_acceleration_is_the_closed_form),
+        cmocka_unit_test(half_a_stick_is_half_the_speed),
+        cmocka_unit_test(braking_stops_when_and_where_the_closed_form_says),
+        cmocka_unit_test(flat_ground_costs_two_sweeps_walking_one_standing_none_cached),
+        cmocka_unit_test(falling_free_costs_one_sweep),
+        cmocka_unit_test(what_is_placed_into_an_idle_character_pushes_it_out),
+        cmocka_unit_test(idle_character_does_not_move_by_one_bit),
+        cmocka_unit_test(speed_along_a_slope_is_the_asked_one),
+        cmocka_unit_test(wall_is_slid_along_without_penetration),
+        cmocka_unit_test(speed_along_a_wall_is_the_part_of_the_wish_along_it_at_every_rate),
+        cmocka_unit_test(acute_corner_is_a_place_to_rest),
+        cmocka_unit_test(walking_off_a_ledge_falls_with_the_level_speed),
+        cmocka_unit_test(ledge_guard_keeps_the_character_up)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
