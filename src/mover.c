@@ -152,6 +152,9 @@ static void run(tahr__step *step, double dt)
     }
 }
 
+/* m/s: the fastest that a state may hold (mover.h), and a little less, so that rounding stays below. */
+static const double FASTEST = 1e5, CAPPED = 1e5 * (1 - 1e-15);
+
 static vec3 clean(vec3 v)
 {
     return vec(v.x + 0.0, v.y + 0.0, v.z + 0.0);
@@ -164,6 +167,9 @@ static void hand_over(const tahr_state *s, tahr_state *out)
     const tahr_quat q = s->orientation;
     out->position = clean(s->position);
     out->velocity = clean(s->velocity);
+    if (length_squared(out->velocity) > FASTEST * FASTEST) { /* bases, walls and settings may add what no launch may */
+        out->velocity = clean(scale(out->velocity, CAPPED / length(out->velocity)));
+    }
     out->orientation = (tahr_quat){q.x + 0.0, q.y + 0.0, q.z + 0.0, q.w + 0.0};
     out->up = clean(s->up);
     out->mode = s->mode;

@@ -16,7 +16,7 @@ enum { TRIES = 6 };
 /* What a walk that leads too deep must forget. */
 typedef struct before {
     tahr__scope scope;
-    double time;
+    double time, time_lost;
     uint32_t just_teleported, iterations, apexes; /* STEPPED */
 } before;
 
@@ -24,6 +24,7 @@ static void remember(tahr__step *step, before *b)
 {
     tahr__scope_open(step, &b->scope);
     b->time = step->time;
+    b->time_lost = step->report.time_lost;
     b->just_teleported = step->just_teleported;
     b->iterations = step->iterations;
     b->apexes = step->apexes;
@@ -33,6 +34,7 @@ static void go_back(tahr__step *step, const before *b)
 {
     tahr__scope_revert(step, &b->scope);
     step->time = b->time;
+    step->report.time_lost = b->time_lost;
     step->just_teleported = b->just_teleported;
     step->iterations = b->iterations;
     step->apexes = b->apexes;
