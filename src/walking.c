@@ -21,10 +21,11 @@ void tahr__leave_floor(tahr__step *step)
 {
     const tahr_floor *floor = &step->state.floor;
     vec3 v = step_level(step, step->state.velocity);
-    double size2 = length_squared(v);
+    double size2 = length_squared(v), level = dot(floor->surface_normal, step->state.up);
+    int slopes = floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE) && level > 0; /* up may have turned since */
     step->state.velocity = v;
-    if (floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE) && size2 > 0 && !step->config->keep_level_speed) {
-        double rise = dot(floor->surface_normal, v) / dot(floor->surface_normal, step->state.up);
+    if (slopes && size2 > 0 && !step->config->keep_level_speed) {
+        double rise = dot(floor->surface_normal, v) / level;
         step->state.velocity = scale(v, sqrt(size2 / (size2 + rise * rise)));
     }
 }
