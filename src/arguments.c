@@ -70,7 +70,7 @@ static int all_zero(const uint8_t tail[sizeof((tahr_state *)0)->reserved])
     return any == 0;
 }
 
-/* Normals are unit or zero; the rest lies within the world, and a little beyond. A sum of squares hides nothing. */
+/* Normals are unit, or zero where there is no floor; the rest lies within the world, and a little beyond. A sum of squares hides nothing. */
 static const char *bad_floor(const tahr_state *s)
 {
     const double unit2 = 1 + 1e-6, far2 = 1e16; /* m2: five times the farthest position */
@@ -78,13 +78,14 @@ static const char *bad_floor(const tahr_state *s)
     double normals = length_squared(f->normal) + length_squared(f->surface_normal);
     double places = length_squared(f->point) + length_squared(s->floor_position);
     places += f->distance * f->distance + f->perch_distance * f->perch_distance;
-    if (normals <= 2 * unit2 && places <= far2 && s->jump_hold >= 0 && s->jump_hold <= 1e6) {
+    const double least2 = f->flags & TAHR_FLOOR_WALKABLE ? 1 - 1e-6 : 0;
+    if (normals <= 2 * unit2 && normals >= 2 * least2 && places <= far2 && s->jump_hold >= 0 && s->jump_hold <= 1e6) {
         return NULL;
     }
-    if (!(length_squared(f->normal) <= unit2)) {
+    if (!(length_squared(f->normal) <= unit2 && length_squared(f->normal) >= least2)) {
         return "state.floor.normal";
     }
-    if (!(length_squared(f->surface_normal) <= unit2)) {
+    if (!(length_squared(f->surface_normal) <= unit2 && length_squared(f->surface_normal) >= least2)) {
         return "state.floor.surface_normal";
     }
     if (!is_within(f->point, 1e8)) {

@@ -18,6 +18,8 @@
 
 #include <tahr/native.h>
 
+static uint64_t factor = 1; /* the first argument: look longer */
+
 typedef struct place {
     const char *name;
     size_t offset;
@@ -182,7 +184,7 @@ static void whatever_is_written_into_a_state_is_refused_or_harmless(void **unuse
     static chaos_scene scene;
     long refused = 0, taken = 0;
     (void)unused;
-    for (uint64_t seed = 1; seed <= 30; seed++) {
+    for (uint64_t seed = 1; seed <= 30 * factor; seed++) {
         oracle_random dice = {seed * 7919};
         tahr_config config;
         rig r;
@@ -278,8 +280,9 @@ static void the_way_out_of_an_overlap_is_no_velocity_of_who_flies(void **unused)
     }
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+    factor = argc > 1 ? strtoull(argv[1], NULL, 10) : 1;
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_setting_out_of_range_is_named),
                                        cmocka_unit_test(every_memory_of_a_state_is_checked),
                                        cmocka_unit_test(whatever_is_written_into_a_state_is_refused_or_harmless),
