@@ -404,8 +404,8 @@ int main(int argc, char **argv)
         tahr_world_close(world);
     }
     if ((seen_modes & MODES) != MODES || (seen_events & HAPPENINGS) != HAPPENINGS) {
-        fprintf(stderr, "golden_hash: modes %x and events %x do not cover what the hash is to guard\n", (unsigned)seen_modes,
-                (unsigned)seen_events);
+        fprintf(stderr, "golden_hash: modes %x and events %x do not cover what the hash is to guard\n",
+                (unsigned)seen_modes, (unsigned)seen_events);
         return 1;
     }
     printf("%08lx%08lx\n", (unsigned long)(hash >> 32), (unsigned long)(hash & 0xffffffffu));

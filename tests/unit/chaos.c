@@ -24,16 +24,19 @@ static tahr_shape draw_shape(oracle_random *dice)
     double size = one_in(dice, 4) ? oracle_uniform(dice, 0.05, 2) : 0.9, part = oracle_uniform(dice, 0.1, 1);
     switch (oracle_below(dice, 4)) {
     case 0: return (tahr_shape){.type = TAHR_SHAPE_SPHERE, .radius = size / 2, .half_height = size / 2};
-    case 1: return (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = size, .half_x = part * size, .half_y = 0.4 * size};
+    case 1:
+        return (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = size, .half_x = part * size, .half_y = 0.4 * size};
     default: return (tahr_shape){.type = TAHR_SHAPE_CAPSULE, .radius = part * size, .half_height = size};
     }
 }
 
 static void draw_methods(tahr_config *c, oracle_random *dice)
 {
-    uint32_t *methods[] = {&c->integrator, &c->slide_solver, &c->separation, &c->floor_probe, &c->depenetration, &c->step_rule};
-    uint32_t *switches[] = {&c->flat_base,    &c->keep_level_speed,  &c->cached_floor, &c->walk_off_ledges, &c->walk_off_ledges_crouched,
-                            &c->apex_substep, &c->jump_hold_gravity, &c->turn_with_base};
+    uint32_t *methods[] = {&c->integrator,  &c->slide_solver,  &c->separation,
+                           &c->floor_probe, &c->depenetration, &c->step_rule};
+    uint32_t *switches[] = {
+        &c->flat_base,    &c->keep_level_speed,  &c->cached_floor,  &c->walk_off_ledges, &c->walk_off_ledges_crouched,
+        &c->apex_substep, &c->jump_hold_gravity, &c->turn_with_base};
     for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++) {
         *methods[i] = one_in(dice, 2) ? *methods[i] : 1 + oracle_below(dice, 2);
     }
@@ -126,7 +129,8 @@ tahr_config chaos_config(oracle_random *dice)
         tahr_shape own = c.shape;
         c.shape = draw_shape(dice);
         double scale = c.shape.half_height / own.half_height;
-        c.skin *= scale, c.pull_back *= scale, c.step_height *= scale, c.edge_tolerance *= scale, c.arc_tolerance *= scale;
+        c.skin *= scale, c.pull_back *= scale, c.step_height *= scale, c.edge_tolerance *= scale,
+            c.arc_tolerance *= scale;
     }
     draw_methods(&c, dice);
     draw_numbers(&c, dice);
@@ -184,8 +188,12 @@ tahr_input chaos_input(oracle_random *dice, int calm, const tahr_config *config,
     }
     if (one_in(dice, 8)) {
         tahr_vec3 up = state->up;
-        tahr_vec3 pulls[] = {{0, 0, 0}, {0, 0, 9.81}, {9.81 * up.x, 9.81 * up.y, 9.81 * up.z}, dice_vec(dice, -15, 15),
-                             dice_vec(dice, -1e-9, 1e-9), dice_vec(dice, -5e3, 5e3)};
+        tahr_vec3 pulls[] = {{0, 0, 0},
+                             {0, 0, 9.81},
+                             {9.81 * up.x, 9.81 * up.y, 9.81 * up.z},
+                             dice_vec(dice, -15, 15),
+                             dice_vec(dice, -1e-9, 1e-9),
+                             dice_vec(dice, -5e3, 5e3)};
         in.flags |= TAHR_INPUT_GRAVITY;
         in.gravity = pulls[oracle_below(dice, 6)];
     }

@@ -44,7 +44,8 @@ static tahr_status ask_sweep(void *user, const tahr_sweep *q, tahr_hit *hit)
     return status < 0 ? status : TAHR_OK;
 }
 
-static tahr_status ask_contacts(void *user, const tahr_contact_query *q, tahr_contact *all, uint32_t capacity, uint32_t *count)
+static tahr_status ask_contacts(void *user, const tahr_contact_query *q, tahr_contact *all, uint32_t capacity,
+                                uint32_t *count)
 {
     return tahr_world_contacts(user, q, all, capacity, count);
 }
@@ -219,8 +220,8 @@ static void check_report(chaos *c, int n, const tahr_report *r, tahr_status stat
     for (uint32_t i = 0; i < r->event_count; i++) {
         const tahr_event *e = &r->events[i];
         if (!(e->time >= last && e->time <= dt && isfinite(e->value) && isfinite(e->position.x + e->normal.x))) {
-            fail_msg("seed %llu tick %d: event %s at %.17g after %.17g of %.17g, value %g", (unsigned long long)c->seed, n,
-                     tahr_event_name(e->type), e->time, last, dt, e->value);
+            fail_msg("seed %llu tick %d: event %s at %.17g after %.17g of %.17g, value %g", (unsigned long long)c->seed,
+                     n, tahr_event_name(e->type), e->time, last, dt, e->value);
         }
         assert_true(e->type >= 1 && e->type <= TAHR_EVENT_CUSTOM);
         c->events[e->type]++;
@@ -233,8 +234,8 @@ static void check_report(chaos *c, int n, const tahr_report *r, tahr_status stat
     int lost = r->events_lost || r->decisions_lost || r->queries_lost;
     assert_true(!lost == !(r->flags & TAHR_REPORT_TRUNCATED));
     if (!(r->residual >= 0 && isfinite(r->residual + r->step_offset) && r->time_lost >= 0 && r->time_lost <= dt * 1.0001)) {
-        fail_msg("seed %llu tick %d: residual %g, offset %g, lost %g of %g", (unsigned long long)c->seed, n, r->residual,
-                 r->step_offset, r->time_lost, dt);
+        fail_msg("seed %llu tick %d: residual %g, offset %g, lost %g of %g", (unsigned long long)c->seed, n,
+                 r->residual, r->step_offset, r->time_lost, dt);
     }
     assert_true(status >= 0);
     for (int b = 0; b < 32; b++) {
@@ -259,8 +260,9 @@ static tahr_status step_fully(chaos *c, int n, tahr_state *s, tahr_report *r, in
     if (status < 0) {
         const tick *u = &c->ticks[n > 0 ? n - 1 : 0];
         tahr_vec3 v = u->from.velocity, w = u->to.velocity;
-        fail_msg("seed %llu tick %d: %s; v %g %g %g -> %g %g %g mode %u -> %u flags %x dt %g push %d base %u", (unsigned long long)c->seed, n, tahr_status_name(status),
-        v.x,v.y,v.z,w.x,w.y,w.z,u->from.mode,u->to.mode,u->input.flags, u->dt, u->push.how, u->to.base.body);
+        fail_msg("seed %llu tick %d: %s; v %g %g %g -> %g %g %g mode %u -> %u flags %x dt %g push %d base %u",
+                 (unsigned long long)c->seed, n, tahr_status_name(status), v.x, v.y, v.z, w.x, w.y, w.z, u->from.mode,
+                 u->to.mode, u->input.flags, u->dt, u->push.how, u->to.base.body);
     }
     return status;
 }
@@ -283,7 +285,8 @@ static void step_twin(chaos *c, int n, const tahr_report *full)
         while (at < sizeof s && ((char *)&s)[at] == ((const char *)&t->to)[at]) {
             at++;
         }
-        fail_msg("seed %llu tick %d: %s, other bits from byte %zu on", (unsigned long long)c->seed, n, tahr_status_name(status), at);
+        fail_msg("seed %llu tick %d: %s, other bits from byte %zu on", (unsigned long long)c->seed, n,
+                 tahr_status_name(status), at);
     }
     if (full->flags & TAHR_REPORT_ASLEEP) {
         return; /* a step that was not computed counts no more than it must */
@@ -342,7 +345,8 @@ static void replay(chaos *c, int end)
         apply(&c->place, &c->ticks[n].push);
         tahr_mover_step(c->place.mover, &c->ticks[n].input, c->ticks[n].dt, &s, NULL);
         if (memcmp(&s, &c->ticks[n].to, sizeof s) != 0) {
-            fail_msg("seed %llu tick %d: a rollback from tick %d to %d has other bits", (unsigned long long)c->seed, n, start, end);
+            fail_msg("seed %llu tick %d: a rollback from tick %d to %d has other bits", (unsigned long long)c->seed, n,
+                     start, end);
         }
     }
 }
@@ -447,10 +451,9 @@ static void callbacks_keep_every_promise(void **unused)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(native_keeps_every_promise),
-                                       cmocka_unit_test(native_in_double_keeps_every_promise),
-                                       cmocka_unit_test(ccd_keeps_every_promise),
-                                       cmocka_unit_test(callbacks_keep_every_promise)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(native_keeps_every_promise), cmocka_unit_test(native_in_double_keeps_every_promise),
+        cmocka_unit_test(ccd_keeps_every_promise), cmocka_unit_test(callbacks_keep_every_promise)};
     factor = argc > 1 ? atoi(argv[1]) : 1;
     first_seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -26,9 +26,9 @@ typedef struct place {
     double low, high; /* the nearest that are out of range; NAN: there is none */
 } place;
 
-#define NUMBER(field, low, high)                       \
-    {                                                  \
-        #field, offsetof(tahr_config, field), low, high \
+#define NUMBER(field, low, high)                        \
+    {                                                   \
+#field, offsetof(tahr_config, field), low, high \
     }
 
 /* h = 0.9 m of the preset; the ranges are those of config.h. */
@@ -62,19 +62,19 @@ static const place numbers[] = {NUMBER(pull_back, 0.89e-6, 0.091),
                                 NUMBER(max_substep, 0.9e-3, 10.1),
                                 NUMBER(braking_substep, 0.9e-3, 10.1)};
 
-#define SWITCH(field, low, high)                       \
-    {                                                  \
-        #field, offsetof(tahr_config, field), low, high \
+#define SWITCH(field, low, high)                        \
+    {                                                   \
+#field, offsetof(tahr_config, field), low, high \
     }
-static const place switches[] = {SWITCH(integrator, 0, 3),        SWITCH(slide_solver, 0, 3),
-                                 SWITCH(separation, 0, 3),        SWITCH(floor_probe, 0, 3),
-                                 SWITCH(depenetration, 0, 3),     SWITCH(step_rule, 0, 3),
-                                 SWITCH(flat_base, 2, 99),        SWITCH(keep_level_speed, 2, 99),
-                                 SWITCH(reserved_floor, 1, 99),   SWITCH(walk_off_ledges_crouched, 2, 99),
-                                 SWITCH(apex_substep, 2, 99),     SWITCH(jump_hold_gravity, 2, 99),
-                                 SWITCH(impart, 8, 99),           SWITCH(turn_with_base, 2, 99),
-                                 SWITCH(air_jumps, 1001, 4e9),    SWITCH(reserved_feel, 1, 99),
-                                 SWITCH(max_substeps, 0, 65),     SWITCH(sleep, 2, 99)};
+static const place switches[] = {SWITCH(integrator, 0, 3),      SWITCH(slide_solver, 0, 3),
+                                 SWITCH(separation, 0, 3),      SWITCH(floor_probe, 0, 3),
+                                 SWITCH(depenetration, 0, 3),   SWITCH(step_rule, 0, 3),
+                                 SWITCH(flat_base, 2, 99),      SWITCH(keep_level_speed, 2, 99),
+                                 SWITCH(reserved_floor, 1, 99), SWITCH(walk_off_ledges_crouched, 2, 99),
+                                 SWITCH(apex_substep, 2, 99),   SWITCH(jump_hold_gravity, 2, 99),
+                                 SWITCH(impart, 8, 99),         SWITCH(turn_with_base, 2, 99),
+                                 SWITCH(air_jumps, 1001, 4e9),  SWITCH(reserved_feel, 1, 99),
+                                 SWITCH(max_substeps, 0, 65),   SWITCH(sleep, 2, 99)};
 
 static void expect_named(const tahr_config *c, const char *name)
 {
@@ -111,8 +111,8 @@ static void every_setting_out_of_range_is_named(void **unused)
     }
 }
 
-#define MEMORY(name, field)                        \
-    {                                              \
+#define MEMORY(name, field)                                    \
+    {                                                          \
         "state." name, offsetof(tahr_state, field), -1e-9, 1e7 \
     }
 static void every_memory_of_a_state_is_checked(void **unused)
@@ -215,7 +215,9 @@ static void whatever_is_written_into_a_state_is_refused_or_harmless(void **unuse
                 tahr_status next = tahr_mover_step(r.mover, &input, 0, &bad, NULL);
                 if (!is_finite_state(&bad) || next < 0) {
                     tahr_vec3 a = before.position, b = before.base.pose.position, c = bad.position, v = before.velocity;
-                    fail_msg("seed %llu, step %d: %s %g %g %g; %g %g %g (base %u mode %u) v %g %g %g -> %g %g %g", (unsigned long long)seed, n, r.log.text,a.x,a.y,a.z,b.x,b.y,b.z,before.base.body, before.mode, v.x,v.y,v.z, c.x,c.y,c.z);
+                    fail_msg("seed %llu, step %d: %s %g %g %g; %g %g %g (base %u mode %u) v %g %g %g -> %g %g %g",
+                             (unsigned long long)seed, n, r.log.text, a.x, a.y, a.z, b.x, b.y, b.z, before.base.body,
+                             before.mode, v.x, v.y, v.z, c.x, c.y, c.z);
                 }
             }
             assert_true(tahr_mover_step(r.mover, &input, 0.02, &good, NULL) >= 0);
