@@ -177,8 +177,8 @@ tahr_input chaos_input(oracle_random *dice, int calm, const tahr_config *config,
     if (!one_in(dice, 6)) {
         in.move = !calm && one_in(dice, 8) ? dice_vec(dice, -1e5, 1e5) : dice_vec(dice, -1, 1);
     }
-    in.jump = one_in(dice, 4);
-    in.crouch = one_in(dice, 6);
+    in.jump = oracle_below(dice, 4) == 0;
+    in.crouch = oracle_below(dice, 6) == 0;
     if (one_in(dice, 3)) {
         in.flags |= TAHR_INPUT_FACING;
         in.facing = one_in(dice, 8) ? (tahr_vec3){0, 0, 0} : dice_vec(dice, -1, 1);

@@ -258,11 +258,7 @@ static tahr_status step_fully(chaos *c, int n, tahr_state *s, tahr_report *r, in
     }
     tahr_status status = tahr_mover_step(c->place.mover, &t->input, t->dt, s, r);
     if (status < 0) {
-        const tick *u = &c->ticks[n > 0 ? n - 1 : 0];
-        tahr_vec3 v = u->from.velocity, w = u->to.velocity;
-        fail_msg("seed %llu tick %d: %s; v %g %g %g -> %g %g %g mode %u -> %u flags %x dt %g push %d base %u",
-                 (unsigned long long)c->seed, n, tahr_status_name(status), v.x, v.y, v.z, w.x, w.y, w.z, u->from.mode,
-                 u->to.mode, u->input.flags, u->dt, u->push.how, u->to.base.body);
+        fail_msg("seed %llu tick %d: %s", (unsigned long long)c->seed, n, tahr_status_name(status));
     }
     return status;
 }
