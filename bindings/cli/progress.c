@@ -54,7 +54,8 @@ int progress_watch(struct progress *progress, tahr_world *world, const tahr_conf
         return 0;
     }
     progress->headings += heading_is_new != 0;
-    const uint32_t enough = state->mode == TAHR_MODE_HANGING ? HEADINGS_HANGING : HEADINGS;
+    progress->hung |= state->mode == TAHR_MODE_HANGING;
+    const uint32_t enough = progress->hung ? HEADINGS_HANGING : HEADINGS;
     if (time - progress->since < PATIENCE || progress->headings < enough) {
         return 0;
     }

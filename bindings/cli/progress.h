@@ -10,6 +10,7 @@ struct progress {
     tahr_vec3 anchor; /* where it was when it last had got somewhere */
     double since;     /* s */
     uint32_t headings;
+    int hung; /* at some time since */
 };
 
 /* The shape of a character now. */
