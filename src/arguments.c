@@ -70,34 +70,37 @@ static int all_zero(const uint8_t tail[sizeof((tahr_state *)0)->reserved])
     return any == 0;
 }
 
-/* A sum is finite only if all its terms are (and no floor is so far away that it overflows). */
+/* Normals are unit, or zero where there is no floor; the rest lies within the world, and a little beyond. A sum of squares hides nothing. */
 static const char *bad_floor(const tahr_state *s)
 {
+    const double unit2 = 1 + 1e-6, far2 = 1e16; /* m2: five times the farthest position */
     const tahr_floor *f = &s->floor;
-    const vec3 n = f->normal, surface = f->surface_normal, point = f->point, at = s->floor_position;
-    double sum = n.x + n.y + n.z + surface.x + surface.y + surface.z + point.x + point.y + point.z + f->distance;
-    if (is_finite(sum + f->perch_distance + at.x + at.y + at.z + s->jump_hold)) {
+    double normals = length_squared(f->normal) + length_squared(f->surface_normal);
+    double places = length_squared(f->point) + length_squared(s->floor_position);
+    places += f->distance * f->distance + f->perch_distance * f->perch_distance;
+    const double least2 = f->flags & TAHR_FLOOR_WALKABLE ? 1 - 1e-6 : 0;
+    if (normals <= 2 * unit2 && normals >= 2 * least2 && places <= far2 && s->jump_hold >= 0 && s->jump_hold <= 1e6) {
         return NULL;
     }
-    if (!vec_is_finite(n)) {
+    if (!(length_squared(f->normal) <= unit2 && length_squared(f->normal) >= least2)) {
         return "state.floor.normal";
     }
-    if (!vec_is_finite(surface)) {
+    if (!(length_squared(f->surface_normal) <= unit2 && length_squared(f->surface_normal) >= least2)) {
         return "state.floor.surface_normal";
     }
-    if (!vec_is_finite(point)) {
+    if (!is_within(f->point, 1e8)) {
         return "state.floor.point";
     }
-    if (!vec_is_finite(at)) {
+    if (!is_within(s->floor_position, 1e8)) {
         return "state.floor_position";
     }
-    if (!is_finite(s->jump_hold)) {
+    if (!(s->jump_hold >= 0 && s->jump_hold <= 1e6)) {
         return "state.jump_hold";
     }
-    if (!is_finite(f->perch_distance)) {
+    if (!(f->perch_distance * f->perch_distance <= far2)) {
         return "state.floor.perch_distance";
     }
-    return is_finite(f->distance) ? "state.floor" : "state.floor.distance";
+    return f->distance * f->distance <= far2 ? NULL : "state.floor.distance";
 }
 
 static const char *bad_shape(const tahr_state *s, const tahr_shape *shape)
@@ -119,13 +122,14 @@ static int is_time(double t)
     return t >= 0 && t <= 1e6;
 }
 
-/* What a state remembers beyond where it is: sums are finite only if all their terms are. */
+/* What a state remembers beyond where it is. */
 static const char *bad_memory(const tahr_state *s)
 {
     const tahr_base *b = &s->base;
     const vec3 p = b->pose.position, v = b->velocity, n = s->wall_normal;
     const tahr_quat q = b->pose.orientation;
-    if (!is_finite(p.x + p.y + p.z + q.x + q.y + q.z + q.w)) {
+    double q2 = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    if (!is_within(p, 2e7) || !(q2 > 1 - 1e-6 && q2 < 1 + 1e-6)) {
         return "state.base.pose";
     }
     if (!is_within(v, 1e6)) {

@@ -212,7 +212,7 @@ static const char *bad_range(const range *ranges, size_t count)
 
 const char *tahr__shape_check(const tahr_shape *s)
 {
-    const double tiny = 1e-6, huge = 1e4;
+    const double tiny = TAHR__THINNEST, huge = 1e4;
     if (s->reserved != 0) {
         return "shape.reserved";
     }

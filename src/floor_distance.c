@@ -4,6 +4,7 @@
 
 #include "foot.h"
 #include "report.h"
+#include "shape.h"
 
 /* How much of its straight part a probe keeps. */
 static const double FIRST = 0.9, THIN = 0.1;
@@ -47,7 +48,8 @@ static int touches_rim(const tahr__step *step, const tahr_hit *hit, vec3 centre,
 static tahr__foot probe_of(const tahr__step *step, double kept, double inset, double *shrink)
 {
     tahr_shape s = step->limits->shape;
-    const double least = 0.01 * step->config->edge_tolerance; /* a line, for what it finds, and a shape for a backend */
+    /* A line, for what it finds, and a shape for a backend. */
+    const double least = max_of(0.01 * step->config->edge_tolerance, TAHR__THINNEST);
     *shrink = (1 - kept) * (s.half_height - s.radius);
     if (s.type == TAHR_SHAPE_BOX) {
         s.half_height -= *shrink;
@@ -73,8 +75,8 @@ static int sweep_box(tahr__step *step, const tahr__foot *probe, vec3 from, doubl
     const tahr_quat kept = step->state.orientation;
     tahr_shape box = {.type = TAHR_SHAPE_BOX,
                       .half_height = probe->shape.half_height,
-                      .half_x = FLAT * probe->shape.radius,
-                      .half_y = FLAT * probe->shape.radius};
+                      .half_x = max_of(FLAT * probe->shape.radius, TAHR__THINNEST)};
+    box.half_y = box.half_x;
     tahr_quat aligned = quat_between(vec(0, 0, 1), step->state.up);
     vec3 motion = scale(step->state.up, -range);
     step->state.orientation = quat_multiply(aligned, eighth);

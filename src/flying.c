@@ -82,7 +82,7 @@ static int fly_piece(tahr__step *step, tahr__glide *g)
         }
         return !hit.unknown && !hit.start_overlap;
     }
-    tahr__move(step, way, &hit);
+    step->just_teleported |= (uint32_t)tahr__move(step, way, &hit);
     if (hit.blocking) {
         used = steps ? piece * hit.fraction : time_of_part(&law, v, piece, way, hit.fraction);
         step->state.velocity = steps ? m.velocity : tahr__law_advance(&law, v, used).velocity;

@@ -2,6 +2,8 @@
  * foot.c: see foot.h. */
 #include "foot.h"
 
+#include "shape.h"
+
 /* An upright capsule that moves along its own axis enters new space with its lower cap alone: a sphere there is the
  * same sweep and a fraction of the geometry. What overlaps higher up is found by the sweep of the move. */
 tahr__foot tahr__foot_of(const tahr_shape *shape, uint32_t capabilities)
@@ -19,11 +21,11 @@ tahr__foot tahr__thinner_foot(const tahr__step *step, double by)
 {
     tahr_shape s = step->limits->shape;
     if (s.type == TAHR_SHAPE_BOX) {
-        s.half_x = max_of(s.half_x - by, 1e-3 * s.half_x);
-        s.half_y = max_of(s.half_y - by, 1e-3 * s.half_y);
+        s.half_x = max_of(s.half_x - by, max_of(1e-3 * s.half_x, TAHR__THINNEST));
+        s.half_y = max_of(s.half_y - by, max_of(1e-3 * s.half_y, TAHR__THINNEST));
     } else {
         s.type = TAHR_SHAPE_CAPSULE;
-        s.radius = max_of(s.radius - by, 1e-3 * s.radius);
+        s.radius = max_of(s.radius - by, max_of(1e-3 * s.radius, TAHR__THINNEST));
     }
     return tahr__foot_of(&s, step->world->backend->capabilities);
 }

@@ -18,8 +18,10 @@ static const double SHORTEST_PIECE = 1.0 / 32;
  * stepping onto it (-0.2, 0.5). */
 static const double FRONT = 0.2, SINKING = -0.2, RISING = 0.5;
 
-void tahr__glide_begin(const tahr__step *step, tahr__glide *g, double time)
+void tahr__glide_begin(tahr__step *step, tahr__glide *g, double time)
 {
+    step->just_teleported = 0;
+    g->lifted = vec(0, 0, 0);
     g->start = step->state.position;
     g->time = g->left = time;
     g->hits = g->pieces = g->plane_count = 0;
@@ -95,6 +97,7 @@ int tahr__glide_step_up(tahr__step *step, tahr__glide *g, const tahr_hit *hit, v
 {
     const tahr__swept swept = {.hit = *hit, .location = step->state.position, .motion = rest};
     vec3 level = step_level(step, rest);
+    const vec3 before = step->state.position, up = step->state.up;
     tahr__scope scope;
     int found;
     if (!is_front(step, hit, level)) {
@@ -105,6 +108,7 @@ int tahr__glide_step_up(tahr__step *step, tahr__glide *g, const tahr_hit *hit, v
     if (tahr__step_up_at(step, level, &swept, &found) && (!keeps || keeps(step))) {
         g->plane_count = 0; /* what stood beside the foot below need not stand here */
         g->hits++;
+        g->lifted = add_scaled(g->lifted, up, dot(sub(step->state.position, before), up));
         return 1;
     }
     tahr__scope_revert(step, &scope);
@@ -128,7 +132,7 @@ int tahr__glide_meet(tahr__step *step, tahr__glide *g, const tahr_hit *hit)
 int tahr__glide_two_walls(tahr__step *step, tahr__glide *g, const tahr__glide_motion *m, tahr_hit *hit)
 {
     tahr__swept swept;
-    vec3 from = step->state.position;
+    vec3 from = sub(step->state.position, g->lifted);
     int up = 0;
     tahr__safe_move(step, m->way, &swept);
     *hit = swept.hit;
@@ -143,8 +147,8 @@ int tahr__glide_two_walls(tahr__step *step, tahr__glide *g, const tahr__glide_mo
         }
         step->ahead = 0;
     }
-    if (hit->blocking && m->time > 0) {
-        step->state.velocity = scale(sub(step->state.position, from), 1 / m->time);
+    if (hit->blocking && m->time > 0 && !step->just_teleported) {
+        step->state.velocity = scale(sub(sub(step->state.position, g->lifted), from), 1 / m->time);
     }
     tahr__glide_use(step, g, m->time);
     return up;
@@ -153,8 +157,8 @@ int tahr__glide_two_walls(tahr__step *step, tahr__glide *g, const tahr__glide_mo
 void tahr__glide_end(tahr__step *step, tahr__glide *g)
 {
     double used = g->time - g->left;
-    if (step->config->integrator == TAHR_INTEGRATOR_STEPPED && used > 0) {
-        step->state.velocity = scale(sub(step->state.position, g->start), 1.0 / used);
+    if (step->config->integrator == TAHR_INTEGRATOR_STEPPED && used > 0 && !step->just_teleported) {
+        step->state.velocity = scale(sub(sub(step->state.position, g->lifted), g->start), 1.0 / used);
     }
     step->time += g->left;
     step->report.time_lost += g->left;

@@ -10,6 +10,7 @@
 /* A slice of it. */
 typedef struct tahr__glide {
     vec3 start;        /* where it began */
+    vec3 lifted;       /* m, by steps: no motion of its own */
     double time, left; /* s */
     uint32_t hits, pieces;
     tahr__plane planes[TAHR__MAX_PLANES]; /* only what is counted is read */
@@ -19,7 +20,7 @@ typedef struct tahr__glide {
 /* A slice swept in more pieces than this has lost its way. */
 enum { TAHR__GLIDE_PIECES = 64 };
 
-void tahr__glide_begin(const tahr__step *step, tahr__glide *glide, double time);
+void tahr__glide_begin(tahr__step *step, tahr__glide *glide, double time);
 
 /* Is there time left, and may it still be used? Forgets what was left behind. */
 int tahr__glide_goes_on(const tahr__step *step, tahr__glide *glide);
@@ -56,7 +57,8 @@ typedef struct tahr__glide_motion {
 } tahr__glide_motion;
 int tahr__glide_two_walls(tahr__step *step, tahr__glide *glide, const tahr__glide_motion *motion, tahr_hit *hit);
 
-/* The end of a slice: what could not be used is lost. STEPPED: the velocity is what was really covered. */
+/* The end of a slice: what could not be used is lost. STEPPED: the velocity is what was really covered, unless by a push out
+ * of an overlap. */
 void tahr__glide_end(tahr__step *step, tahr__glide *glide);
 
 /* No floor is known, as nothing looks for one in these modes. */

@@ -119,8 +119,11 @@ static void come_flush(tahr__step *step, vec3 facing)
 int tahr__grab_edge(tahr__step *step, vec3 facing, const tahr_hit *edge)
 {
     tahr_state *s = &step->state;
+    if (s->flags & TAHR_STATE_CRUSHED) { /* who is not any more may hang */
+        tahr__depenetrate(step);
+    }
     double height = -tahr__edge_depth(step, edge);
-    if (step->input->crouch || is_spent(step, edge)) {
+    if (step->input->crouch || s->flags & TAHR_STATE_CRUSHED || is_spent(step, edge)) {
         return tahr__decide(step, TAHR_RULE_LEDGE_GRAB, 0, edge, height, step->config->ledge_grab, "let go");
     }
     if (!level_with(step, edge)) {
@@ -155,7 +158,7 @@ static int still_hangs(tahr__step *step)
     double reach = step->config->ledge_grab;
     tahr_hit edge, wall;
     tahr__depenetrate(step);
-    if (length_squared(facing) < 0.5 || reach <= 0) {
+    if (step->state.flags & TAHR_STATE_CRUSHED || length_squared(facing) < 0.5 || reach <= 0) {
         return 0;
     }
     vec3 before = step->state.position;
@@ -173,6 +176,12 @@ static int still_hangs(tahr__step *step)
     return 1;
 }
 
+/* Who is crushed looks again in every step, so that it is told until it is freed. */
+static int hangs_on(tahr__step *step)
+{
+    return (floor_is_current(step) && !(step->state.flags & TAHR_STATE_CRUSHED)) || still_hangs(step);
+}
+
 tahr__next tahr__hang(tahr__step *step, double time)
 {
     tahr__next next = {TAHR_MODE_HANGING, 0};
@@ -182,7 +191,7 @@ tahr__next tahr__hang(tahr__step *step, double time)
         tahr__let_go(step);
         return (tahr__next){TAHR_MODE_FALLING, time};
     }
-    if (!floor_is_current(step) && !still_hangs(step)) {
+    if (!hangs_on(step)) {
         tahr__decide(step, TAHR_RULE_LEDGE_GRAB, 0, NULL, 0, 0, "the edge is gone");
         return (tahr__next){TAHR_MODE_FALLING, time};
     }
@@ -232,8 +241,7 @@ int tahr__climb_edge(tahr__step *step)
     vec3 position;
     tahr_hit landing;
     tahr_floor floor;
-    int hangs = floor_is_current(step) || still_hangs(step);
-    if (!hangs || !way_onto(step, &position, &landing)) {
+    if (!hangs_on(step) || !way_onto(step, &position, &landing)) {
         return 0;
     }
     step->state.position = position;

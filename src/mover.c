@@ -178,9 +178,20 @@ static void run(tahr__step *step, double dt, int plain)
     }
 }
 
+/* m/s: the fastest that a state may hold (mover.h), and a little less, so that rounding stays below. */
+static const double FASTEST = 1e5, CAPPED = 1e5 * (1 - 1e-15);
+
 static vec3 clean(vec3 v)
 {
     return vec(v.x + 0.0, v.y + 0.0, v.z + 0.0);
+}
+
+/* Bases, walls and settings may add what no launch may. */
+static void cap_speed(tahr_state *s)
+{
+    if (length_squared(s->velocity) > FASTEST * FASTEST) {
+        s->velocity = scale(s->velocity, CAPPED / length(s->velocity));
+    }
 }
 
 /* -0.0 and 0.0 are one number; the caller's state holds only one of them, so that memcmp agrees with ==. The tail is
@@ -339,6 +350,9 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         }
         detect_stuck(&step, state);
         int remembers = !blank || !usual || !mover->plain;
+        if (remembers || step.state.mode != TAHR_MODE_WALKING) { /* a walk of its own gets no faster than it may be */
+            cap_speed(&step.state);
+        }
         if (vec_equal(step.state.position, state->position)) {
             const tahr_state before = *state;
             hand_over(&step, remembers, state);

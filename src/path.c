@@ -8,6 +8,7 @@
 #include "move_along_floor.h"
 #include "plane.h"
 #include "query.h"
+#include "scope.h"
 #include "report.h"
 #include "slide.h"
 #include "step_up.h"
@@ -278,6 +279,14 @@ static int stands_here(tahr__step *step)
     return floor_is_walkable(&floor);
 }
 
+/* As if it had been opened at the begin of the slice. */
+static void open_late(tahr__step *step, tahr__path *w)
+{
+    tahr__scope_open(step, w->scope);
+    w->scope->position = w->from;
+    w->scope->velocity = w->given;
+}
+
 void tahr__path_walk(tahr__step *step, tahr__path *w)
 {
     tahr_hit hit;
@@ -290,7 +299,7 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         vec3 motion = along_floor(w, step, level);
         w->from = step->state.position;
         w->left_before = w->left;
-        tahr__move(step, motion, &hit);
+        w->careful |= (uint32_t)tahr__move(step, motion, &hit); /* pushed out of an overlap: there is no way back */
         w->left *= hit.blocking ? 1 - hit.fraction : 0;
         if (step->trail) {
             leave_trail(step, w);
@@ -301,7 +310,9 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         if (hit.unknown || hit.start_overlap) {
             break;
         }
-        w->turns++;
+        if (w->turns++ == 0 && !w->careful && w->scope) {
+            open_late(step, w);
+        }
         if (w->careful && !stands_here(step)) {
             return;
         }

@@ -23,11 +23,13 @@ typedef struct tahr__path {
     double ease; /* rise per metre that keeps rounding from pointing into a ramp */
     vec3 from;   /* the last straight piece of the way, to find the place where a floor ended */
     double left_before;
-    uint32_t turns;   /* times that something was met */
-    uint32_t careful; /* 1: the path ends where it meets something without a floor underfoot */
-    double lost;      /* s of the piece that a cap or an answer dropped */
-    uint32_t drifts;  /* 1: a drive comes on top of the velocity */
-    vec3 drift;       /* m/s, with drifts: its level part */
+    uint32_t turns;            /* times that something was met */
+    uint32_t careful;          /* 1: the path ends where it meets something without a floor underfoot */
+    double lost;               /* s of the piece that a cap or an answer dropped */
+    struct tahr__scope *scope; /* to open where something is first met, as it was at the begin; NULL: it is open */
+    vec3 given;                /* the state's velocity then */
+    uint32_t drifts;           /* 1: a drive comes on top of the velocity */
+    vec3 drift;                /* m/s, with drifts: its level part */
 } tahr__path;
 
 /* Starts a path of `duration` seconds at the state's position and velocity. No query. */

@@ -10,16 +10,20 @@ void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double va
     if (!r->events) {
         return;
     }
+    int push = type == TAHR_EVENT_HIT && hit && step->world->has & TAHR__HAS_BASES;
     if (r->event_count == r->event_capacity) {
         r->events_lost++;
         r->flags |= TAHR_REPORT_TRUNCATED;
+        if (push) {
+            tahr__report_push(step, hit, value); /* counts as lost too */
+        }
         return;
     }
     tahr_event event = {.type = type,
                         .body = hit ? hit->body : TAHR_NO_BODY,
                         .feature = hit ? hit->feature : 0,
                         .surface = hit ? hit->surface : 0,
-                        .time = step->time + step->ahead,
+                        .time = min_of(step->time + step->ahead, step->dt), /* a sum of slices may be off by rounding */
                         .value = value,
                         .position = step->state.position};
     if (hit) {
@@ -33,7 +37,7 @@ void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double va
         event.time = max_of(event.time, r->events[r->event_count - 1].time);
     }
     r->events[r->event_count++] = event;
-    if (type == TAHR_EVENT_HIT && hit && step->world->has & TAHR__HAS_BASES) {
+    if (push) {
         tahr__report_push(step, hit, value);
     }
 }
@@ -44,8 +48,9 @@ void tahr__event_at(tahr__step *step, const tahr_event *event)
     if (!r->events) {
         return;
     }
+    const double time = min_of(event->time, step->dt);
     uint32_t at = r->event_count;
-    while (at > 0 && r->events[at - 1].time > event->time) {
+    while (at > 0 && r->events[at - 1].time > time) {
         at--;
     }
     if (r->event_count == r->event_capacity) {
@@ -61,6 +66,7 @@ void tahr__event_at(tahr__step *step, const tahr_event *event)
         r->events[i] = r->events[i - 1];
     }
     r->events[at] = *event;
+    r->events[at].time = time;
 }
 
 void tahr__record(tahr__step *step, const tahr_query_record *record)

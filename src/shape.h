@@ -5,6 +5,9 @@
 
 #include "vec.h"
 
+/* m: the thinnest that a shape may be. What is made from one is never thinner: backends count on it. */
+#define TAHR__THINNEST 1e-6
+
 /* Name of the first bad field ("shape.radius"), or NULL. Dimensions lie within 1e-6 .. 1e4 m. */
 const char *tahr__shape_check(const tahr_shape *shape);
 

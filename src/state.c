@@ -42,9 +42,10 @@ tahr_status tahr_state_init(tahr_state *state, const tahr_config *config, const 
     double g = length(config->gravity);
     vec3 up = g > 1e-6 ? scale(config->gravity, -1.0 / g) : vec(0, 0, 1);
     memset(state, 0, sizeof *state);
-    state->position = *position;
+    state->position = add(*position, vec(0, 0, 0));
     state->up = add(up, vec(0, 0, 0)); /* -0.0 + 0.0 is 0.0 */
-    state->orientation = quat_between(vec(0, 0, 1), state->up);
+    const tahr_quat q = quat_between(vec(0, 0, 1), state->up);
+    state->orientation = (tahr_quat){q.x + 0.0, q.y + 0.0, q.z + 0.0, q.w + 0.0};
     state->mode = TAHR_MODE_FALLING;
     state->floor.body = TAHR_NO_BODY;
     state->radius = config->shape.radius;

@@ -264,7 +264,7 @@ static int move_piece(tahr__step *step, tahr__glide *g, const piece *p, tahr_hit
         return tahr__glide_two_walls(step, g, &whole, hit);
     }
     double used = p->time;
-    tahr__move(step, way, hit);
+    step->just_teleported |= (uint32_t)tahr__move(step, way, hit);
     if (hit->blocking) {
         used =
             p->stroke ? tahr__stroke_time(p->stroke, p->velocity, p->time, way, hit->fraction) : used * hit->fraction;

@@ -113,11 +113,13 @@ static inline vec3 rotate(tahr_quat q, vec3 v)
     return add(add_scaled(v, t, q.w), cross(u, t));
 }
 
-/* First b, then a. */
+/* First b, then a. Only sums: GCC 12 makes fused instructions of differences beside sums where the machine has them,
+ * whatever -ffp-contract says, and that is other bits. */
 static inline tahr_quat quat_multiply(tahr_quat a, tahr_quat b)
 {
-    tahr_quat r = {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-                   a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+    const double x = -a.x, y = -a.y, z = -a.z;
+    tahr_quat r = {a.w * b.x + a.x * b.w + a.y * b.z + z * b.y, a.w * b.y + x * b.z + a.y * b.w + a.z * b.x,
+                   a.w * b.z + a.x * b.y + y * b.x + a.z * b.w, a.w * b.w + x * b.x + y * b.y + z * b.z};
     return r;
 }
 

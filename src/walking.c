@@ -22,10 +22,12 @@ void tahr__leave_floor(tahr__step *step)
 {
     const tahr_floor *floor = &step->state.floor;
     vec3 v = step_level(step, step->state.velocity);
-    double size2 = length_squared(v);
+    double size2 = length_squared(v), level = dot(floor->surface_normal, step->state.up);
+    int slopes =
+        floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE) && level > 0; /* up may have turned since */
     step->state.velocity = v;
-    if (floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE) && size2 > 0 && !step->config->keep_level_speed) {
-        double rise = dot(floor->surface_normal, v) / dot(floor->surface_normal, step->state.up);
+    if (slopes && size2 > 0 && !step->config->keep_level_speed) {
+        double rise = dot(floor->surface_normal, v) / level;
         step->state.velocity = scale(v, sqrt(size2 / (size2 + rise * rise)));
     }
     tahr__part_from_base(step);
@@ -158,10 +160,12 @@ tahr__next tahr__walk_slice(tahr__step *step, double time)
     tahr__path w;
     tahr_floor floor;
     int looked = !floor_is_current(step);
-    int changed = step->state.floor_revision != 0 && step->state.floor_revision != step->world->revision;
-    changed |= (step->state.flags & TAHR_STATE_CRUSHED) != 0;
-    if (changed && length_squared(step_level(step, step->input->move)) == 0) { /* who moves finds out by moving */
-        tahr__depenetrate(step);
+    int crushed = (step->state.flags & TAHR_STATE_CRUSHED) != 0;
+    if (looked || crushed) {
+        int changed = step->state.floor_revision != 0 && step->state.floor_revision != step->world->revision;
+        if ((changed || crushed) && length_squared(step_level(step, step->input->move)) == 0) {
+            tahr__depenetrate(step); /* who moves finds out by moving */
+        }
     }
     if (looked) {
         tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
@@ -174,7 +178,12 @@ tahr__next tahr__walk_slice(tahr__step *step, double time)
     }
     double part = 1;
     tahr__scope scope;
-    tahr__scope_open(step, &scope);
+    w.scope = &scope; /* opened where something is first met: nothing is written before but a velocity and a place */
+    w.given = step->state.velocity;
+    if (step->trail) {
+        tahr__scope_open(step, &scope);
+        w.scope = NULL;
+    }
     int answer = WALK_AGAIN;
     for (uint32_t careful = 0; answer == WALK_AGAIN; careful = 1) {
         tahr__path_begin(step, &w, time);

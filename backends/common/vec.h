@@ -157,11 +157,11 @@ static inline tahr__mat m_from_quat(tahr_quat q)
 {
     double n = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
     if (!(n > 0)) return m_identity();
-    double s = 2.0 / n;
+    double s = 2.0 / n, back = -q.w; /* only sums: see quat_multiply in src/vec.h */
     tahr__mat m;
-    m.row[0] = v_make(1 - s * (q.y * q.y + q.z * q.z), s * (q.x * q.y - q.z * q.w), s * (q.x * q.z + q.y * q.w));
-    m.row[1] = v_make(s * (q.x * q.y + q.z * q.w), 1 - s * (q.x * q.x + q.z * q.z), s * (q.y * q.z - q.x * q.w));
-    m.row[2] = v_make(s * (q.x * q.z - q.y * q.w), s * (q.y * q.z + q.x * q.w), 1 - s * (q.x * q.x + q.y * q.y));
+    m.row[0] = v_make(1 - s * (q.y * q.y + q.z * q.z), s * (q.x * q.y + q.z * back), s * (q.x * q.z + q.y * q.w));
+    m.row[1] = v_make(s * (q.x * q.y + q.z * q.w), 1 - s * (q.x * q.x + q.z * q.z), s * (q.y * q.z + q.x * back));
+    m.row[2] = v_make(s * (q.x * q.z + q.y * back), s * (q.y * q.z + q.x * q.w), 1 - s * (q.x * q.x + q.y * q.y));
     return m;
 }
 

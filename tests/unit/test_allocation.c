@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "chaos.h"
 #include "rig.h"
 
 #ifdef TAHR_HAVE_CCD
@@ -278,6 +279,70 @@ static void no_step_of_any_backend_touches_the_heap(void **unused)
     }
 }
 
+/* Every kind of body, request and mode, with full reports: see chaos.h. */
+static uint64_t heap_calls_of_chaos(const tahr_backend *backend, uint64_t seed, long modes[TAHR_MODE_CUSTOM + 1])
+{
+    static chaos_scene scene;
+    static tahr_event events[64];
+    static tahr_decision decisions[512];
+    static tahr_query_record queries[256];
+    oracle_random dice = {seed};
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    tahr_mover *mover = NULL;
+    tahr_state state;
+    tahr_config c;
+    uint64_t calls = 0;
+    do {
+        c = chaos_config(&dice);
+    } while (tahr_config_check(&c, NULL) < 0);
+    chaos_build(&scene, &dice, 1);
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = scene.bodies;
+    desc.body_count = CHAOS_BODIES;
+    assert_int_equal(tahr_world_open(backend, &desc, &world), TAHR_OK);
+    assert_int_equal(tahr_mover_create(world, &c, &mover), TAHR_OK);
+    assert_int_equal(tahr_state_init(&state, &c, &(tahr_vec3){0, 0, 0}), TAHR_OK);
+    for (int n = 0; n < 60; n++) {
+        tahr_body_pose moves[CHAOS_MOVABLES];
+        tahr_report report = {.struct_size = sizeof report, .events = events, .event_capacity = 64};
+        if (n % 2) {
+            report.decisions = decisions, report.decision_capacity = 512;
+            report.queries = queries, report.query_capacity = 256;
+        }
+        uint32_t count = chaos_drift(&scene, &dice, 0.02, moves);
+        assert_int_equal(tahr_world_move(world, moves, count, 0.02), TAHR_OK);
+        tahr_input input = chaos_input(&dice, n % 3, &c, &state);
+        uint64_t before = heap_calls;
+        assert_true(tahr_mover_step(mover, &input, chaos_dt(&dice, &c), &state, &report) >= 0);
+        calls += heap_calls - before;
+        modes[state.mode]++;
+        if (!(fabs(state.position.x) + fabs(state.position.y) + fabs(state.position.z) < 50)) {
+            tahr_state_teleport(&state, &(tahr_vec3){0, 0, 0});
+        }
+    }
+    tahr_mover_destroy(mover);
+    tahr_world_close(world);
+    return calls;
+}
+
+static void no_step_of_any_feature_touches_the_heap(void **unused)
+{
+    long modes[TAHR_MODE_CUSTOM + 1] = {0};
+    (void)unused;
+    if (!watch_heap()) {
+        skip();
+    }
+    for (uint64_t seed = 1; seed <= 40; seed++) {
+        assert_int_equal(heap_calls_of_chaos(tahr_backend_v1_native(), seed, modes), 0);
+    }
+    assert_true(modes[TAHR_MODE_WALKING] && modes[TAHR_MODE_FALLING] && modes[TAHR_MODE_SWIMMING]);
+    assert_true(modes[TAHR_MODE_FLYING] != 0);
+#ifdef TAHR_HAVE_CCD
+    assert_int_equal(heap_calls_of_chaos(tahr_backend_v1_ccd(), 41, modes), 0);
+#endif
+}
+
 /* A height field of 500 x 500 cells, two triangles each. */
 enum { FIELD = 500 };
 
@@ -385,6 +450,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_failing_allocation_is_reported_and_nothing_leaks),
                                        cmocka_unit_test(a_thousand_steps_allocate_nothing),
                                        cmocka_unit_test(no_step_of_any_backend_touches_the_heap),
+                                       cmocka_unit_test(no_step_of_any_feature_touches_the_heap),
                                        cmocka_unit_test(a_large_mesh_stays_under_a_hundred_bytes_per_triangle),
                                        cmocka_unit_test(a_movers_cache_costs_what_the_header_says),
                                        cmocka_unit_test(world_memory_is_what_the_allocator_holds)};

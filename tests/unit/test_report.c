@@ -125,12 +125,29 @@ static void events_never_run_backward(void **unused)
     memset(&step, 0, sizeof step);
     step.report.events = events;
     step.report.event_capacity = 5;
+    step.dt = 1;
     for (int i = 0; i < 5; i++) {
         step.time = 0.5 * times[i];
         step.ahead = 0.5 * times[i];
         tahr__event(&step, TAHR_EVENT_APEX, NULL, 0);
         assert_true(events[i].time == reported[i]);
     }
+}
+
+/* Slices are added up: their sum may be a rounding beyond the step. */
+static void no_event_lies_after_the_end_of_its_step(void **unused)
+{
+    tahr_event events[2];
+    tahr__step step;
+    (void)unused;
+    memset(&step, 0, sizeof step);
+    step.report.events = events;
+    step.report.event_capacity = 2;
+    step.dt = 0.1;
+    step.time = 0.10000000000000002;
+    tahr__event(&step, TAHR_EVENT_APEX, NULL, 0);
+    tahr__event_at(&step, &(tahr_event){.type = TAHR_EVENT_OVERLAP_END, .time = 0.10000000000000002});
+    assert_true(0.10000000000000002 > 0.1 && events[0].time == 0.1 && events[1].time == 0.1);
 }
 
 /* Whatever comes in at its place, what is kept is the earliest part of all. */
@@ -146,6 +163,7 @@ static void an_event_that_is_told_late_goes_where_its_time_belongs(void **unused
         memset(events, 0x12, sizeof events);
         step.report.events = events;
         step.report.event_capacity = room;
+        step.dt = 1;
         for (uint32_t i = 0; i < 6; i++) {
             tahr_event e = {.type = TAHR_EVENT_OVERLAP_BEGIN, .body = i, .time = times[i]};
             tahr__event_at(&step, &e);
@@ -170,6 +188,7 @@ int main(void)
                                        cmocka_unit_test(decisions_that_do_not_fit_are_counted),
                                        cmocka_unit_test(unused_report_words_are_written_not_added_to),
                                        cmocka_unit_test(events_never_run_backward),
+                                       cmocka_unit_test(no_event_lies_after_the_end_of_its_step),
                                        cmocka_unit_test(an_event_that_is_told_late_goes_where_its_time_belongs),
                                        cmocka_unit_test(mode_none_rests_and_takes_its_time)};
     return cmocka_run_group_tests(tests, NULL, NULL);
