@@ -65,7 +65,7 @@ static const struct kind {
     {TAHR_EVENT_WALL_JUMPED, SHAPE_UP, 4.4, {0.95, 0.45, 0.1}, "wall jump"},
     {TAHR_EVENT_GRABBED, SHAPE_SQUARE, 3.6, {0.75, 0.08, 0.24}, "hangs on an edge"},
     {TAHR_EVENT_BASE, SHAPE_SQUARE, 3.0, {0.35, 0.75, 0.35}, "another base"},
-    {TAHR_EVENT_SHAPE, SHAPE_DOT, 2.6, {0.62, 0.62, 0.70}, "crouches, or stands up"},
+    {TAHR_EVENT_SHAPE, SHAPE_DOT, 2.6, {0.62, 0.62, 0.70}, "another height"},
     {TAHR_EVENT_LAUNCHED, SHAPE_UP, 4.6, {0.60, 0.22, 0.58}, "launched"},
     {TAHR_EVENT_CRUSHED, SHAPE_CROSS, 4, {0.4, 0.0, 0.4}, "crushed"},
     {TRACE_FELL_OUT, SHAPE_CROSS, 5, {0.8, 0.05, 0.1}, "fell out"},
@@ -125,7 +125,7 @@ static void draw_path(const struct picture *picture, const struct axes *axes, ui
         const struct trace_point *p = &path->points[i];
         int map = axes == &picture->map;
         double x = axes_x(axes, (double)(map ? p->x : p->time));
-        double y = axes_y(axes, map ? (double)p->y : (double)p->z - picture->plot->foot);
+        double y = axes_y(axes, map ? (double)p->y : (double)p->z);
         uint32_t own = p->mode == TAHR_MODE_NONE ? mode : p->mode;
         if (mode == TAHR_MODE_NONE) {
             cairo_move_to(picture->cairo, x, y);
@@ -161,8 +161,7 @@ static void draw_marks(const struct picture *picture, const struct axes *axes)
             }
             int map = axes == &picture->map;
             draw_symbol(picture->cairo, &kinds[k], axes_x(axes, (double)(map ? mark->x : mark->time)),
-                        axes_y(axes, map ? (double)mark->y : (double)mark->z - picture->plot->foot),
-                        kinds[k].size * factor);
+                        axes_y(axes, map ? (double)mark->y : (double)mark->z), kinds[k].size * factor);
             drawn++;
         }
     }
@@ -391,7 +390,7 @@ static void profile_range(const struct plot *plot, double *low, double *high)
     double floor_z = plot->level->bounds.min.z - 1, bottom = HUGE_VAL, top = -HUGE_VAL;
     for (uint32_t c = 0; c < plot->trace->character_count; c++) {
         for (size_t i = 0; i < plot->trace->paths[c].count; i++) {
-            double z = (double)plot->trace->paths[c].points[i].z - plot->foot;
+            double z = (double)plot->trace->paths[c].points[i].z;
             bottom = least(bottom, most(z, floor_z));
             top = most(top, z);
         }

@@ -11,7 +11,6 @@ struct plot {
     const struct level *level;
     const struct trace *trace;
     double seconds;
-    double foot;           /* m from a character's centre down to its feet */
     double walkable_angle; /* rad */
     const char *caption;
 };

@@ -180,14 +180,21 @@ static void add_finding(struct run *run, const struct moment *m, const char *wha
     }
 }
 
-static void count_events(struct run *run, const struct moment *m)
+/* Where the foot is of a character whose centre is there. */
+static tahr_vec3 foot_of(tahr_vec3 centre, const tahr_state *state)
+{
+    centre.z -= state->half_height;
+    return centre;
+}
+
+static void count_events(struct run *run, const struct moment *m, const tahr_state *state)
 {
     struct result *r = &run->result;
     for (uint32_t i = 0; i < m->report.event_count; i++) {
         const tahr_event *event = &m->events[i];
         r->events[event->type < EVENT_TYPES ? event->type : 0]++;
         if (run->options->plot != NULL) {
-            trace_mark(&run->trace, m->index, event->type, m->time + event->time, event->position);
+            trace_mark(&run->trace, m->index, event->type, m->time + event->time, foot_of(event->position, state));
         }
     }
 }
@@ -212,7 +219,7 @@ static void count_report(struct run *run, const struct moment *m, const tahr_sta
         add_finding(run, m, "query cap", m->before);
     }
     r->time_lost += report->time_lost;
-    count_events(run, m);
+    count_events(run, m, state);
 }
 
 /* The independent look at one step. */
@@ -226,7 +233,7 @@ static void check_step(struct run *run, const struct moment *m, const tahr_state
     if (run->dt <= STRAIGHT_DT && checker_crosses(run->checker, m->before, state->position)) {
         r->tunnels++;
         add_finding(run, m, "tunnelled", m->before);
-        trace_mark(&run->trace, m->index, TRACE_TUNNEL, m->time, state->position);
+        trace_mark(&run->trace, m->index, TRACE_TUNNEL, m->time, foot_of(state->position, state));
     }
     const tahr_shape shape = shape_now(&run->config, state);
     double clearance = checker_clearance(run->checker, &shape, state->position, state->up);
@@ -257,7 +264,7 @@ static void bring_back(struct run *run, const struct moment *m, struct character
     if (bad || fell) {
         run->result.bad_states += (uint64_t)bad;
         run->result.fell_out += (uint64_t)fell;
-        trace_mark(&run->trace, m->index, TRACE_FELL_OUT, m->time, m->before);
+        trace_mark(&run->trace, m->index, TRACE_FELL_OUT, m->time, foot_of(m->before, state));
         trace_break(&run->trace, m->index);
         place_character(run, character, m->time + run->dt);
     }
@@ -278,7 +285,7 @@ static void watch_step(struct run *run, const struct moment *m, struct character
     if (progress_watch(&character->progress, run->world, &run->config, state, &m->input, m->heading_is_new, end)) {
         run->result.stuck++;
         add_finding(run, m, "stuck", state->position);
-        trace_mark(&run->trace, m->index, TRACE_STUCK, end, state->position);
+        trace_mark(&run->trace, m->index, TRACE_STUCK, end, foot_of(state->position, state));
     }
     bring_back(run, m, character);
 }
@@ -384,7 +391,6 @@ static int write_plot(const struct run *run)
                                      .level = &run->level,
                                      .trace = &run->trace,
                                      .seconds = o->seconds,
-                                     .foot = run->config.shape.half_height,
                                      .walkable_angle = run->config.walkable_angle,
                                      .caption = caption});
 }

@@ -25,8 +25,9 @@ static void add_point(struct trace_path *path, struct trace_point point)
 void trace_point(struct trace *trace, uint32_t character, uint64_t step, double time, const tahr_state *state)
 {
     if (step % trace->stride == 0) {
-        add_point(&trace->paths[character], (struct trace_point){(float)state->position.x, (float)state->position.y,
-                                                                 (float)state->position.z, (float)time, state->mode});
+        add_point(&trace->paths[character],
+                  (struct trace_point){(float)state->position.x, (float)state->position.y,
+                                       (float)(state->position.z - state->half_height), (float)time, state->mode});
     }
 }
 
