@@ -157,7 +157,8 @@ static int hold_at_ledge(tahr__step *step, walk *w)
         tahr__decide(step, TAHR_RULE_LEDGE, 1, NULL, length(beside), 0, "floor beside the ledge");
         return GOES_ON;
     }
-    if (check_fall(step, w, w->zero) == FALLS) {
+    /* Who stood on nothing before, lifted or squeezed there, is at no ledge. */
+    if (check_fall(step, w, w->zero || !floor_is_walkable(&w->scope.floor)) == FALLS) {
         return FALLS;
     }
     tahr__decide(step, TAHR_RULE_LEDGE, 0, NULL, length(w->delta), 0, "no floor beside the ledge");

@@ -8,7 +8,6 @@
 #define PROGRESS 0.2  /* m */
 #define PATIENCE 10.0 /* s */
 #define HEADINGS 5
-#define HEADINGS_HANGING 40 /* holds on until a jump, or until a heading leads away: one in three does */
 #define DIRECTIONS 16
 #define FREE_STEP 0.1 /* m */
 
@@ -54,9 +53,7 @@ int progress_watch(struct progress *progress, tahr_world *world, const tahr_conf
         return 0;
     }
     progress->headings += heading_is_new != 0;
-    progress->hung |= state->mode == TAHR_MODE_HANGING;
-    const uint32_t enough = progress->hung ? HEADINGS_HANGING : HEADINGS;
-    if (time - progress->since < PATIENCE || progress->headings < enough) {
+    if (time - progress->since < PATIENCE || progress->headings < HEADINGS) {
         return 0;
     }
     progress_start(progress, state, time);

@@ -10,7 +10,6 @@ struct progress {
     tahr_vec3 anchor; /* where it was when it last had got somewhere */
     double since;     /* s */
     uint32_t headings;
-    int hung; /* at some time since */
 };
 
 /* The shape of a character now. */
@@ -19,7 +18,7 @@ tahr_shape shape_now(const tahr_config *config, const tahr_state *state);
 void progress_start(struct progress *progress, const tahr_state *state, double time);
 
 /* After a step that ended at time; heading_is_new if the wish changed with it. 1: stuck for good, and counted anew from
- * here: asked to move, less than 0.2 m of progress in 10 s over at least 5 headings (40 while hanging), although a step of 0.1 m is free
+ * here: asked to move, less than 0.2 m of progress in 10 s over at least 5 headings, although a step of 0.1 m is free
  * in some of 16 directions. */
 int progress_watch(struct progress *progress, tahr_world *world, const tahr_config *config, const tahr_state *state,
                    const tahr_input *input, int heading_is_new, double time);

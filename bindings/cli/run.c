@@ -318,6 +318,9 @@ static int step_character(struct run *run, struct moment *m)
     m->report = (tahr_report){.struct_size = sizeof m->report, .events = m->events, .event_capacity = EVENT_CAPACITY};
     m->heading_is_new = run->route.count > 0 ? route_input(&run->route, m->time, &m->input)
                                              : wander_input(&character->wander, m->time, &m->input);
+    if (run->route.count == 0 && character->state.mode == TAHR_MODE_HANGING && m->heading_is_new) {
+        m->input.jump = 1; /* who hangs on an edge and wants to go elsewhere climbs, or jumps off */
+    }
     m->before = character->state.position;
     uint64_t before = clock_ns();
     tahr_status status = tahr_mover_step(character->mover, &m->input, run->dt, &character->state, &m->report);
