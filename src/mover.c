@@ -343,22 +343,22 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     }
     if (dt > 0) {
         mover->busy = 1;
-        run(&step, dt, blank && usual && mover->plain);
+        const int plain = blank && usual && mover->plain; /* and nothing will be remembered */
+        run(&step, dt, plain);
         mover->busy = 0;
         if (step.error < 0) {
             return step.error;
         }
         detect_stuck(&step, state);
-        int remembers = !blank || !usual || !mover->plain;
-        if (remembers || step.state.mode != TAHR_MODE_WALKING) { /* a walk of its own gets no faster than it may be */
+        if (!plain || step.state.mode != TAHR_MODE_WALKING) { /* a walk of its own gets no faster than it may be */
             cap_speed(&step.state);
         }
         if (vec_equal(step.state.position, state->position)) {
             const tahr_state before = *state;
-            hand_over(&step, remembers, state);
+            hand_over(&step, !plain, state);
             tahr__sleep_note(mover, &step, dt, state, memcmp(&before, state, sizeof before) != 0);
         } else {
-            hand_over(&step, remembers, state);
+            hand_over(&step, !plain, state);
             mover->sleep.noted = 0;
         }
     }

@@ -331,6 +331,7 @@ static void no_step_of_any_feature_touches_the_heap(void **unused)
     long modes[TAHR_MODE_CUSTOM + 1] = {0};
     (void)unused;
     if (!watch_heap()) {
+        print_message("SKIP: unit_allocation: no way to count this C library's allocations\n");
         skip();
     }
     for (uint64_t seed = 1; seed <= 40; seed++) {
