@@ -33,6 +33,20 @@ tahr_quat stage_yaw(double angle)
     return q;
 }
 
+const tahr_quat STAGE_LEVEL = {0, 0, 0, 1};
+
+void stage_stand_on_slab(rig *r, const tahr_config *config, double x, double y)
+{
+    tahr_body_desc slab = stage_box(fake_vec(0, 0, -0.25), fake_vec(5, 5, 0.25));
+    rig_open_bodies(r, &slab, 1, config, fake_vec(x, y, 1));
+    rig_settle(r);
+}
+
+tahr_vec3 stage_foot(const rig *r)
+{
+    return fake_vec(r->state.position.x, r->state.position.y, r->state.position.z - r->state.half_height);
+}
+
 void stage_step(rig *r, uint32_t body, tahr_pose pose, double dt)
 {
     tahr_body_pose p = {body, 0, pose};

@@ -5,12 +5,19 @@
 
 #include "rig.h"
 
+extern const tahr_quat STAGE_LEVEL;
+
 /* A box, axis-aligned, movable. */
 tahr_body_desc stage_box(tahr_vec3 at, tahr_vec3 half_extents);
 /* The same, never moving: at z = 0 its top. */
 tahr_body_desc stage_ground(void);
 /* About z. */
 tahr_quat stage_yaw(double angle);
+
+/* A slab of 10 x 10 x 0.5 m whose top is at z = 0, over nothing; a character stands on it at (x, y). */
+void stage_stand_on_slab(rig *r, const tahr_config *config, double x, double y);
+/* The lowest point of the character. */
+tahr_vec3 stage_foot(const rig *r);
 
 /* Moves one body and steps the character. Fails the test on an error. */
 void stage_step(rig *r, uint32_t body, tahr_pose pose, double dt);

@@ -10,33 +10,18 @@
 
 #include "stage.h"
 
-static const tahr_quat LEVEL = {0, 0, 0, 1};
-
-/* A slab of 10 x 10 x 0.5 m whose top is at z = 0, over nothing; a character stands on it at (x, y). */
-static void stand_on_slab(rig *r, const tahr_config *config, double x, double y)
-{
-    tahr_body_desc slab = stage_box(fake_vec(0, 0, -0.25), fake_vec(5, 5, 0.25));
-    rig_open_bodies(r, &slab, 1, config, fake_vec(x, y, 1));
-    rig_settle(r);
-}
-
-static tahr_vec3 foot(const rig *r)
-{
-    return fake_vec(r->state.position.x, r->state.position.y, r->state.position.z - r->state.half_height);
-}
-
 /* Rides a path of poses and stays where the exact motion takes it, standing. */
 static double ride(rig *r, tahr_pose (*path)(double t), double seconds, double dt)
 {
     double worst = 0;
-    tahr_pose start = {{0, 0, -0.25}, LEVEL};
-    tahr_vec3 first = foot(r);
+    tahr_pose start = {{0, 0, -0.25}, STAGE_LEVEL};
+    tahr_vec3 first = stage_foot(r);
     int steps = (int)(seconds / dt + 0.5);
     for (int i = 1; i <= steps; i++) {
         tahr_pose pose = path(i * dt);
         stage_step(r, 0, pose, dt);
         assert_int_equal(r->state.mode, TAHR_MODE_WALKING);
-        worst = fmax(worst, stage_distance(foot(r), stage_carried(&start, &pose, first)));
+        worst = fmax(worst, stage_distance(stage_foot(r), stage_carried(&start, &pose, first)));
     }
     return worst;
 }
@@ -49,26 +34,26 @@ static tahr_pose turntable(double t)
 
 static tahr_pose lift(double t)
 {
-    tahr_pose p = {{0, 0, -0.25 + 3 * sin(2 * t)}, LEVEL};
+    tahr_pose p = {{0, 0, -0.25 + 3 * sin(2 * t)}, STAGE_LEVEL};
     return p;
 }
 
 /* Sinks at up to 20 m/s2, twice as fast as anything falls. */
 static tahr_pose plunge(double t)
 {
-    tahr_pose p = {{0, 0, -0.25 - 10 * t * t}, LEVEL};
+    tahr_pose p = {{0, 0, -0.25 - 10 * t * t}, STAGE_LEVEL};
     return p;
 }
 
 static tahr_pose shuttle(double t)
 {
-    tahr_pose p = {{2 * sin(1.5707963267948966 * t), 0, -0.25}, LEVEL};
+    tahr_pose p = {{2 * sin(1.5707963267948966 * t), 0, -0.25}, STAGE_LEVEL};
     return p;
 }
 
 static tahr_pose diagonal(double t)
 {
-    tahr_pose p = {{4 * t, 3 * t, -0.25 - 5 * t}, LEVEL};
+    tahr_pose p = {{4 * t, 3 * t, -0.25 - 5 * t}, STAGE_LEVEL};
     return p;
 }
 
@@ -90,7 +75,7 @@ static void standing_on_a_moving_base_is_going_with_it_exactly(void **unused)
         for (int i = 0; i < RIG_RATES; i++) {
             for (int c = 0; c < 4; c++) {
                 rig r;
-                stand_on_slab(&r, &configs[c], 2, 1);
+                stage_stand_on_slab(&r, &configs[c], 2, 1);
                 assert_true(ride(&r, paths[k], 3, 1 / rig_rates[i]) < 1e-9);
                 rig_close(&r);
             }
@@ -102,7 +87,7 @@ static void a_moving_base_costs_one_sweep_more(void **unused)
 {
     rig r;
     (void)unused;
-    stand_on_slab(&r, NULL, 2, 1);
+    stage_stand_on_slab(&r, NULL, 2, 1);
     for (int n = 1; n < 60; n++) {
         r.input.move = fake_vec(n < 30 ? 0 : 0.1, 0, 0);
         stage_step(&r, 0, everything(n / 60.0), 1.0 / 60);
@@ -121,7 +106,7 @@ static void bodies_that_move_elsewhere_cost_no_query(void **unused)
     rig_settle(&r);
     for (int n = 1; n < 60; n++) {
         r.input.move = fake_vec(n < 30 ? 0 : 0.1, 0, 0);
-        stage_step(&r, 1, (tahr_pose){{20, 4 * sin(n / 60.0), 1}, LEVEL}, 1.0 / 60);
+        stage_step(&r, 1, (tahr_pose){{20, 4 * sin(n / 60.0), 1}, STAGE_LEVEL}, 1.0 / 60);
         assert_int_equal(r.report.sweeps, n < 30 ? 0 : 2);
         assert_int_equal(r.report.contact_queries + r.report.rays, 0);
     }
@@ -133,13 +118,13 @@ static void what_is_placed_while_others_move_is_noticed(void **unused)
     rig r;
     tahr_body_desc bodies[3] = {stage_ground(), stage_box(fake_vec(20, 0, 1), fake_vec(1, 1, 1)),
                                 stage_box(fake_vec(30, 0, 1), fake_vec(1, 1, 1))};
-    tahr_body_pose put = {2, 0, {{1.2, 0, 1}, LEVEL}};
+    tahr_body_pose put = {2, 0, {{1.2, 0, 1}, STAGE_LEVEL}};
     (void)unused;
     for (int jumps = 0; jumps < 2; jumps++) {
         rig_open_bodies(&r, bodies, 3, NULL, fake_vec(0, 0, 1));
         rig_settle(&r);
-        stage_step(&r, 1, (tahr_pose){{20, 1, 1}, LEVEL}, 1.0 / 60);
-        tahr_body_pose poses[2] = {{1, 0, {{20, 2, 1}, LEVEL}}, put};
+        stage_step(&r, 1, (tahr_pose){{20, 1, 1}, STAGE_LEVEL}, 1.0 / 60);
+        tahr_body_pose poses[2] = {{1, 0, {{20, 2, 1}, STAGE_LEVEL}}, put};
         poses[1].flags = TAHR_POSE_TELEPORT;
         assert_int_equal(tahr_world_move(r.world, poses, jumps ? 2 : 1, 1.0 / 60), TAHR_OK);
         if (!jumps) {
@@ -161,9 +146,9 @@ static void a_base_that_tilts_keeps_who_stands_on_it(void **unused)
     for (int i = 1; i < RIG_RATES; i++) {
         rig r;
         double dt = 1 / rig_rates[i];
-        tahr_pose start = {{0, 0, -0.25}, LEVEL};
-        stand_on_slab(&r, NULL, 3, 0);
-        tahr_vec3 first = foot(&r);
+        tahr_pose start = {{0, 0, -0.25}, STAGE_LEVEL};
+        stage_stand_on_slab(&r, NULL, 3, 0);
+        tahr_vec3 first = stage_foot(&r);
         for (int n = 1; n * dt < 4; n++) {
             double angle = 0.35 * sin(2 * n * dt);
             tahr_pose pose = {{0, 0, -0.25}, {0, sin(angle / 2), 0, cos(angle / 2)}};
@@ -171,7 +156,7 @@ static void a_base_that_tilts_keeps_who_stands_on_it(void **unused)
             assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
             assert_false(r.report.flags & TAHR_REPORT_CRUSHED);
             /* Upright over a point that also leans sideways as the plank turns: by what it stands off it, at most. */
-            assert_true(stage_distance(foot(&r), stage_carried(&start, &pose, first)) < 0.045);
+            assert_true(stage_distance(stage_foot(&r), stage_carried(&start, &pose, first)) < 0.045);
         }
         rig_close(&r);
     }
@@ -186,7 +171,7 @@ static void up_may_be_any_direction(void **unused)
     c.gravity = fake_vec(-9.81, 0, 0);
     rig_open_bodies(&r, &slab, 1, &c, fake_vec(1, 0.5, 1));
     rig_settle(&r);
-    tahr_pose start = {{-0.25, 0, 0}, LEVEL};
+    tahr_pose start = {{-0.25, 0, 0}, STAGE_LEVEL};
     tahr_vec3 first = fake_vec(r.state.position.x - 0.9, r.state.position.y, r.state.position.z);
     for (int n = 1; n <= 180; n++) { /* turns about x, which is up; rises, and goes sideways */
         double t = n / 60.0;
@@ -202,7 +187,7 @@ static void ten_minutes_on_a_turntable_do_not_drift(void **unused)
 {
     rig r;
     (void)unused;
-    stand_on_slab(&r, NULL, 4, 0);
+    stage_stand_on_slab(&r, NULL, 4, 0);
     assert_true(ride(&r, turntable, 600, 1.0 / 60) < 1e-9);
     rig_close(&r);
 }
@@ -214,7 +199,7 @@ static void the_orientation_turns_with_the_base_if_asked(void **unused)
         rig r;
         tahr_config c = rig_config();
         c.turn_with_base = (uint32_t)turns;
-        stand_on_slab(&r, &c, 2, 0);
+        stage_stand_on_slab(&r, &c, 2, 0);
         ride(&r, turntable, 1, 1.0 / 60);
         tahr_quat q = stage_yaw(turns ? 1 : 0);
         assert_near(r.state.orientation.z, q.z, 1e-12);
@@ -229,10 +214,10 @@ static void walking_on_a_moving_base_is_walking_relative_to_it(void **unused)
     for (int i = 0; i < RIG_RATES; i++) {
         rig r;
         double dt = 1 / rig_rates[i];
-        stand_on_slab(&r, NULL, -4, 0);
+        stage_stand_on_slab(&r, NULL, -4, 0);
         r.input.move = fake_vec(0.5, 0, 0);
         for (int k = 1; k <= (int)rig_rates[i]; k++) {
-            tahr_pose pose = {{7 * k * dt, 0, -0.25 + k * dt}, LEVEL};
+            tahr_pose pose = {{7 * k * dt, 0, -0.25 + k * dt}, STAGE_LEVEL};
             stage_step(&r, 0, pose, dt);
         }
         assert_near(r.state.position.x, -4 + 7 + 3 - 9 / (2 * 20.48), 1e-9);
@@ -244,9 +229,9 @@ static void walking_on_a_moving_base_is_walking_relative_to_it(void **unused)
 static void a_base_that_teleports_carries_nobody(void **unused)
 {
     rig r;
-    tahr_body_pose jump = {0, TAHR_POSE_TELEPORT, {{2, 0, -0.25}, LEVEL}};
+    tahr_body_pose jump = {0, TAHR_POSE_TELEPORT, {{2, 0, -0.25}, STAGE_LEVEL}};
     (void)unused;
-    stand_on_slab(&r, NULL, 1, 0);
+    stage_stand_on_slab(&r, NULL, 1, 0);
     ride(&r, turntable, 0.5, 1.0 / 60);
     tahr_vec3 before = r.state.position;
     assert_int_equal(tahr_world_move(r.world, &jump, 1, 1.0 / 60), TAHR_OK);
@@ -264,9 +249,9 @@ static void a_base_that_teleports_carries_nobody(void **unused)
 static void placing_a_base_anew_carries_nobody(void **unused)
 {
     rig r;
-    tahr_body_pose put = {0, 0, {{1, 0, -0.25}, LEVEL}};
+    tahr_body_pose put = {0, 0, {{1, 0, -0.25}, STAGE_LEVEL}};
     (void)unused;
-    stand_on_slab(&r, NULL, 1, 0);
+    stage_stand_on_slab(&r, NULL, 1, 0);
     ride(&r, turntable, 0.5, 1.0 / 60);
     tahr_vec3 before = r.state.position;
     assert_int_equal(tahr_world_set(r.world, &put, 1), TAHR_OK);
@@ -280,13 +265,13 @@ static void a_lift_takes_a_character_down_without_a_hop_however_it_accelerates(v
     rig r;
     const double dt = 1.0 / 30;
     (void)unused;
-    stand_on_slab(&r, NULL, 0, 0);
-    double height = foot(&r).z;
+    stage_stand_on_slab(&r, NULL, 0, 0);
+    double height = stage_foot(&r).z;
     for (int n = 1; n <= 90; n++) { /* down 2 m a step and back up, at once */
         double z = n % 2 ? -2 : 0;
-        tahr_pose pose = {{0, 0, -0.25 + z}, LEVEL};
+        tahr_pose pose = {{0, 0, -0.25 + z}, STAGE_LEVEL};
         stage_step(&r, 0, pose, dt);
-        assert_near(foot(&r).z - z, height, 1e-9);
+        assert_near(stage_foot(&r).z - z, height, 1e-9);
         assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
         assert_null(rig_event(&r, TAHR_EVENT_LEFT_GROUND));
     }
@@ -305,7 +290,7 @@ static void what_is_in_the_way_of_the_carried_is_reported(void **unused)
     rig_settle(&r);
     int lost = 0;
     for (int n = 1; n <= 60; n++) {
-        tahr_pose pose = {{2 * n * dt, 0, -0.25}, LEVEL};
+        tahr_pose pose = {{2 * n * dt, 0, -0.25}, STAGE_LEVEL};
         stage_step(&r, 0, pose, dt);
         lost += (r.report.flags & TAHR_REPORT_BASE_LOST) != 0;
         assert_true(r.state.position.x <= 2.5 - 0.35 - 0.01 + 1e-6);
@@ -326,7 +311,7 @@ static void a_body_that_may_not_carry_does_not(void **unused)
     rig_open_bodies(&r, &slab, 1, NULL, fake_vec(0, 0, 1));
     rig_settle(&r);
     for (int n = 1; n <= 30; n++) {
-        tahr_pose pose = {{n * dt, 0, -0.25}, LEVEL};
+        tahr_pose pose = {{n * dt, 0, -0.25}, STAGE_LEVEL};
         stage_step(&r, 0, pose, dt);
     }
     assert_near(r.state.position.x, 0, 1e-9);
@@ -349,7 +334,7 @@ static void a_character_rides_on_another(void **unused)
     rig_open_bodies(&r, bodies, 2, NULL, fake_vec(0, 0, 2.9));
     rig_settle(&r);
     for (int n = 1; n <= 120; n++) {
-        tahr_pose pose = {{4 * n * dt, sin(n * dt), 0.9}, LEVEL};
+        tahr_pose pose = {{4 * n * dt, sin(n * dt), 0.9}, STAGE_LEVEL};
         stage_step(&r, 1, pose, dt);
         assert_near(r.state.position.x, 4 * n * dt, 1e-9);
         assert_near(r.state.position.y, sin(n * dt), 1e-9);

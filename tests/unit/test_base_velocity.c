@@ -10,21 +10,6 @@
 
 #include "stage.h"
 
-static const tahr_quat LEVEL = {0, 0, 0, 1};
-
-/* A slab of 10 x 10 x 0.5 m whose top is at z = 0, over nothing; a character stands on it at (x, y). */
-static void stand_on_slab(rig *r, const tahr_config *config, double x, double y)
-{
-    tahr_body_desc slab = stage_box(fake_vec(0, 0, -0.25), fake_vec(5, 5, 0.25));
-    rig_open_bodies(r, &slab, 1, config, fake_vec(x, y, 1));
-    rig_settle(r);
-}
-
-static tahr_vec3 foot(const rig *r)
-{
-    return fake_vec(r->state.position.x, r->state.position.y, r->state.position.z - r->state.half_height);
-}
-
 static void jumps_are_as_high_above_a_base_as_above_the_ground(void **unused)
 {
     const double speeds[] = {-12, -3, 0, 3, 12};
@@ -33,14 +18,14 @@ static void jumps_are_as_high_above_a_base_as_above_the_ground(void **unused)
         for (int i = 0; i < RIG_RATES; i++) {
             rig r;
             double dt = 1 / rig_rates[i], top = 0, t = 0;
-            stand_on_slab(&r, NULL, 0, 0);
-            double ground = foot(&r).z;
+            stage_stand_on_slab(&r, NULL, 0, 0);
+            double ground = stage_foot(&r).z;
             for (int n = 1; t < 1.5; n++) {
-                tahr_pose pose = {{2 * n * dt, 0, -0.25 + speeds[k] * n * dt}, LEVEL};
+                tahr_pose pose = {{2 * n * dt, 0, -0.25 + speeds[k] * n * dt}, STAGE_LEVEL};
                 r.input.jump = n * dt > 0.2 && n * dt < 0.4;
                 stage_step(&r, 0, pose, dt);
                 t = n * dt;
-                top = fmax(top, foot(&r).z - (pose.position.z + 0.25) - ground);
+                top = fmax(top, stage_foot(&r).z - (pose.position.z + 0.25) - ground);
                 assert_near(r.state.position.x, 2 * t, 1e-6);
             }
             /* 4.2^2 / (2 g) = 0.8991 m; sampled at the ends of steps: lower by up to g dt^2 / 8 */
@@ -59,10 +44,10 @@ static void who_walks_off_a_base_keeps_its_velocity(void **unused)
         tahr_config c = rig_config();
         const double dt = 1.0 / 60;
         c.impart = flags;
-        stand_on_slab(&r, &c, 4, 0);
+        stage_stand_on_slab(&r, &c, 4, 0);
         r.input.move = fake_vec(1, 0, 0);
         for (int n = 1; r.state.mode == TAHR_MODE_WALKING; n++) {
-            tahr_pose pose = {{0, 3 * n * dt, -0.25 + 2 * n * dt}, LEVEL};
+            tahr_pose pose = {{0, 3 * n * dt, -0.25 + 2 * n * dt}, STAGE_LEVEL};
             stage_step(&r, 0, pose, dt);
             assert_true(n < 60);
         }
@@ -81,7 +66,7 @@ static void a_turntable_hands_over_the_tangent_velocity(void **unused)
         rig r;
         tahr_config c = rig_config();
         c.impart = TAHR_IMPART_LEVEL | TAHR_IMPART_UP | (turn ? (uint32_t)TAHR_IMPART_TURN : 0u);
-        stand_on_slab(&r, &c, 3, 0);
+        stage_stand_on_slab(&r, &c, 3, 0);
         for (int n = 1; n <= 61; n++) {
             r.input.jump = n == 61;
             stage_step(&r, 0, (tahr_pose){{0, 0, -0.25}, stage_yaw(n / 60.0)}, 1.0 / 60);
@@ -102,8 +87,8 @@ static void imparted_velocity_halves_in_its_half_life(void **unused)
         tahr_config c = rig_config();
         double dt = 1 / rig_rates[i];
         c.imparted_half_life = 0.25;
-        stand_on_slab(&r, &c, 0, 0);
-        tahr_pose pose = {{8 * dt, 0, -0.25}, LEVEL};
+        stage_stand_on_slab(&r, &c, 0, 0);
+        tahr_pose pose = {{8 * dt, 0, -0.25}, STAGE_LEVEL};
         r.input.jump = 1;
         stage_step(&r, 0, pose, dt);
         double left = 8 * exp2(-dt / 0.25); /* it decays from the jump on, not from the next step on */
@@ -126,9 +111,9 @@ static void lift_momentum_remembers_a_base_that_stopped(void **unused)
         rig r;
         tahr_config c = rig_config();
         c.lift_momentum = 0.1;
-        stand_on_slab(&r, &c, 0, 0);
+        stage_stand_on_slab(&r, &c, 0, 0);
         for (int n = 1; n <= 30; n++) {
-            tahr_pose pose = {{0, 0, -0.25 + 5 * n * dt}, LEVEL};
+            tahr_pose pose = {{0, 0, -0.25 + 5 * n * dt}, STAGE_LEVEL};
             stage_step(&r, 0, pose, dt);
         }
         assert_int_equal(tahr_world_move(r.world, NULL, 0, dt), TAHR_OK);
@@ -152,7 +137,7 @@ static void landing_on_a_moving_base_takes_its_velocity_off(void **unused)
         rig_open_bodies(&r, &slab, 1, &c, fake_vec(0, 0, 1.9));
         r.state.velocity = fake_vec(3, 0, 0);
         for (int n = 1; t < 1; n++) {
-            tahr_pose pose = {{8 * n * dt, 0, -0.25}, LEVEL};
+            tahr_pose pose = {{8 * n * dt, 0, -0.25}, STAGE_LEVEL};
             stage_step(&r, 0, pose, dt);
             t = n * dt;
         }
@@ -178,7 +163,8 @@ static void who_steps_from_one_base_to_the_next_keeps_its_velocity_in_the_world(
     r.state.velocity = fake_vec(0, 2, 0);
     int changes = 0;
     for (int n = 1; n <= 60; n++) {
-        tahr_body_pose poses[2] = {{0, 0, {{1 * n * dt, 0, -0.25}, LEVEL}}, {1, 0, {{-2 * n * dt, 4, -0.25}, LEVEL}}};
+        tahr_body_pose poses[2] = {{0, 0, {{1 * n * dt, 0, -0.25}, STAGE_LEVEL}},
+                                   {1, 0, {{-2 * n * dt, 4, -0.25}, STAGE_LEVEL}}};
         assert_int_equal(tahr_world_move(r.world, poses, 2, dt), TAHR_OK);
         rig_step(&r, dt);
         const tahr_event *e = rig_event(&r, TAHR_EVENT_BASE);
