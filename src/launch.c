@@ -127,9 +127,7 @@ double tahr__drift_time(const tahr__law *law, vec3 v, vec3 drift, double duratio
         tahr__motion m = tahr__law_advance(law, v, t);
         double over = dot(add_scaled(m.displacement, drift, t), measure) - part;
         double rate = dot(add(m.velocity, drift), measure);
-        *(over > 0 ? &high : &low) = t;
-        double next = rate > 0 ? t - over / rate : 0.5 * (low + high);
-        next = next >= low && next <= high ? next : 0.5 * (low + high);
+        double next = newton_next(t, over, rate, &low, &high);
         if (next == t) {
             break;
         }

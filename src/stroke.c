@@ -3,6 +3,7 @@
 #include "stroke.h"
 
 #include "elementary.h"
+#include "velocity.h"
 
 /* From this damping on (drag^2 over spring) the two exponentials of the spring lie far enough apart to be taken one by
  * one; below it a power series is exact to rounding for half a radian of the spring. */
@@ -146,9 +147,7 @@ double tahr__stroke_time(const tahr__stroke *s, vec3 v, double t, vec3 whole, do
     for (int i = 0; i < 24; i++) { /* Newton, held within its bracket */
         double over = dot(tahr__stroke_at(s, v, at, &then), measure) - part;
         double rate = dot(then, measure);
-        *(over > 0 ? &high : &low) = at;
-        double next = rate > 0 ? at - over / rate : 0.5 * (low + high);
-        next = next >= low && next <= high ? next : 0.5 * (low + high);
+        double next = newton_next(at, over, rate, &low, &high);
         if (next == at) {
             break;
         }

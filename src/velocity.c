@@ -252,9 +252,7 @@ double tahr__law_time(const tahr__law *law, vec3 v, double duration, vec3 whole,
         tahr__motion m = tahr__law_advance(law, v, t);
         double over = dot(m.displacement, measure) - part;
         rate = dot(m.velocity, measure);
-        *(over > 0 ? &high : &low) = t;
-        double next = rate > 0 ? t - over / rate : 0.5 * (low + high);
-        next = next >= low && next <= high ? next : 0.5 * (low + high);
+        double next = newton_next(t, over, rate, &low, &high);
         double moved = next > t ? next - t : t - next;
         t = next;
         if (moved <= NEWTON_ENDS * duration) {

@@ -29,6 +29,15 @@ tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t);
  * the way. */
 double tahr__law_time(const tahr__law *law, vec3 v, double duration, vec3 whole, double part);
 
+/* One round of a Newton that is held within [low, high], for a function that rises through zero: over is its value at t,
+ * rate its slope there. Narrows the bracket and returns where to look next. */
+static inline double newton_next(double t, double over, double rate, double *low, double *high)
+{
+    *(over > 0 ? high : low) = t;
+    double next = rate > 0 ? t - over / rate : 0.5 * (*low + *high);
+    return next >= *low && next <= *high ? next : 0.5 * (*low + *high);
+}
+
 /* A fall: the velocity along up is v0 at the start, gravity g (m/s2, > 0, along -up) acts after `hold` seconds, and the
  * fall is never faster than terminal. Returns the rise after t seconds, [out] v the velocity then. */
 double tahr__fall_advance(double v0, double g, double terminal, double hold, double t, double *v);
