@@ -17,10 +17,13 @@ CMAKE_ARGS ?=
 
 # Ninja if it is there and the folder is not configured yet; a configured folder keeps its generator.
 # Of its talk only what is left out and why is shown, unless it fails.
-configure = mkdir -p $(1) && { cmake -S . -B $(1) $(2) -DTAHR_WERROR=$(if $(WERROR),ON,OFF) $(CMAKE_ARGS) \
+configure = mkdir -p $(1) && { cmake -S . -B $(1) $(2) $(box2d_3) -DTAHR_WERROR=$(if $(WERROR),ON,OFF) $(CMAKE_ARGS) \
 	$$(if [ ! -f $(1)/CMakeCache.txt ] && command -v ninja >/dev/null; then echo -G Ninja; fi) \
 	>$(1)/configure.log 2>&1 || { cat $(1)/configure.log; exit 1; }; } && \
 	{ grep -E 'Warning|^-- TAHR_[A-Z_]*: no' $(1)/configure.log || true; }
+# Box2D 3 is no Debian package: its sources come from a Rust crate, fetched by setup where there is cargo.
+BOX2D3 = $(BUILD)/box2d3/source
+box2d_3 = $$(if [ -d $(BOX2D3)/src ]; then echo "-DTAHR_BOX2D3_DIR=$(abspath $(BOX2D3))"; fi)
 compile = cmake --build $(1) --parallel $(JOBS)
 # ctest's own output first, then the table of parity by rows (tests/parity_count.sh), then why something was left out:
 # every skipped test says so in a line "SKIP: ...".
@@ -34,6 +37,7 @@ build: setup-run
 
 setup:
 	@sh .ci/setup test
+	@sh .ci/fetch_box2d3 $(BUILD)/box2d3
 
 setup-run:
 	@sh .ci/setup run

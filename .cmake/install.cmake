@@ -16,6 +16,6 @@ write_basic_package_version_file(tahr-config-version.cmake COMPATIBILITY SameMin
 install(FILES ${PROJECT_BINARY_DIR}/tahr-config.cmake ${PROJECT_BINARY_DIR}/tahr-config-version.cmake
     DESTINATION ${package_dir})
 install(EXPORT tahr-targets NAMESPACE tahr:: DESTINATION ${package_dir})
-if(with_ccd)
-    install(EXPORT tahr-ccd-targets NAMESPACE tahr:: DESTINATION ${package_dir})
-endif()
+foreach(backend ${backends})
+    install(EXPORT tahr-${backend}-targets NAMESPACE tahr:: DESTINATION ${package_dir})
+endforeach()

@@ -201,8 +201,9 @@ const tahr_backend tahr__callbacks_backend = {
     .struct_size = sizeof(tahr_backend),
     .abi_major = TAHR_ABI_MAJOR,
     .abi_minor = TAHR_ABI_MINOR,
-    .capabilities =
-        TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE | TAHR_CAP_BOX,
+    /* Every shape: the user's sweep must honour those that its movers have. */
+    .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
+                    TAHR_CAP_BOX | TAHR_CAP_CYLINDER | TAHR_CAP_CONE | TAHR_CAP_ELLIPSOID | TAHR_CAP_HULL,
     .name = "callbacks",
     .version = "user",
     .close = close_callbacks,

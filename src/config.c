@@ -135,7 +135,8 @@ tahr_status tahr_config_init(tahr_config *config, size_t size, int32_t preset)
 
 const char *tahr_preset_name(int32_t preset)
 {
-    return preset == TAHR_PRESET_PRECISE ? "precise" : (preset == TAHR_PRESET_UNREAL ? "unreal" : "?");
+    static const char *const names[] = {"?", "precise", "unreal", "platformer"};
+    return preset >= TAHR_PRESET_PRECISE && preset <= TAHR_PRESET_PLATFORMER ? names[preset] : "?";
 }
 
 tahr_status tahr_config_scale(tahr_config *config, double factor)
@@ -213,28 +214,29 @@ static const char *bad_range(const range *ranges, size_t count)
 const char *tahr__shape_check(const tahr_shape *s)
 {
     const double tiny = TAHR__THINNEST, huge = 1e4;
-    if (s->reserved != 0) {
-        return "shape.reserved";
+    if (s->hull != 0 && s->type != TAHR_SHAPE_HULL) {
+        return "shape.hull";
     }
-    if (s->type == TAHR_SHAPE_BOX) {
+    if (s->type < TAHR_SHAPE_SPHERE || s->type > TAHR_SHAPE_HULL) {
+        return "shape.type";
+    }
+    if (s->type == TAHR_SHAPE_BOX || s->type == TAHR_SHAPE_ELLIPSOID || s->type == TAHR_SHAPE_HULL) {
         const range ranges[] = {{"shape.half_x", s->half_x, tiny, huge},
                                 {"shape.half_y", s->half_y, tiny, huge},
                                 {"shape.half_height", s->half_height, tiny, huge},
                                 {"shape.radius", s->radius, 0, 0}};
         return bad_range(ranges, sizeof ranges / sizeof ranges[0]);
     }
-    if (s->type != TAHR_SHAPE_SPHERE && s->type != TAHR_SHAPE_CAPSULE) {
-        return "shape.type";
-    }
-    const range ranges[] = {
-        {"shape.radius", s->radius, tiny, huge},
-        {"shape.half_height", s->half_height, s->radius, s->type == TAHR_SHAPE_SPHERE ? s->radius : huge}};
+    const int round = s->type == TAHR_SHAPE_SPHERE || s->type == TAHR_SHAPE_CAPSULE;
+    const range ranges[] = {{"shape.radius", s->radius, tiny, huge},
+                            {"shape.half_height", s->half_height, round ? s->radius : tiny,
+                             s->type == TAHR_SHAPE_SPHERE ? s->radius : huge}};
     return bad_range(ranges, sizeof ranges / sizeof ranges[0]);
 }
 
 static const char *bad_method(const tahr_config *c)
 {
-    const range ranges[] = {{"preset", c->preset, TAHR_PRESET_PRECISE, TAHR_PRESET_UNREAL},
+    const range ranges[] = {{"preset", c->preset, TAHR_PRESET_PRECISE, TAHR_PRESET_PLATFORMER},
                             {"integrator", c->integrator, 1, TAHR_INTEGRATOR_STEPPED},
                             {"slide_solver", c->slide_solver, 1, TAHR_SLIDE_TWO_WALLS},
                             {"separation", c->separation, 1, TAHR_SEPARATION_PULL_BACK},

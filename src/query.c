@@ -210,5 +210,13 @@ void tahr__announce(tahr__step *step, const tahr_prepare *announcement)
 
 uint32_t tahr__shape_capability(uint32_t type)
 {
-    return type == TAHR_SHAPE_SPHERE ? TAHR_CAP_SPHERE : (type == TAHR_SHAPE_BOX ? TAHR_CAP_BOX : TAHR_CAP_CAPSULE);
+    static const uint32_t needed[] = {0,
+                                      TAHR_CAP_SPHERE,
+                                      TAHR_CAP_CAPSULE,
+                                      TAHR_CAP_BOX,
+                                      TAHR_CAP_CYLINDER,
+                                      TAHR_CAP_CONE,
+                                      TAHR_CAP_ELLIPSOID,
+                                      TAHR_CAP_HULL};
+    return type < sizeof needed / sizeof needed[0] ? needed[type] : 0;
 }

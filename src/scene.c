@@ -26,24 +26,58 @@ static int is_size(double x)
     return x >= 1e-6 && x <= 1e6;
 }
 
+static const char *bad_count(uint32_t count, uint32_t least, uint32_t most, const char *name)
+{
+    return count >= least && count <= most ? NULL : name;
+}
+
+static const char *bad_field(const tahr_body_desc *b)
+{
+    const char *bad = bad_count(b->columns, 2, 65536, "columns");
+    if (!b->heights) {
+        return "heights";
+    }
+    bad = bad ? bad : bad_count(b->rows, 2, 65536, "rows");
+    bad = bad || is_size(b->half_extents.x) ? bad : "half_extents.x";
+    return bad || is_size(b->half_extents.y) ? bad : "half_extents.y";
+}
+
 static const char *bad_size(const tahr_body_desc *b)
 {
     const vec3 half = b->half_extents;
     switch (b->type) {
     case TAHR_BODY_MESH: return !b->vertices ? "vertices" : (!b->indices ? "indices" : NULL);
     case TAHR_BODY_BOX:
+    case TAHR_BODY_ELLIPSOID:
         if (!is_size(half.x)) {
             return "half_extents.x";
         }
         return !is_size(half.y) ? "half_extents.y" : (!is_size(half.z) ? "half_extents.z" : NULL);
     case TAHR_BODY_SPHERE: return is_size(b->radius) ? NULL : "radius";
     case TAHR_BODY_CAPSULE:
+    case TAHR_BODY_CYLINDER:
+    case TAHR_BODY_CONE:
         if (!is_size(b->radius)) {
             return "radius";
         }
-        return is_size(b->half_height) && b->half_height >= b->radius ? NULL : "half_height";
+        return is_size(b->half_height) && (b->type != TAHR_BODY_CAPSULE || b->half_height >= b->radius) ? NULL
+                                                                                                        : "half_height";
+    case TAHR_BODY_HULL: return !b->vertices ? "vertices" : bad_count(b->vertex_count, 4, 256, "vertex_count");
+    case TAHR_BODY_CHAIN: return !b->vertices ? "vertices" : bad_count(b->vertex_count, 2, 1u << 24, "vertex_count");
+    case TAHR_BODY_HEIGHTS: return bad_field(b);
     default: return "type";
     }
+}
+
+/* Fluids are the solids whose immersion has a closed form. */
+static int bad_flags(const tahr_body_desc *b)
+{
+    const uint32_t flags = (TAHR_BODY_TEMPLATE << 1) - 1;
+    int can_be_fluid = b->type == TAHR_BODY_BOX || b->type == TAHR_BODY_SPHERE || b->type == TAHR_BODY_CAPSULE;
+    return (b->flags & ~flags) != 0 || ((b->flags & TAHR_BODY_FLUID) && !can_be_fluid) ||
+           ((b->flags & TAHR_BODY_LOOP) && b->type != TAHR_BODY_CHAIN) ||
+           ((b->flags & TAHR_BODY_TEMPLATE) && b->type != TAHR_BODY_HULL) ||
+           ((b->flags & TAHR_BODY_ONE_WAY) && (b->flags & TAHR_BODY_SENSOR));
 }
 
 static const char *bad_body(const tahr_body_desc *b)
@@ -52,8 +86,7 @@ static const char *bad_body(const tahr_body_desc *b)
     if (pose) {
         return pose;
     }
-    const uint32_t flags = (TAHR_BODY_CHARACTER << 1) - 1;
-    if (b->flags & ~flags || ((b->flags & TAHR_BODY_FLUID) && b->type == TAHR_BODY_MESH)) {
+    if (bad_flags(b)) {
         return "flags";
     }
     if (!(length_squared(b->surface_velocity) <= 1e8)) {
@@ -141,6 +174,42 @@ tahr_status tahr__bodies_read(const tahr_host *host, const tahr_log *log, tahr_w
         status = check_body(log, &scene->bodies[i], i);
     }
     return status;
+}
+
+/* What a backend must be able to do to hold a body. */
+static uint32_t needed_by(const tahr_body_desc *b)
+{
+    static const uint32_t kinds[] = {0,
+                                     TAHR_CAP_MESH,
+                                     TAHR_CAP_SOLIDS,
+                                     TAHR_CAP_SOLIDS,
+                                     TAHR_CAP_SOLIDS,
+                                     TAHR_CAP_ROUND_SOLIDS,
+                                     TAHR_CAP_ROUND_SOLIDS,
+                                     TAHR_CAP_ROUND_SOLIDS,
+                                     TAHR_CAP_HULLS,
+                                     TAHR_CAP_HEIGHTS,
+                                     TAHR_CAP_CHAINS};
+    uint32_t kind = b->flags & TAHR_BODY_TEMPLATE ? (uint32_t)TAHR_CAP_HULL : kinds[b->type];
+    return kind | (b->flags & TAHR_BODY_ONE_WAY ? (uint32_t)TAHR_CAP_ONE_WAY : 0u) |
+           (b->flags & TAHR_BODY_SENSOR ? (uint32_t)TAHR_CAP_SENSORS : 0u);
+}
+
+tahr_status tahr__bodies_fit(const tahr_backend *backend, const tahr_log *log, const tahr_world_desc *scene)
+{
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        uint32_t lacking = needed_by(&scene->bodies[i]) & ~backend->capabilities;
+        if (lacking) {
+            char name[64], text[128];
+            const char *what = lacking & TAHR_CAP_ONE_WAY   ? "flag TAHR_BODY_ONE_WAY"
+                               : lacking & TAHR_CAP_SENSORS ? "flag TAHR_BODY_SENSOR"
+                                                            : "type";
+            snprintf(name, sizeof name, "bodies[%u]", i);
+            snprintf(text, sizeof text, "has a %s that backend %.40s does not hold", what, backend->name);
+            return tahr__complain(log, TAHR_E_UNSUPPORTED, "tahr_world_open", name, text);
+        }
+    }
+    return TAHR_OK;
 }
 
 void tahr__bodies_free(const tahr_host *host, tahr_body_desc *own, uint32_t count)

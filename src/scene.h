@@ -12,6 +12,9 @@ const char *tahr__bad_pose(const tahr_pose *pose, int zero_is_identity);
  * to an array of this library's size: [out] own, to be freed; scene->bodies then points to it. */
 tahr_status tahr__bodies_read(const tahr_host *host, const tahr_log *log, tahr_world_desc *scene, tahr_body_desc **own);
 
+/* TAHR_E_UNSUPPORTED, and a message, if a backend cannot hold one of the bodies. */
+tahr_status tahr__bodies_fit(const tahr_backend *backend, const tahr_log *log, const tahr_world_desc *scene);
+
 /* Frees what tahr__bodies_read copied; NULL is allowed. */
 void tahr__bodies_free(const tahr_host *host, tahr_body_desc *own, uint32_t count);
 

@@ -14,7 +14,7 @@ const char *tahr__shape_check(const tahr_shape *shape);
 /* Half the widest extent across the axis: the radius, or the longer half side of a box. */
 static inline double shape_width(const tahr_shape *shape)
 {
-    return shape->type == TAHR_SHAPE_BOX ? max_of(shape->half_x, shape->half_y) : shape->radius;
+    return shape->radius > 0 ? shape->radius : max_of(shape->half_x, shape->half_y);
 }
 
 #endif

@@ -167,9 +167,17 @@ static double reach_of(const tahr_body_desc *b)
 {
     double most = 0;
     switch (b->type) {
-    case TAHR_BODY_BOX: return length(b->half_extents);
+    case TAHR_BODY_BOX:
+    case TAHR_BODY_ELLIPSOID: return length(b->half_extents);
     case TAHR_BODY_SPHERE: return b->radius;
     case TAHR_BODY_CAPSULE: return b->half_height;
+    case TAHR_BODY_CYLINDER:
+    case TAHR_BODY_CONE: return sqrt(b->radius * b->radius + b->half_height * b->half_height);
+    case TAHR_BODY_HEIGHTS:
+        for (size_t i = 0; i < (size_t)b->columns * b->rows; i++) {
+            most = max_of(most, fabs(b->heights[i])); /* of NaN, a hole, max_of keeps what it had */
+        }
+        return length(vec(b->half_extents.x, b->half_extents.y, most));
     default:
         for (uint32_t i = 0; i < b->vertex_count; i++) {
             const double *v = b->vertices + 3 * (size_t)i;
@@ -233,6 +241,9 @@ static tahr_status open_scene(tahr_world *world, const tahr_backend *backend, co
     memcpy(&scene, desc, sizeof scene);
     scene.struct_size = sizeof scene;
     tahr_status status = tahr__bodies_read(&world->host, &world->log, &scene, &own);
+    if (status >= 0) {
+        status = tahr__bodies_fit(backend, &world->log, &scene);
+    }
     if (status >= 0) {
         status = note_bodies(world, &scene);
     }

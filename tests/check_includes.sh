@@ -7,7 +7,7 @@
 #   also bindings/cli/
 set -eu
 
-libc='assert|ctype|errno|fenv|float|inttypes|limits|math|stdalign|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|string'
+libc='assert|ctype|dlfcn|errno|fenv|float|inttypes|limits|math|stdalign|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|string'
 
 # Prints "file:line:header" of every include, quotes or angle brackets kept.
 includes() {
@@ -60,6 +60,8 @@ for backend in backends/*/; do
     name=$(basename "$backend")
     case $name in
     ccd) third='|<ccd/[a-z0-9_]+\.h>' ;;
+    fcl) third='|<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>' ;;
+    box2d) third='|<box2d/[a-z0-9_]+\.h>|<[a-z_]+>' ;;
     native) third='|<[ei]mmintrin\.h>' ;; # the processor's own vectors
     *) third= ;;
     esac

@@ -35,10 +35,12 @@ report "exported, but in no public header" "$(printf '%s\n' "$exported" | grep -
 report "declared, but not exported" "$(printf '%s\n' "$declarations" | grep -vxF "$exported" |
     grep -vE '^tahr_backend_v1_' || true)"
 
-if [ -e "$BUILD/lib/libtahr_ccd.so" ]; then
-    report "exported by a backend beside its entries" "$(nm -D --defined-only "$BUILD/lib/libtahr_ccd.so" |
-        awk '{ print $NF }' | grep -vxE 'tahr_backend_v1(_ccd)?|_init|_fini' || true)"
-fi
+for plugin in "$BUILD"/lib/libtahr_*.so; do
+    [ -e "$plugin" ] || continue
+    name=${plugin##*/libtahr_}
+    report "exported by a backend beside its entries" "$(nm -D --defined-only "$plugin" |
+        awk '{ print $NF }' | grep -vxE "tahr_backend_v1(_${name%.so})?|_init|_fini" || true)"
+done
 
 allowed='malloc|calloc|realloc|free|aligned_alloc|posix_memalign|mem(cpy|set|cmp|move|chr)|str(len|n?cmp|chr)|v?snprintf'
 allowed="$allowed|sqrt|floor|fabs|fegetround|abort|__stack_chk_fail|__(mem(cpy|set|move)|v?snprintf)_chk"

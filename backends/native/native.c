@@ -1,21 +1,14 @@
 /* SPDX-License-Identifier: MIT
  * native.c: the native backend's table of slots, opening and closing. */
+#include "../common/options.h"
 #include "scene.h"
 
 #include <string.h>
 
 enum { CAPACITY_DEFAULT = 128, CAPACITY_MAX = TAHR__CACHE_MOST };
-/* A newer version may add this many bytes to the options; beyond is a size that was never set, and reading it a
- * crash. */
-#define MOST_UNKNOWN 4096u
 /* m; a gather lasts 12 steps of a wanderer in a dungeon at 0.75, 15 at 1 and 20 at 1.5, where the longer lists cost the
  * sweeps more than fewer gathers save (measured). */
 #define MARGIN_DEFAULT 1.0
-
-static void complain(const tahr_host *host, const char *text)
-{
-    host->log.write(host->log.user, TAHR_LOG_ERROR, text);
-}
 
 /* Says what is wrong with the options, or NULL. */
 static const char *bad_option(const tahr_native_desc *d)
@@ -42,23 +35,11 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
 {
     tahr_native_desc d;
     memset(&d, 0, sizeof d);
-    if (options) {
-        uint32_t size;
-        memcpy(&size, options, sizeof size);
-        if (size < sizeof d || size > sizeof d + MOST_UNKNOWN) {
-            complain(host, "options.struct_size is smaller than tahr_native_desc of version 0.1, or garbage");
-            return TAHR_E_STRUCT_SIZE;
-        }
-        for (uint32_t i = sizeof d; i < size; i++) {
-            if (((const unsigned char *)options)[i] == 0) continue;
-            complain(host, "options has fields of a newer version that are not 0");
-            return TAHR_E_UNSUPPORTED;
-        }
-        memcpy(&d, options, sizeof d);
-    }
+    tahr_status status = tahr__options_read(host, options, &d, sizeof d);
+    if (status < 0) return status;
     const char *bad = bad_option(&d);
     if (bad) {
-        complain(host, bad);
+        tahr__log_error(host, bad);
         return TAHR_E_ARGUMENT;
     }
     world->round = d.precision == TAHR_NATIVE_FLOAT;
@@ -126,7 +107,7 @@ const tahr_backend *tahr_backend_v1_native(void)
         .abi_major = TAHR_ABI_MAJOR,
         .abi_minor = TAHR_ABI_MINOR,
         .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
-                        TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_BIT_IDENTICAL,
+                        TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_SENSORS | TAHR_CAP_BIT_IDENTICAL,
         .name = "native",
         .version = "0.1.0",
         .open = native_open,

@@ -3,11 +3,10 @@
 #include "backends.h"
 
 #include <string.h>
+#include <tahr/box2d.h>
+#include <tahr/ccd.h>
+#include <tahr/fcl.h>
 #include <tahr/native.h>
-
-#ifdef TAHR_HAVE_CCD
-const tahr_backend *tahr_backend_v1_ccd(void);
-#endif
 
 static const tahr_native_desc native_float = {.struct_size = sizeof native_float, .precision = TAHR_NATIVE_FLOAT};
 static const tahr_native_desc native_double = {.struct_size = sizeof native_double, .precision = TAHR_NATIVE_DOUBLE};
@@ -29,6 +28,12 @@ static const struct {
     {TAHR_CAP_RAY, "ray"},         {TAHR_CAP_SPHERE, "sphere"},
     {TAHR_CAP_CAPSULE, "capsule"}, {TAHR_CAP_BOX, "box"},
     {TAHR_CAP_MESH, "mesh"},       {TAHR_CAP_BIT_IDENTICAL, "bit_identical"},
+    {TAHR_CAP_PLANAR, "planar"},   {TAHR_CAP_CYLINDER, "cylinder"},
+    {TAHR_CAP_CONE, "cone"},       {TAHR_CAP_ELLIPSOID, "ellipsoid"},
+    {TAHR_CAP_HULL, "hull"},       {TAHR_CAP_SOLIDS, "solids"},
+    {TAHR_CAP_HULLS, "hulls"},     {TAHR_CAP_ROUND_SOLIDS, "round_solids"},
+    {TAHR_CAP_HEIGHTS, "heights"}, {TAHR_CAP_CHAINS, "chains"},
+    {TAHR_CAP_ONE_WAY, "one_way"}, {TAHR_CAP_SENSORS, "sensors"},
 };
 
 const struct backend_choice *backend_choice_at(size_t index)

@@ -19,8 +19,21 @@ enum {
     TAHR_CAP_SPHERE = 1 << 3, /* shapes that may be swept */
     TAHR_CAP_CAPSULE = 1 << 4,
     TAHR_CAP_BOX = 1 << 5,
-    TAHR_CAP_MESH = 1 << 6,         /* triangle meshes as bodies */
-    TAHR_CAP_BIT_IDENTICAL = 1 << 7 /* same bits on every machine and compiler */
+    TAHR_CAP_MESH = 1 << 6,          /* triangle meshes as bodies */
+    TAHR_CAP_BIT_IDENTICAL = 1 << 7, /* same bits on every machine and compiler */
+    TAHR_CAP_PLANAR = 1 << 8,   /* a world of two dimensions, x and y: positions' z is handed back as it came, normals
+                                      * have none; motion or up out of the plane is TAHR_E_UNSUPPORTED */
+    TAHR_CAP_CYLINDER = 1 << 9, /* more shapes that may be swept */
+    TAHR_CAP_CONE = 1 << 10,
+    TAHR_CAP_ELLIPSOID = 1 << 11,
+    TAHR_CAP_HULL = 1 << 12,
+    TAHR_CAP_SOLIDS = 1 << 13,       /* bodies: boxes, spheres and capsules */
+    TAHR_CAP_ROUND_SOLIDS = 1 << 14, /* cylinders, cones and ellipsoids */
+    TAHR_CAP_HULLS = 1 << 15,
+    TAHR_CAP_HEIGHTS = 1 << 16,
+    TAHR_CAP_CHAINS = 1 << 17,
+    TAHR_CAP_ONE_WAY = 1 << 18, /* honours TAHR_BODY_ONE_WAY and the DROP flags */
+    TAHR_CAP_SENSORS = 1 << 19  /* honours TAHR_BODY_SENSOR and TAHR_SWEEP_SENSORS */
 };
 
 /* Services a backend receives at open. Both members are always set; valid until close returns. */

@@ -11,8 +11,9 @@ extern "C" {
 
 /* PRECISE: closed forms, a constant skin, all planes at once: rate-independent, the default. UNREAL: the behaviour, the
  * constants and the order of queries of Unreal's CharacterMovementComponent, in SI units, for projects that need to
- * move alike. Both are settings of the one code: every line below with two defaults. */
-enum { TAHR_PRESET_PRECISE = 1, TAHR_PRESET_UNREAL = 2 };
+ * move alike. Both are settings of the one code: every line below with two defaults. PLATFORMER: PRECISE for a
+ * side-scroller: gravity (0, -9.81, 0), plane (0, 0, 1), and the forgiveness that its players expect. */
+enum { TAHR_PRESET_PRECISE = 1, TAHR_PRESET_UNREAL = 2, TAHR_PRESET_PLATFORMER = 3 };
 
 /* How velocity becomes a displacement. EXACT: the closed form of the whole piece; the same at every frame rate.
  * STEPPED: sub-steps of at most max_substep, the velocity first and then velocity * time; costs accuracy (stopping

@@ -23,9 +23,11 @@ enum {
     TAHR_INPUT_LAUNCH_LEVEL = 1 << 5, /* with LAUNCH: the part across up replaces that of the velocity */
     TAHR_INPUT_LAUNCH_UP = 1 << 6,    /* with LAUNCH: the part along up replaces it */
     TAHR_INPUT_IMPULSE = 1 << 7,      /* add impulse / config.mass; leaves the ground if that points upward */
-    TAHR_INPUT_DRIVE = 1 << 8,       /* drive is the velocity of this step (root motion); walking, its part across up */
-    TAHR_INPUT_DRIVE_ADD = 1 << 9,   /* with DRIVE: it comes on top of state.velocity, and is not kept in it */
-    TAHR_INPUT_DRIVE_LEVEL = 1 << 10 /* with DRIVE: only across up; falling goes on */
+    TAHR_INPUT_DRIVE = 1 << 8,     /* drive is the velocity of this step (root motion); walking, its part across up */
+    TAHR_INPUT_DRIVE_ADD = 1 << 9, /* with DRIVE: it comes on top of state.velocity, and is not kept in it */
+    TAHR_INPUT_DRIVE_LEVEL = 1 << 10, /* with DRIVE: only across up; falling goes on */
+    TAHR_INPUT_DROP = 1 << 11         /* fall through the one-way body that it stands on; once per press: it must be off
+                                       * for a step before it counts again */
 };
 
 /* What the player or an AI wants during one step. */

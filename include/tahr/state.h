@@ -55,7 +55,9 @@ enum {
     TAHR_STATE_WALL_TOUCHED = 1 << 5, /* in the air, within 1.5 skin of the wall that wall_normal tells of */
     TAHR_STATE_WALL_SPENT = 1 << 6,   /* that wall was jumped off: not again before ground or another wall */
     TAHR_STATE_EDGE_SPENT = 1 << 7, /* an edge as high as floor.point was let go: none there before falling below it */
-    TAHR_STATE_CRUSHED = 1 << 8     /* overlaps something that it could not be pushed out of */
+    TAHR_STATE_CRUSHED = 1 << 8,    /* overlaps something that it could not be pushed out of */
+    TAHR_STATE_DROPPING = 1 << 9,   /* on its way through the one-way body that it stood on */
+    TAHR_STATE_DROP_HELD = 1 << 10  /* TAHR_INPUT_DROP was on in the last step */
 };
 
 /* The body that carries the character. */

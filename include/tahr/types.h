@@ -29,25 +29,38 @@ typedef struct tahr_bounds {
     tahr_vec3 min, max;
 } tahr_bounds;
 
-enum { TAHR_SHAPE_SPHERE = 1, TAHR_SHAPE_CAPSULE = 2, TAHR_SHAPE_BOX = 3 };
+enum {
+    TAHR_SHAPE_SPHERE = 1,
+    TAHR_SHAPE_CAPSULE = 2,
+    TAHR_SHAPE_BOX = 3,
+    TAHR_SHAPE_CYLINDER = 4,
+    TAHR_SHAPE_CONE = 5,
+    TAHR_SHAPE_ELLIPSOID = 6,
+    TAHR_SHAPE_HULL = 7
+};
 
 /* A character's shape, centred on its position, its axis along up.
  * Sphere: radius; half_height equals radius. Capsule: radius and half_height with the caps in it (half_height >=
  * radius). Box: half extents half_x, half_y across the axis (in the frame of the orientation) and half_height along it;
- * radius 0. Every size that counts lies within 1e-6..1e4 m. */
+ * radius 0. Cylinder: radius and half_height. Cone: radius of its base, which is below, and half_height. Ellipsoid: its
+ * semi-axes are half_x, half_y and half_height; radius 0. Hull: the vertices of a body of the scene
+ * (TAHR_BODY_HULL with TAHR_BODY_TEMPLATE) in the frame of the orientation; half_x, half_y and half_height are half its
+ * extents, radius 0. Every size that counts lies within 1e-6..1e4 m. Which of them a backend sweeps its capabilities
+ * say. In a plane (TAHR_CAP_PLANAR) a sphere is a circle and half_x is half the width; half_y does not count. */
 typedef struct tahr_shape {
-    uint32_t type; /* TAHR_SHAPE_* */
-    uint32_t reserved;
+    uint32_t type;      /* TAHR_SHAPE_* */
+    uint32_t hull;      /* id of the body that lends its vertices, hulls only */
     double radius;      /* m */
     double half_height; /* m */
-    double half_x;      /* m, boxes only */
-    double half_y;      /* m, boxes only */
+    double half_x;      /* m, boxes, ellipsoids, hulls */
+    double half_y;      /* m, boxes, ellipsoids, hulls */
 } tahr_shape;
 
 /* Sweep flags. LEAVE_OVERLAP: a surface that is overlapped at the start blocks only a motion that goes deeper in.
  * ONLY_BODY: the other way round: nothing is there but ignore_body (asked only of bodies that tahr_world_move moves).
- * SENSORS: only sensors are there, and nothing blocks; a motion of zero asks what the shape is inside of. */
-enum { TAHR_SWEEP_LEAVE_OVERLAP = 1, TAHR_SWEEP_ONLY_BODY = 2, TAHR_SWEEP_SENSORS = 4 };
+ * SENSORS: only sensors are there, and nothing blocks; a motion of zero asks what the shape is inside of.
+ * DROP: a one-way body that is within two margins at the start is not there (see TAHR_BODY_ONE_WAY). */
+enum { TAHR_SWEEP_LEAVE_OVERLAP = 1, TAHR_SWEEP_ONLY_BODY = 2, TAHR_SWEEP_SENSORS = 4, TAHR_SWEEP_DROP = 8 };
 
 /* "How far can this shape go along this motion before the distance to something falls to margin?"
  * The margin is a distance between surfaces along their normal (metres, >= 0), not extra motion. With d0 the signed
@@ -66,8 +79,8 @@ typedef struct tahr_sweep {
     uint32_t reserved;
 } tahr_sweep;
 
-/* Contact query flags. SOLID: sensors are not there. */
-enum { TAHR_CONTACTS_SOLID = 1 };
+/* Contact query flags. SOLID: sensors are not there. DROP: one-way bodies are not there. */
+enum { TAHR_CONTACTS_SOLID = 1, TAHR_CONTACTS_DROP = 2 };
 
 /* "What is within margin of this shape here?" */
 typedef struct tahr_contact_query {

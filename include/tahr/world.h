@@ -13,16 +13,34 @@ extern "C" {
 typedef struct tahr_world tahr_world;
 struct tahr_backend;
 
-enum { TAHR_BODY_MESH = 1, TAHR_BODY_BOX = 2, TAHR_BODY_SPHERE = 3, TAHR_BODY_CAPSULE = 4 };
+/* HULL: the convex hull of its vertices. HEIGHTS: a field of heights over local x and y. CHAIN: a line through its
+ * vertices, in a plane (TAHR_CAP_PLANAR). What a backend holds its capabilities say. */
+enum {
+    TAHR_BODY_MESH = 1,
+    TAHR_BODY_BOX = 2,
+    TAHR_BODY_SPHERE = 3,
+    TAHR_BODY_CAPSULE = 4,
+    TAHR_BODY_CYLINDER = 5,
+    TAHR_BODY_CONE = 6,
+    TAHR_BODY_ELLIPSOID = 7,
+    TAHR_BODY_HULL = 8,
+    TAHR_BODY_HEIGHTS = 9,
+    TAHR_BODY_CHAIN = 10
+};
 
 enum {
     TAHR_BODY_SENSOR = 1 << 0,    /* reported, never blocks; a mesh is met at its surface, other bodies inside too */
-    TAHR_BODY_TWO_SIDED = 1 << 1, /* mesh triangles block from behind too */
+    TAHR_BODY_TWO_SIDED = 1 << 1, /* triangles and chains block from behind too */
     TAHR_BODY_MOVABLE = 1 << 2,   /* will be placed again with tahr_world_set or _move; others never move */
     TAHR_BODY_FLUID = 1 << 3,     /* a volume to swim in: a sensor too; boxes, spheres, capsules */
     TAHR_BODY_NO_BASE = 1 << 4,   /* stood on, but does not carry */
     TAHR_BODY_NO_STEP = 1 << 5,   /* not stepped up on */
-    TAHR_BODY_CHARACTER = 1 << 6  /* stands for another character: see config.max_depenetration_character */
+    TAHR_BODY_CHARACTER = 1 << 6, /* stands for another character: see config.max_depenetration_character */
+    /* Stood on from above, passed from everywhere else: it is there only for a shape that does not overlap it, where the
+     * contact normal is within 60 degrees of up (tahr_one_way_blocks). */
+    TAHR_BODY_ONE_WAY = 1 << 7,
+    TAHR_BODY_LOOP = 1 << 8,    /* a chain: its last vertex is joined to the first */
+    TAHR_BODY_TEMPLATE = 1 << 9 /* a hull: not there itself, it lends its vertices to TAHR_SHAPE_HULL */
 };
 
 /* One body of a scene. Its id is its index in tahr_world_desc.bodies.
@@ -41,14 +59,23 @@ typedef struct tahr_body_desc {
     double fluid_friction;      /* 1/s, FLUID: drag; 0: config.fluid_friction; up to 1e4 */
 
     /* Every size that counts lies within 1e-6..1e6 m, positions within 1e7 m of the origin. */
-    tahr_vec3 half_extents; /* box, m */
-    double radius;          /* sphere, capsule, m */
-    double half_height;     /* capsule along its local z, caps included, m */
+    tahr_vec3 half_extents; /* m, of a box; semi-axes of an ellipsoid; x and y: half the size of a field of heights */
+    double radius;          /* m, sphere, capsule, cylinder, base of a cone */
+    double half_height;     /* m, along local z: capsule (caps included), cylinder, cone (apex at +z) */
 
-    const double *vertices;  /* mesh: 3 per vertex, m, local, finite, |x| <= 1e7; copied */
+    /* 3 per vertex, m, local, finite, |x| <= 1e7; copied. Of a mesh, a hull (4 to 256 in general position), a chain (2 or
+     * more; z does not count; its front is on the right hand of who goes along it seen from +z, so that a ring that runs
+     * counter-clockwise has it outside). */
+    const double *vertices;
     const uint32_t *indices; /* mesh: 3 per triangle, counter-clockwise seen from the front; copied */
     uint32_t vertex_count;
     uint32_t triangle_count;
+
+    /* heights[row * columns + column], m along local z, at local x from -half_extents.x (column 0) to +half_extents.x and
+     * y likewise by row; NaN: a hole. Each cell is cut from its lowest corner (x, y) to its highest. At least 2 by 2,
+     * at most 65 536 each way; copied. */
+    const double *heights;
+    uint32_t columns, rows;
 } tahr_body_desc;
 
 enum { TAHR_POSE_TELEPORT = 1 << 0 }; /* tahr_world_move: this body jumps there, and carries and pushes nobody */
@@ -219,6 +246,13 @@ TAHR_API tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query
 TAHR_API tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts,
                                          uint32_t capacity, uint32_t *count);
 TAHR_API tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, tahr_hit *hit, uint32_t *count);
+
+/* The rule of one-way bodies, for your own sweep, contacts and ray: 1 if such a body is there for a shape with this up
+ * that is at this signed distance from it when the question is asked (for a sweep at its start), where the contact
+ * normal is this; else 0. flags and margin are those of a sweep; of contacts with TAHR_CONTACTS_DROP none are there.
+ * NULL: 0. Allocates nothing; may run on several threads. Since 0.1. */
+TAHR_API int32_t tahr_one_way_blocks(const tahr_vec3 *up, const tahr_vec3 *normal, double distance, double margin,
+                                     uint32_t flags);
 
 /* How deep an upright shape is in the fluids of a world: of described bodies the largest part of its axis that lies
  * inside one of them, ties by id. [in] query: radius 0..1e4 m, half_height 1e-6..1e4 m; [out] fluid: immersion 0 and

@@ -188,7 +188,7 @@ void fake_backend_init(fake_backend *backend, uint32_t capabilities)
     tahr_backend table = {.struct_size = sizeof table,
                           .abi_major = TAHR_ABI_MAJOR,
                           .abi_minor = TAHR_ABI_MINOR,
-                          .capabilities = capabilities,
+                          .capabilities = capabilities | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_SENSORS,
                           .name = "fake",
                           .version = "1",
                           .open = backend_open,

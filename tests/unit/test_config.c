@@ -145,9 +145,9 @@ static void integers_out_of_range_are_named(void **unused)
     assert_int_equal(tahr_config_check(&c, &field), TAHR_E_ARGUMENT);
     assert_string_equal(field, "preset");
     c = rig_config();
-    c.shape.reserved = 1;
+    c.shape.hull = 1;
     assert_int_equal(tahr_config_check(&c, &field), TAHR_E_ARGUMENT);
-    assert_string_equal(field, "shape.reserved");
+    assert_string_equal(field, "shape.hull");
 }
 
 static void shapes_are_checked_by_kind(void **unused)
@@ -155,7 +155,7 @@ static void shapes_are_checked_by_kind(void **unused)
     tahr_config c = rig_config();
     const char *field = NULL;
     (void)unused;
-    c.shape.type = 4;
+    c.shape.type = 8;
     assert_int_equal(tahr_config_check(&c, &field), TAHR_E_ARGUMENT);
     assert_string_equal(field, "shape.type");
     c.shape.type = TAHR_SHAPE_SPHERE; /* half_height is not the radius */

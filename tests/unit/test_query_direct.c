@@ -78,8 +78,8 @@ static void direct_sweep_answers_and_checks(void **unused)
     q.reserved = 3;
     expect_refused(&r, &q, "reserved");
     q = good_sweep();
-    q.shape.reserved = 3;
-    expect_refused(&r, &q, "reserved");
+    q.shape.hull = 3;
+    expect_refused(&r, &q, "shape.hull");
     assert_memory_equal(hits, kept, sizeof hits);
     assert_int_equal(count, 99);
     rig_close(&r);

@@ -84,9 +84,9 @@ static void bad_bodies_are_named(void **unused)
     expect_body(b, TAHR_E_ARGUMENT, "indices");
     b = mesh(), b.triangle_count = 0;
     expect_body(b, TAHR_E_GEOMETRY, "triangles");
-    b = mesh(), b.type = 9;
+    b = mesh(), b.type = 11;
     expect_body(b, TAHR_E_ARGUMENT, "type");
-    b = mesh(), b.flags = 128;
+    b = mesh(), b.flags = 1u << 10;
     expect_body(b, TAHR_E_ARGUMENT, "flags");
     b = mesh(), b.walkable_rule = 4;
     expect_body(b, TAHR_E_ARGUMENT, "walkable_rule");

@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: MIT
+ * one_way.c: the rule of one-way bodies, for users' own queries; backends have it in backends/common/one_way.h. */
+#include <tahr/world.h>
+
+#include "vec.h"
+
+int32_t tahr_one_way_blocks(const tahr_vec3 *up, const tahr_vec3 *normal, double distance, double margin,
+                            uint32_t flags)
+{
+    if (!up || !normal) {
+        return 0;
+    }
+    int dropped = (flags & TAHR_SWEEP_DROP) && distance <= 2 * margin;
+    return distance >= 0 && dot(*up, *normal) >= 0.5 && !dropped;
+}
