@@ -4,11 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bench_query.h"
 #include "bench_run.h"
 
 typedef struct options {
     const char *csv, *world, *backend;
     uint32_t characters; /* 0: all counts */
+    int queries;         /* 1: single queries instead of steps */
 } options;
 
 typedef struct plan {
@@ -21,7 +23,8 @@ enum { PLANS = 3 };
 static const plan NATIVE_PLANS[PLANS] = {{1, 20000}, {256, 300}, {10000, 20}};
 static const plan OTHER_PLANS[PLANS] = {{1, 600}, {16, 60}, {0, 0}};
 
-static const char OPTIONS[] = "  --csv FILE (build/bench.csv)  --world NAME  --backend NAME  --characters N  --help\n";
+static const char OPTIONS[] =
+    "  --csv FILE (build/bench.csv)  --world NAME  --backend NAME  --characters N  --queries  --help\n";
 
 static int usage(const char *wrong)
 {
@@ -77,6 +80,8 @@ static int read_options(options *o, int argc, char **argv)
                 return usage("--characters");
             }
             o->characters = (uint32_t)n;
+        } else if (strcmp(argv[i], "--queries") == 0) {
+            o->queries = 1;
         } else {
             return usage(argv[i]);
         }
@@ -138,6 +143,52 @@ static int measure_backend(FILE *csv, const bench_world *w, const scene_backend 
     return ok;
 }
 
+static int measure_queries(FILE *csv, const bench_world *w, const options *o)
+{
+    static bench_queries queries;
+    char error[256] = "";
+    int ok = bench_queries_make(&queries, w, error);
+    if (!ok) {
+        printf("%-11s failed: %s\n", w->name, error);
+    }
+    for (int i = 0; ok && i < SCENE_BACKEND_COUNT; i++) {
+        const scene_backend *b = &SCENE_BACKENDS[i];
+        bench_query_result r;
+        if (o->backend && strcmp(o->backend, b->name) != 0) {
+            continue;
+        }
+        fprintf(stderr, "%s on %s ...\n", w->name, b->name);
+        tahr_status status = bench_queries_run(&queries, w, b, &r);
+        if (status < 0) { /* a mesh is no body of a planar backend */
+            printf("%-11s %-13s cannot be asked: %s\n", w->name, b->name, tahr_status_name(status));
+            ok = status == TAHR_E_UNSUPPORTED;
+            continue;
+        }
+        printf("%-11s %-13s %9.0f %9.0f %9.1e %9.1e %9.1e %7u %7u %7u\n", w->name, b->name, r.sweep_ns, r.contacts_ns,
+               r.gap_p50, r.gap_p99, r.gap_max, r.hits, r.misses, r.false_hits);
+        fflush(stdout);
+        fprintf(csv, "%s,%s,%u,%u,%.1f,%.1f,%.3e,%.3e,%.3e,%u,%u,%u\n", w->name, b->name, r.sweeps, r.contact_queries,
+                r.sweep_ns, r.contacts_ns, r.gap_p50, r.gap_p99, r.gap_max, r.hits, r.misses, r.false_hits);
+    }
+    bench_queries_free(&queries);
+    return ok;
+}
+
+/* One world on the backends that were asked for. */
+static int measure_world(FILE *csv, const bench_world *w, const options *o)
+{
+    int ok = 1;
+    if (o->queries) {
+        return measure_queries(csv, w, o);
+    }
+    for (int b = 0; b < SCENE_BACKEND_COUNT; b++) {
+        if (!o->backend || strcmp(o->backend, SCENE_BACKENDS[b].name) == 0) {
+            ok = measure_backend(csv, w, &SCENE_BACKENDS[b], o) && ok;
+        }
+    }
+    return ok;
+}
+
 static int measure(FILE *csv, const options *o)
 {
     int ok = 1;
@@ -150,14 +201,31 @@ static int measure(FILE *csv, const options *o)
         if (world.missing[0]) {
             printf("skipped: %s %s\n", world.name, world.missing);
         }
-        for (int b = 0; !world.missing[0] && b < SCENE_BACKEND_COUNT; b++) {
-            if (!o->backend || strcmp(o->backend, SCENE_BACKENDS[b].name) == 0) {
-                ok = measure_backend(csv, &world, &SCENE_BACKENDS[b], o) && ok;
-            }
-        }
+        ok = (world.missing[0] || measure_world(csv, &world, o)) && ok;
         bench_world_free(&world);
     }
     return ok;
+}
+
+static void print_heads(FILE *csv, int queries)
+{
+    if (queries) {
+        printf(
+            "sweeps and contacts that 16 wanderers asked for, asked again one by one without a cache; gap: m, off the "
+            "margin where a sweep stops\n");
+        printf("%-11s %-13s %9s %9s %9s %9s %9s %7s %7s %7s\n", "world", "backend", "ns sweep", "contacts", "gap p50",
+               "gap p99", "gap max", "hits", "missed", "false");
+        fprintf(csv, "world,backend,sweeps,contact_queries,ns_sweep,ns_contacts,gap_p50,gap_p99,gap_max,hits,misses,"
+                     "false_hits\n");
+        return;
+    }
+    printf("60 Hz; reading the clock costs %.0f ns, subtracted; columns from 'sweeps' to 'gathers' are per step\n",
+           bench_clock_cost());
+    printf("%-11s %-13s %6s %9s %9s %9s %7s %8s %6s %8s %8s %8s %6s\n", "world", "backend", "chars", "ns median",
+           "ns p99", "ns cpu", "sweeps", "contacts", "rays", "tests", "iters", "gathers", "walk");
+    fprintf(csv,
+            "world,backend,characters,steps,ns_median,ns_p99,ns_cpu_mean,sweeps,contact_queries,rays,triangle_tests,"
+            "narrow_iterations,gathers,escapes,walking,bytes_per_mover,respawned\n");
 }
 
 int main(int argc, char **argv)
@@ -177,13 +245,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "tahr_bench: '%s' cannot be written\n", o.csv);
         return 1;
     }
-    printf("60 Hz; reading the clock costs %.0f ns, subtracted; columns from 'sweeps' to 'gathers' are per step\n",
-           bench_clock_cost());
-    printf("%-11s %-13s %6s %9s %9s %9s %7s %8s %6s %8s %8s %8s %6s\n", "world", "backend", "chars", "ns median",
-           "ns p99", "ns cpu", "sweeps", "contacts", "rays", "tests", "iters", "gathers", "walk");
-    fprintf(csv,
-            "world,backend,characters,steps,ns_median,ns_p99,ns_cpu_mean,sweeps,contact_queries,rays,triangle_tests,"
-            "narrow_iterations,gathers,escapes,walking,bytes_per_mover,respawned\n");
+    print_heads(csv, o.queries);
     int ok = measure(csv, &o);
     if (fclose(csv) != 0) {
         fprintf(stderr, "tahr_bench: '%s' could not be written in full\n", o.csv);

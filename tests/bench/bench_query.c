@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: MIT
+ * bench_query.c: asks what wandering characters asked, one query at a time, and times and scores the answers.
+ *
+ * The score is the backward error: how far from its margin the shape is where the answer stops it. It is measured by the
+ * contacts of the exact backend at that place, so no time of impact is compared, which a graze would make meaningless. */
+#include "bench_query.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "scene_wander.h"
+
+enum { WALKERS = 16, RECORDS = 320, MAX_TICKS = 4000, ROUNDS = 5 };
+
+static const double DT = 1.0 / 60;
+static const double TAU = 1e-6; /* m: what is nearer to a hit than this is neither hit nor miss */
+
+static double processor_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void keep(bench_queries *b, const tahr_query_record *r, const tahr_state *s)
+{
+    if (r->type == TAHR_QUERY_SWEEP && r->margin > 0 && b->sweep_count < BENCH_MAX_QUERIES) {
+        b->sweeps[b->sweep_count++] = (tahr_sweep){.shape = r->shape,
+                                                   .position = r->position,
+                                                   .up = s->up,
+                                                   .orientation = s->orientation,
+                                                   .motion = r->motion,
+                                                   .margin = r->margin,
+                                                   .mask = 0xFFFFFFFFu,
+                                                   .ignore_body = TAHR_NO_BODY};
+    } else if (r->type == TAHR_QUERY_CONTACTS && b->contact_count < BENCH_MAX_QUERIES) {
+        b->contacts[b->contact_count++] = (tahr_contact_query){.shape = r->shape,
+                                                               .position = r->position,
+                                                               .up = s->up,
+                                                               .orientation = s->orientation,
+                                                               .margin = r->margin,
+                                                               .mask = 0xFFFFFFFFu,
+                                                               .ignore_body = TAHR_NO_BODY};
+    }
+}
+
+static int record(bench_queries *b, const bench_world *world, const tahr_config *config, tahr_mover *mover, char *error)
+{
+    static tahr_query_record records[RECORDS];
+    uint64_t seed = 23;
+    for (uint32_t i = 0; i < WALKERS; i++) {
+        scene_wanderer wanderer;
+        tahr_state state;
+        if (!scene_wander_spawn(b->exact, config, &world->spawn, &seed, &state)) {
+            snprintf(error, 256, "no place to start at");
+            return 0;
+        }
+        scene_wander_start(&wanderer, 1, i);
+        for (uint32_t t = 0; t < MAX_TICKS && b->sweep_count < (i + 1) * BENCH_MAX_QUERIES / WALKERS; t++) {
+            tahr_report report = {.struct_size = sizeof report, .queries = records, .query_capacity = RECORDS};
+            if (tahr_mover_step(mover, scene_wander_next(&wanderer, DT), DT, &state, &report) < 0) {
+                snprintf(error, 256, "a step failed");
+                return 0;
+            }
+            for (uint32_t k = 0; k < report.query_count; k++) {
+                keep(b, &records[k], &state);
+            }
+        }
+    }
+    return 1;
+}
+
+int bench_queries_make(bench_queries *b, const bench_world *world, char *error)
+{
+    static const scene_backend exact = {
+        .name = "exact", .get = tahr_backend_v1_native, .native = 1, .precision = TAHR_NATIVE_DOUBLE};
+    tahr_config config;
+    tahr_mover *mover = NULL;
+    memset(b, 0, sizeof *b);
+    tahr_config_init(&config, sizeof config, TAHR_PRESET_PRECISE);
+    tahr_status status = scene_backend_open(&exact, &world->body, 1, NULL, &b->exact);
+    if (status >= 0) {
+        status = tahr_mover_create(b->exact, &config, &mover);
+    }
+    if (status < 0) {
+        snprintf(error, 256, "%s", tahr_status_name(status));
+    }
+    int ok = status >= 0 && record(b, world, &config, mover, error);
+    tahr_mover_destroy(mover);
+    if (!ok) {
+        bench_queries_free(b);
+    }
+    return ok;
+}
+
+void bench_queries_free(bench_queries *b)
+{
+    tahr_world_close(b->exact);
+    b->exact = NULL;
+}
+
+/* How far the shape is from the nearest surface after a part of a sweep; HUGE_VAL if nothing is near. */
+static double clearance(const bench_queries *b, const tahr_sweep *q, double fraction)
+{
+    tahr_contact nearest;
+    uint32_t count = 0;
+    tahr_contact_query c = {.shape = q->shape,
+                            .position = {q->position.x + q->motion.x * fraction, q->position.y + q->motion.y * fraction,
+                                         q->position.z + q->motion.z * fraction},
+                            .up = q->up,
+                            .orientation = q->orientation,
+                            .margin = q->margin + 0.1,
+                            .mask = q->mask,
+                            .ignore_body = q->ignore_body};
+    tahr_status status = tahr_world_contacts(b->exact, &c, &nearest, 1, &count);
+    return status >= 0 && count > 0 ? nearest.distance : HUGE_VAL;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* A sweep that starts closer than its margin has no place where it comes to it: such answers are not scored. */
+static int is_scored(const tahr_hit *hit, uint32_t count)
+{
+    return count == 0 || (!hit->start_overlap && hit->fraction > 0);
+}
+
+static void score(const bench_queries *b, const tahr_hit *hits, const uint32_t *counts, bench_query_result *r)
+{
+    static double gaps[BENCH_MAX_QUERIES];
+    for (uint32_t i = 0; i < b->sweep_count; i++) {
+        const tahr_sweep *q = &b->sweeps[i];
+        if (!is_scored(&hits[i], counts[i])) {
+            continue;
+        }
+        double gap = clearance(b, q, counts[i] ? hits[i].fraction : 1) - q->margin;
+        if (counts[i]) {
+            gaps[r->hits++] = fabs(gap);
+            r->false_hits += gap > 0.09;
+        } else {
+            r->misses += gap < -TAU && clearance(b, q, 0) >= q->margin;
+        }
+    }
+    qsort(gaps, r->hits, sizeof gaps[0], by_value);
+    r->gap_p50 = r->hits ? gaps[r->hits / 2] : 0;
+    r->gap_p99 = r->hits ? gaps[r->hits - 1 - r->hits / 100] : 0;
+    r->gap_max = r->hits ? gaps[r->hits - 1] : 0;
+}
+
+/* The least of some rounds: on a machine shared with others the rest is their noise. */
+static tahr_status time_sweeps(const bench_queries *b, tahr_world *world, tahr_hit *hits, uint32_t *counts, double *ns)
+{
+    for (int round = 0; round < ROUNDS; round++) {
+        double before = processor_seconds();
+        for (uint32_t i = 0; i < b->sweep_count; i++) {
+            tahr_status status = tahr_world_sweep(world, &b->sweeps[i], &hits[i], 1, &counts[i]);
+            if (status < 0) {
+                return status;
+            }
+        }
+        double each = 1e9 * (processor_seconds() - before) / b->sweep_count;
+        *ns = round == 0 || each < *ns ? each : *ns;
+    }
+    return TAHR_OK;
+}
+
+static tahr_status time_contacts(const bench_queries *b, tahr_world *world, double *ns)
+{
+    tahr_contact contacts[16];
+    uint32_t count;
+    for (int round = 0; round < ROUNDS && b->contact_count > 0; round++) {
+        double before = processor_seconds();
+        for (uint32_t i = 0; i < b->contact_count; i++) {
+            tahr_status status = tahr_world_contacts(world, &b->contacts[i], contacts, 16, &count);
+            if (status < 0) {
+                return status;
+            }
+        }
+        double each = 1e9 * (processor_seconds() - before) / b->contact_count;
+        *ns = round == 0 || each < *ns ? each : *ns;
+    }
+    return TAHR_OK;
+}
+
+tahr_status bench_queries_run(const bench_queries *b, const bench_world *world, const scene_backend *backend,
+                              bench_query_result *result)
+{
+    static tahr_hit hits[BENCH_MAX_QUERIES];
+    static uint32_t counts[BENCH_MAX_QUERIES];
+    tahr_world *opened = NULL;
+    memset(result, 0, sizeof *result);
+    tahr_status status = scene_backend_open(backend, &world->body, 1, NULL, &opened);
+    if (status >= 0) {
+        status = time_sweeps(b, opened, hits, counts, &result->sweep_ns);
+    }
+    if (status >= 0) {
+        status = time_contacts(b, opened, &result->contacts_ns);
+    }
+    tahr_world_close(opened);
+    result->sweeps = b->sweep_count;
+    result->contact_queries = b->contact_count;
+    if (status >= 0) {
+        score(b, hits, counts, result);
+    }
+    return status;
+}
