@@ -2,14 +2,12 @@
  * test_scenes.c: every scene on every backend at every rate, as a table; of each the first violated expectation.
  *
  * Arguments narrow it down: test_scenes [scene [backend [rate]]], for example "test_scenes wall native-double 60". */
-#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "scene_check.h"
-
-enum { MAX_FILES = 256 };
+#include "scene_list.h"
 
 typedef struct filter {
     const char *scene, *backend;
@@ -19,38 +17,6 @@ typedef struct filter {
 typedef struct tally {
     int runs, failures;
 } tally;
-
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-static int list_scenes(char **files)
-{
-    DIR *folder = opendir(TAHR_SOURCE_DIR "/tests/scenes");
-    struct dirent *entry;
-    int count = 0;
-    while (folder && count < MAX_FILES && (entry = readdir(folder)) != NULL) {
-        size_t n = strlen(entry->d_name);
-        if (n > 5 && strcmp(entry->d_name + n - 5, ".json") == 0) {
-            size_t size = sizeof TAHR_SOURCE_DIR "/tests/scenes/" + n;
-            files[count] = malloc(size);
-            if (!files[count]) {
-                abort();
-            }
-            snprintf(files[count++], size, "%s/tests/scenes/%s", TAHR_SOURCE_DIR, entry->d_name);
-        }
-    }
-    if (folder) {
-        closedir(folder);
-    }
-    if (count == MAX_FILES) {
-        printf("too many scenes\n");
-        exit(1);
-    }
-    qsort(files, (size_t)count, sizeof *files, by_name);
-    return count;
-}
 
 /* At 1000 Hz the slower backends run one variant of each file, unless asked for by name. */
 static int left_out(const scene_backend *backend, double rate, int variant, const filter *only)
@@ -120,13 +86,12 @@ static void run_file(const char *path, const filter *only, tally *total)
 
 int main(int argc, char **argv)
 {
-    char *files[MAX_FILES];
+    char *files[SCENE_MAX_FILES];
     filter only = {argc > 1 ? argv[1] : NULL, argc > 2 ? argv[2] : NULL, argc > 3 ? atof(argv[3]) : 0};
     tally total = {0, 0};
-    int count = list_scenes(files);
+    int count = scene_list(files);
     for (int i = 0; i < count; i++) {
-        const char *name = strrchr(files[i], '/') + 1;
-        if (!only.scene || (strncmp(name, only.scene, strlen(only.scene)) == 0 && name[strlen(only.scene)] == '.')) {
+        if (!only.scene || scene_list_is(files[i], only.scene)) {
             run_file(files[i], &only, &total);
         }
         free(files[i]);
