@@ -114,11 +114,11 @@ static void report(search *s, const tahr__ccd_piece *piece, tahr__ccd_near *near
     hit.blocking = !hit.sensor;
     hit.unknown = unknown != 0;
     hit.fraction = fraction;
-    hit.distance = near->distance;
+    hit.distance = near->distance / p->unit;
     hit.start_overlap = fraction == 0 && near->distance < 0;
-    hit.depth = hit.start_overlap ? -near->distance : 0;
+    hit.depth = hit.start_overlap ? -hit.distance : 0;
     hit.normal = near->normal;
-    hit.point = v_add(p->origin, near->point);
+    hit.point = tahr__ccd_world(p, near->point);
     hit.walkable_rule = b->walkable_rule;
     hit.walkable_angle = b->walkable_angle;
     hit.surface = b->surface;
@@ -202,6 +202,7 @@ tahr_status tahr__ccd_sweep(void *self, tahr_query_context *context, const tahr_
     search s;
     tahr__ccd_walk walk;
     tahr__ccd_piece piece;
+    tahr_status status;
     int lost = 0;
 
     *count = 0;
@@ -209,9 +210,8 @@ tahr_status tahr__ccd_sweep(void *self, tahr_query_context *context, const tahr_
     s.flags = query->flags;
     s.sensor_count = s.lost = s.waiting_count = 0;
     s.found = 0;
-    probe.motion_length = v_length(query->motion);
-    if (!tahr__ccd_probe_shape(&probe, &query->shape, query->up, query->orientation)) return TAHR_E_UNSUPPORTED;
-    if (!tahr__ccd_probe_finite(&probe)) return TAHR_E_ARGUMENT;
+    status = tahr__ccd_probe_shape(&probe, &query->shape, query->up, query->orientation);
+    if (status < 0) return status;
     tahr__ccd_walk_begin(&walk, &probe, probe.motion, probe.radius + probe.margin);
     while (tahr__ccd_walk_next(&walk, &piece))
         visit(&s, &piece);
