@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * contacts.c: the contacts slot, by core distance. */
+ * contacts.c: the contacts slot, by the distance. */
 #include "../common/one_way.h"
 #include "scene.h"
 
@@ -59,9 +59,9 @@ static void visit(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, co
          !tahr__one_way_blocks(probe->up, near.normal, near.distance, probe->margin, 0))) {
         return; /* dropped through, on an edge, or not from above */
     }
-    contact.distance = near.distance;
+    contact.distance = near.distance / probe->unit;
     contact.normal = near.normal;
-    contact.point = v_add(probe->origin, near.point);
+    contact.point = tahr__ccd_world(probe, near.point);
     contact.walkable_angle = b->walkable_angle;
     contact.walkable_rule = b->walkable_rule;
     contact.surface = b->surface;
@@ -86,10 +86,10 @@ tahr_status tahr__ccd_contacts(void *self, tahr_query_context *context, const ta
     collection c = {contacts, capacity, 0, 0};
     tahr__ccd_walk walk;
     tahr__ccd_piece piece;
+    tahr_status status = tahr__ccd_probe_shape(&probe, &query->shape, query->up, query->orientation);
 
     *count = 0;
-    if (!tahr__ccd_probe_shape(&probe, &query->shape, query->up, query->orientation)) return TAHR_E_UNSUPPORTED;
-    if (!tahr__ccd_probe_finite(&probe)) return TAHR_E_ARGUMENT;
+    if (status < 0) return status;
     tahr__ccd_walk_begin(&walk, &probe, v_make(0, 0, 0), probe.radius + probe.margin);
     while (tahr__ccd_walk_next(&walk, &piece))
         visit(&probe, &piece, &c);

@@ -6,72 +6,98 @@
 
 #include <ccd/ccd.h>
 
-/* libccd's default is ULONG_MAX; random, lattice, far and huge inputs need at most some thirty. */
-enum { MAX_ITERATIONS = 100 };
+/* MPR ends where a portal moves by less than this (m): well inside of the bracket that bisection leaves. libccd's 1e-4
+ * is not. */
+#define MPR_TOLERANCE 1e-9
 
 typedef struct swept {
-    const tahr__core *core;
+    const tahr__convex *shape;
     double radius;
     tahr_vec3 motion;
-    unsigned *calls;
+    uint32_t *calls;
+    uint32_t most;
 } swept;
 
-typedef struct corners {
-    const tahr_vec3 *corner;
-    int count;
-} corners;
+/* MPR has no cap of its own. Past it the shape is told to lie against every direction, which its loops take for an end:
+ * no support beyond the origin, no overlap. */
+static int is_over(const swept *s)
+{
+    return *s->calls > s->most;
+}
 
 static void support_swept(const void *object, const ccd_vec3_t *dir, ccd_vec3_t *out)
 {
     const swept *s = object;
-    tahr_vec3 d = v_make(dir->v[0], dir->v[1], dir->v[2]), p = v_make(0, 0, 0);
+    tahr_vec3 d = v_make(dir->v[0], dir->v[1], dir->v[2]), p;
     double length = v_length(d);
 
     ++*s->calls;
-    for (int i = 0; i < s->core->axis_count; i++)
-        p = v_mad(p, s->core->axis[i], v_dot(s->core->axis[i], d) < 0 ? -1 : 1);
+    p = tahr__convex_support(s->shape, d, NULL);
     if (length > 0) p = v_mad(p, d, s->radius / length);
     if (v_dot(s->motion, d) > 0) p = v_add(p, s->motion);
+    if (is_over(s) && length > 0) p = v_scale(d, -1e9 / length);
     ccdVec3Set(out, p.x, p.y, p.z);
 }
 
-static void support_corners(const void *object, const ccd_vec3_t *dir, ccd_vec3_t *out)
+static void support_piece(const void *object, const ccd_vec3_t *dir, ccd_vec3_t *out)
 {
-    const corners *c = object;
-    tahr_vec3 d = v_make(dir->v[0], dir->v[1], dir->v[2]);
-    int best = 0;
+    tahr_vec3 p = tahr__convex_support(object, v_make(dir->v[0], dir->v[1], dir->v[2]), NULL);
+    ccdVec3Set(out, p.x, p.y, p.z);
+}
 
-    for (int i = 1; i < c->count; i++) {
-        if (v_dot(c->corner[i], d) > v_dot(c->corner[best], d)) best = i;
-    }
-    ccdVec3Set(out, c->corner[best].x, c->corner[best].y, c->corner[best].z);
+static tahr_vec3 centre_of(const tahr__convex *c)
+{
+    tahr_vec3 sum = v_make(0, 0, 0);
+    if (c->kind != TAHR__CONVEX_POINTS) return c->centre;
+    for (uint32_t i = 0; i < c->count; i++)
+        sum = v_mad(sum, c->points[i], c->scale / c->count);
+    return v_add(c->centre, c->turn ? m_apply(c->turn, sum) : sum);
+}
+
+static void centre_swept(const void *object, ccd_vec3_t *out)
+{
+    const swept *s = object;
+    tahr_vec3 p = v_mad(centre_of(s->shape), s->motion, 0.5);
+    ccdVec3Set(out, p.x, p.y, p.z);
+}
+
+static void centre_piece(const void *object, ccd_vec3_t *out)
+{
+    tahr_vec3 p = centre_of(object);
+    ccdVec3Set(out, p.x, p.y, p.z);
 }
 
 /* Toward the piece: a start that saves an iteration or two over libccd's fixed x axis, and is as deterministic. */
 static void first_direction(const void *object1, const void *object2, ccd_vec3_t *dir)
 {
-    const corners *c = object2;
+    tahr_vec3 p = centre_of(object2);
 
     (void)object1;
-    ccdVec3Set(dir, c->corner[0].x, c->corner[0].y, c->corner[0].z);
-    if (v_dot(c->corner[0], c->corner[0]) < 1e-12) ccdVec3Set(dir, 1, 0, 0);
+    ccdVec3Set(dir, p.x, p.y, p.z);
+    if (v_dot(p, p) < 1e-12) ccdVec3Set(dir, 1, 0, 0);
 }
 
 int tahr__ccd_swept_overlap(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double fraction)
 {
-    unsigned calls = 0;
-    swept s = {&probe->core, probe->radius + probe->margin + piece->radius, v_scale(probe->motion, fraction), &calls};
-    corners c = {piece->corner, piece->corner_count};
+    const tahr__ccd_scene *scene = probe->scene;
+    uint32_t calls = 0;
+    swept s = {&probe->shape, probe->radius + probe->margin + piece->radius, v_scale(probe->motion, fraction), &calls,
+               scene->max_iterations};
+    tahr__convex c;
     ccd_t ccd;
     int overlap;
 
+    tahr__ccd_convex(probe, piece, &c);
     CCD_INIT(&ccd);
     ccd.first_dir = first_direction;
     ccd.support1 = support_swept;
-    ccd.support2 = support_corners;
-    ccd.max_iterations = MAX_ITERATIONS;
-    overlap = ccdGJKIntersect(&s, &c, &ccd);
+    ccd.support2 = support_piece;
+    ccd.center1 = centre_swept;
+    ccd.center2 = centre_piece;
+    ccd.max_iterations = scene->max_iterations;
+    ccd.mpr_tolerance = MPR_TOLERANCE;
+    overlap = scene->boolean == TAHR_CCD_BOOLEAN_MPR ? ccdMPRIntersect(&s, &c, &ccd) : ccdGJKIntersect(&s, &c, &ccd);
     probe->context->narrow_iterations += calls;
-    /* One support before the loop and one in each turn: libccd itself calls giving up "no overlap". */
-    return !overlap && calls > MAX_ITERATIONS ? -1 : overlap;
+    /* libccd itself calls giving up "no overlap". */
+    return calls > s.most ? -1 : overlap;
 }

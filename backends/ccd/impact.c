@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * impact.c: the first fraction of the motion at which the shape comes within its margin of a convex piece. libccd's
- * boolean brackets it by bisection; the core distance, convex along the motion, makes it exact. */
+ * impact.c: the first fraction of the motion at which the shape comes within its margin of a convex piece: by tangents
+ * of the distance, which is convex along the motion; where the setting says so, libccd's boolean brackets it by
+ * bisection before. */
 #include "scene.h"
 
 /* Arrived (m). libccd's own answer scatters by 1e-8 to 1e-5 m around contact. */
@@ -79,6 +80,10 @@ tahr__ccd_verdict tahr__ccd_impact(const tahr__ccd_probe *probe, const tahr__ccd
     tahr__ccd_verdict verdict;
 
     if (safe > limit) return TAHR__CCD_FREE;
+    if (probe->scene->sweep == TAHR_CCD_SWEEP_ADVANCE) {
+        *fraction = safe;
+        return tahr__ccd_advance(probe, piece, limit, fraction, near);
+    }
     low = bracket(probe, piece, safe, limit);
     if (low < 0) return TAHR__CCD_FREE;
     *fraction = low;

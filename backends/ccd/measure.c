@@ -1,25 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * measure.c: signed distances, contact normals and surface normals of the pieces, by core distance. libccd has no
- * distance, its depths are wrong by up to the whole depth, and its normals by up to 90 degrees at edges. */
+ * measure.c: signed distances and contact normals of the pieces: by core distance, and where there is none (a cylinder,
+ * cone, ellipsoid or hull on either side) by that of convex shapes. libccd has no distance, its depths are wrong by up
+ * to the whole depth, and its normals by up to 90 degrees at edges. */
 #include "scene.h"
 
 /* Nearer than this the direction between the nearest points is rounding: the way out is taken instead. */
 #define TOUCHING 1e-10
-/* Slope at which a neighbour leads toward the shape: rounding makes 1e-13 of a centimetre. */
-#define NEARER 1e-9
-/* Contact normals this close to the face's are the face's: what is left of rounding at an edge of a flat surface. */
-#define SNAP 1e-7
-
-static int is_round(const tahr__ccd_piece *piece)
-{
-    return piece->body->type == TAHR_BODY_SPHERE || piece->body->type == TAHR_BODY_CAPSULE;
-}
-
-static tahr_vec3 triangle_normal(const tahr_vec3 v[3])
-{
-    tahr_vec3 n = v_cross(v_sub(v[1], v[0]), v_sub(v[2], v[0]));
-    return v_dot(n, n) > 0 ? v_unit(n) : v_make(0, 0, 1);
-}
+/* Of the faces of hulls so many are looked at for the shortest way out. */
+enum { GUESSED_FACES = 32, GUESSES = 2 * GUESSED_FACES + 16 };
 
 /* Corners of a box by bit: +x 1, +y 2, +z 4. Two triangles per face. */
 static const unsigned char box_triangles[12][3] = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
@@ -63,6 +51,13 @@ static tahr_vec3 across(const tahr__ccd_probe *probe, const tahr__core *solid)
     return v_unit(v_cross(fabs(along.x) <= fabs(along.z) ? v_make(1, 0, 0) : v_make(0, 0, 1), along));
 }
 
+/* A triangle without neighbours: one may leave it past its edges. */
+static int is_alone(const tahr__ccd_piece *piece)
+{
+    const tahr__triangle *t = &piece->body->mesh.triangles[piece->triangle];
+    return t->ring[0] == piece->triangle && t->ring[1] == piece->triangle && t->ring[2] == piece->triangle;
+}
+
 /* Depth of the cores in each other, or a negative number. */
 static double core_depth(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre, double distance,
                          tahr_vec3 *normal)
@@ -72,7 +67,7 @@ static double core_depth(const tahr__ccd_probe *probe, const tahr__ccd_piece *pi
 
     if (piece->body->type != TAHR_BODY_MESH) {
         tahr_vec3 middle = solid_of(piece, &solid);
-        if (distance > TOUCHING && is_round(piece)) return -1;
+        if (distance > TOUCHING && tahr__ccd_is_round(piece)) return -1;
         double depth = tahr__core_leave_solid(&probe->core, centre, &solid, middle, normal);
         if (depth >= 0 || distance > TOUCHING) return depth;
         /* They touch: the axis that almost separates them is the way, if there is any. */
@@ -80,15 +75,121 @@ static double core_depth(const tahr__ccd_probe *probe, const tahr__ccd_piece *pi
         return 0;
     }
     if (distance > TOUCHING) return -1;
-    const tahr__triangle *t = &piece->body->mesh.triangles[piece->triangle];
-    int alone = 1;
-    for (int i = 0; i < 3; i++)
-        alone &= t->ring[i] == piece->triangle;
-    return tahr__core_leave_triangle(&probe->core, centre, piece->corner, sides == 3 && alone ? 7 : sides, normal);
+    if (sides == 3 && is_alone(piece)) sides = 7;
+    return tahr__core_leave_triangle(&probe->core, centre, piece->corner, sides, normal);
 }
 
-void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
-                       tahr__ccd_near *near)
+/* --- Any two convex shapes --- */
+
+typedef struct guesses {
+    tahr_vec3 normal[GUESSES];
+    uint32_t count;
+} guesses;
+
+static void guess(guesses *g, tahr_vec3 direction)
+{
+    double length = v_length(direction);
+    if (length > 0 && g->count < GUESSES) g->normal[g->count++] = v_scale(direction, 1 / length);
+}
+
+/* Directions in which a shape is likely to be left: along its axes, across its side, and toward where the other is. */
+static void guess_of(guesses *g, const tahr__convex *c, const tahr__hull_planes *planes, tahr_vec3 other)
+{
+    uint32_t axes = c->kind == TAHR__CONVEX_ELLIPSOID ? 3 : c->kind == TAHR__CONVEX_SUM ? c->count : 1;
+    tahr_vec3 apart = v_sub(other, c->centre), axis = c->axis[0], radial;
+    double length2 = v_dot(axis, axis);
+
+    for (uint32_t i = 0; i < axes && c->kind != TAHR__CONVEX_POINTS; i++)
+        guess(g, c->axis[i]);
+    if (length2 > 0 && c->radius > 0) {
+        radial = v_mad(apart, axis, -v_dot(apart, axis) / length2);
+        guess(g, radial);
+        if (c->kind == TAHR__CONVEX_CONE && v_dot(radial, radial) > 0)
+            guess(g, v_mad(v_scale(axis, c->radius), v_unit(radial), 2 * length2));
+    }
+    for (uint32_t i = 0; planes && i < planes->count && i < GUESSED_FACES; i++)
+        guess(g, c->turn ? m_apply(c->turn, planes->normals[i]) : planes->normals[i]);
+}
+
+static double size_of(const tahr__convex *c)
+{
+    double size = 0;
+    for (int i = 0; i < 3; i++) {
+        tahr_vec3 n = v_make(i == 0, i == 1, i == 2);
+        size = d_max(size, tahr__convex_extent(c, n) + tahr__convex_extent(c, v_scale(n, -1)));
+    }
+    return 0.5 * size;
+}
+
+/* The way for a out of the piece b: of a mesh to the front or back of the triangle, else the shortest that is found. */
+static double convex_depth(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, const tahr__convex *a,
+                           const tahr__convex *b, tahr_vec3 *normal)
+{
+    const tahr__ccd_body *body = piece->body;
+    guesses g = {.count = 0};
+    double size = size_of(b), own = size_of(a);
+
+    if (body->type == TAHR_BODY_MESH) {
+        tahr_vec3 front = tahr__ccd_triangle_normal(piece->corner), back = v_scale(front, -1);
+        double depth = tahr__convex_way(a, b, front);
+        *normal = front;
+        if (!(body->flags & TAHR_BODY_TWO_SIDED)) return depth;
+        double other = tahr__convex_way(a, b, back);
+        if (other < depth) *normal = back;
+        if (!is_alone(piece)) return d_min(depth, other);
+        guess(&g, front);
+    }
+    guess_of(&g, b, body->type == TAHR_BODY_HULL ? &body->planes : NULL, a->centre);
+    guess_of(&g, a, probe->hull ? &probe->hull->planes : NULL, b->centre);
+    guess(&g, v_sub(a->centre, b->centre));
+    if (own > 0 && (own < size || !(size > 0))) size = own;
+    return tahr__convex_leave(a, b, g.normal, g.count, size, normal);
+}
+
+/* Which part of a triangle lies nearest. What faces the shape within the accuracy of directions is the face, wherever on
+ * it the nearest point was found: of a flat base it is any. */
+static uint32_t part_of(const tahr__ccd_piece *piece, const tahr__gap *gap)
+{
+    tahr_vec3 n = tahr__ccd_triangle_normal(piece->corner), tilt;
+    const double *w = gap->weight;
+    uint32_t least = w[0] <= w[1] ? (w[0] <= w[2] ? 0 : 2) : (w[1] <= w[2] ? 1 : 2), a = (least + 1) % 3,
+             b = (least + 2) % 3;
+
+    tilt = v_sub(gap->normal, v_dot(n, gap->normal) < 0 ? v_scale(n, -1) : n);
+    if (v_dot(tilt, tilt) < TAHR__CCD_SAME_DIRECTION * TAHR__CCD_SAME_DIRECTION) return TAHR__FACE;
+    if (w[a] < TAHR__CCD_SAME_DIRECTION) return TAHR__CORNER + b;
+    return w[b] < TAHR__CCD_SAME_DIRECTION ? TAHR__CORNER + a : TAHR__EDGE + a;
+}
+
+static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
+                           tahr__ccd_near *near)
+{
+    tahr__convex a = probe->shape, b;
+    tahr__gap gap;
+
+    a.centre = v_add(a.centre, centre);
+    tahr__ccd_convex(probe, piece, &b);
+    tahr__convex_distance(&a, &b, v_make(0, 0, 0), &gap);
+    probe->context->narrow_iterations += gap.iterations;
+    near->reserved = 0;
+    near->part = TAHR__FACE;
+    if (gap.lower > 0 && gap.distance > TOUCHING) {
+        near->distance = gap.lower;
+        near->normal = gap.normal;
+        near->point = gap.on_b;
+        if (piece->body->type == TAHR_BODY_MESH) near->part = part_of(piece, &gap);
+    } else {
+        near->distance = -convex_depth(probe, piece, &a, &b, &near->normal);
+        near->point = v_mad(tahr__convex_support(&a, v_scale(near->normal, -1), NULL), near->normal, -near->distance);
+    }
+    near->distance -= probe->radius + piece->radius;
+    near->point = v_mad(near->point, near->normal, piece->radius);
+}
+
+/* --- Cores --- */
+
+static void measure_core(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
+                         tahr__ccd_near *near)
 {
     tahr__witness w = {0};
     tahr_vec3 way_out;
@@ -108,128 +209,17 @@ void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piec
     near->point = v_mad(near->point, near->normal, piece->radius);
 }
 
+void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
+                       tahr__ccd_near *near)
+{
+    if (probe->is_core && !tahr__ccd_is_convex(piece))
+        measure_core(probe, piece, centre, near);
+    else
+        measure_convex(probe, piece, centre, near);
+}
+
 int tahr__ccd_in_front(const tahr__ccd_piece *piece, const tahr__ccd_near *near)
 {
     if (piece->body->type != TAHR_BODY_MESH || piece->body->flags & TAHR_BODY_TWO_SIDED) return 1;
-    return v_dot(near->normal, triangle_normal(piece->corner)) >= TAHR__CCD_BEHIND;
-}
-
-static uint32_t box_face(const tahr__ccd_piece *piece, tahr_vec3 direction, tahr_vec3 *normal)
-{
-    uint32_t best = 0;
-    double most = -2;
-
-    for (uint32_t i = 0; i < 6; i++) {
-        tahr_vec3 n = v_sub(piece->corner[1u << (i / 2)], piece->corner[0]);
-        n = v_scale(v_unit(n), i & 1 ? 1 : -1);
-        if (v_dot(n, direction) > most) {
-            most = v_dot(n, direction);
-            best = i;
-            *normal = n;
-        }
-    }
-    return best;
-}
-
-uint32_t tahr__ccd_feature(const tahr__ccd_piece *piece, const tahr__ccd_near *near)
-{
-    tahr_vec3 n;
-
-    if (piece->body->type == TAHR_BODY_MESH)
-        return tahr__triangle_source(&piece->body->mesh.triangles[piece->triangle]);
-    return piece->body->type == TAHR_BODY_BOX ? box_face(piece, near->normal, &n) : 0;
-}
-
-/* Of the faces of a box that hold the nearest point, the one along direction. */
-static void box_surface(const tahr__ccd_piece *piece, const tahr__ccd_near *near, tahr_vec3 direction, tahr_vec3 *face)
-{
-    double most = -2;
-
-    box_face(piece, near->normal, face);
-    for (int i = 0; i < 3; i++) {
-        tahr_vec3 n = v_unit(v_sub(piece->corner[1 << i], piece->corner[0]));
-        for (int side = -1; side <= 1; side += 2) {
-            tahr_vec3 outward = v_scale(n, side);
-            double height = v_dot(v_sub(near->point, piece->corner[side > 0 ? 7 : 0]), outward);
-            if (height < -1e-9 || v_dot(outward, near->normal) <= 1e-9 || v_dot(outward, direction) <= most) continue;
-            most = v_dot(outward, direction);
-            *face = outward;
-        }
-    }
-}
-
-/* Which corner of a triangle a vertex is, or 3. */
-static uint32_t corner_of(const tahr__triangle *t, uint32_t vertex)
-{
-    return t->vertex[0] == vertex ? 0 : t->vertex[1] == vertex ? 1 : t->vertex[2] == vertex ? 2 : 3;
-}
-
-/* Is a neighbour nearer than the edge (corners at, to) or corner (at == to) that it shares? It is if its face leads
- * from there toward the shape. Judged by slope, not by two distances: those would differ by rounding and each could
- * hide the other. */
-static int is_nearer(const tahr__ccd_piece *other, uint32_t at, uint32_t to, tahr_vec3 normal)
-{
-    tahr_vec3 edge = v_sub(other->corner[to], other->corner[at]);
-
-    for (uint32_t i = 0; i < 3; i++) {
-        tahr_vec3 into = v_sub(other->corner[i], other->corner[at]);
-        if (i == at || i == to) continue;
-        if (at != to) into = v_mad(into, edge, -v_dot(into, edge) / v_dot(edge, edge));
-        if (v_dot(normal, into) > NEARER * v_length(into)) return 1;
-    }
-    return 0;
-}
-
-/* The face of a mesh triangle, turned to the side of the contact if it has two. */
-static tahr_vec3 facing_normal(const tahr__ccd_piece *piece, tahr_vec3 contact)
-{
-    tahr_vec3 n = triangle_normal(piece->corner);
-    return piece->body->flags & TAHR_BODY_TWO_SIDED && v_dot(n, contact) < 0 ? v_scale(n, -1) : n;
-}
-
-static int mesh_surface(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, const tahr__ccd_near *near,
-                        tahr_vec3 direction, tahr_vec3 *face)
-{
-    const tahr__mesh *mesh = &piece->body->mesh;
-    const tahr__triangle *t = &mesh->triangles[piece->triangle];
-    uint32_t corner = near->part >= TAHR__CORNER ? near->part - TAHR__CORNER : near->part - TAHR__EDGE, first, count;
-    uint32_t a = t->vertex[corner], b = near->part >= TAHR__CORNER ? a : t->vertex[(corner + 1) % 3];
-    tahr_bounds at = {mesh->vertices[a], mesh->vertices[a]};
-    double most = v_dot(*face, direction);
-    tahr__bvh_walk walk;
-
-    tahr__bvh_walk_begin(&walk, &mesh->bvh, &at, 0, mesh->vertices[a]);
-    while (tahr__bvh_walk_next(&walk, &first, &count)) {
-        for (uint32_t i = first; i < first + count; i++) {
-            uint32_t from = corner_of(&mesh->triangles[i], a), to = corner_of(&mesh->triangles[i], b);
-            tahr__ccd_piece other;
-            if (i == piece->triangle || from == 3 || to == 3) continue;
-            tahr__ccd_triangle(probe, piece->body, i, &other);
-            tahr_vec3 normal = facing_normal(&other, near->normal);
-            if (v_dot(normal, near->normal) < TAHR__CCD_BEHIND) continue;
-            if (is_nearer(&other, from, to, near->normal)) return 0;
-            if (v_dot(normal, direction) <= most) continue;
-            most = v_dot(normal, direction);
-            *face = normal;
-        }
-    }
-    return 1;
-}
-
-int tahr__ccd_face(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 direction,
-                   tahr__ccd_near *near, tahr_vec3 *face)
-{
-    tahr_vec3 tilt;
-
-    *face = near->normal;
-    if (is_round(piece)) return 1;
-    if (piece->body->type == TAHR_BODY_BOX) {
-        box_surface(piece, near, direction, face);
-        return 1;
-    }
-    *face = facing_normal(piece, near->normal);
-    if (near->part != TAHR__FACE && !mesh_surface(probe, piece, near, direction, face)) return 0;
-    tilt = v_sub(near->normal, *face);
-    if (v_dot(tilt, tilt) < SNAP * SNAP) near->normal = *face;
-    return 1;
+    return v_dot(near->normal, tahr__ccd_triangle_normal(piece->corner)) >= TAHR__CCD_BEHIND;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * ray.c: the ray slot. libccd has no rays and no answer for points: a point advances by tangents of the core distance,
- * which for a face is one exact step. */
+ * ray.c: the ray slot. libccd has no rays and no answer for points: a point advances by tangents of the distance, which
+ * for a face is one exact step. */
 #include "../common/one_way.h"
 #include "scene.h"
 
@@ -32,7 +32,7 @@ static int visit(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, dou
     if (into <= 0 || (tahr__ccd_is_one_way(b) && into < TAHR__ONE_WAY_TOP * probe->motion_length)) return 0;
     hit->blocking = 1;
     hit->fraction = fraction;
-    hit->point = v_add(probe->origin, centre);
+    hit->point = tahr__ccd_world(probe, centre);
     hit->walkable_rule = b->walkable_rule;
     hit->walkable_angle = b->walkable_angle;
     hit->surface = b->surface;
@@ -55,8 +55,7 @@ tahr_status tahr__ccd_ray(void *self, tahr_query_context *context, const tahr_ra
     tahr__ccd_piece piece;
 
     *count = 0;
-    probe.motion_length = v_length(query->motion);
-    if (!tahr__ccd_probe_finite(&probe)) return TAHR_E_ARGUMENT;
+    if (tahr__ccd_probe_shape(&probe, NULL, v_make(0, 0, 1), (tahr_quat){0, 0, 0, 1}) < 0) return TAHR_E_ARGUMENT;
     tahr__ccd_walk_begin(&walk, &probe, probe.motion, 0);
     while (tahr__ccd_walk_next(&walk, &piece)) {
         tahr_hit candidate = {0};

@@ -3,8 +3,11 @@
 #ifndef TAHR_CCD_SCENE_H
 #define TAHR_CCD_SCENE_H
 
+#include "../common/body_tree.h"
+#include "../common/convex.h"
 #include "../common/core.h"
 #include "../common/fluid.h"
+#include "../common/hull_planes.h"
 #include "../common/mesh.h"
 
 #include <tahr/ccd.h>
@@ -14,28 +17,39 @@
 /* Relative: the core's projection leaves 1e-16 by rounding; motion flatter than this to a surface is parallel. */
 #define TAHR__CCD_PARALLEL 1e-12
 
+/* Between two shapes of which at least one is met by its support function: the distance is certain to 1e-12 of the
+ * character's size, and so a direction to its square root. Directions closer than this are one, and so are places. */
+#define TAHR__CCD_SAME_DIRECTION 3e-6
+#define TAHR__CCD_SAME_PLACE 1e-5
+
 typedef struct tahr__ccd_body {
     uint32_t type, flags, mask, walkable_rule, surface, id;
     double walkable_angle;
     tahr_vec3 position;
     tahr__mat turn;         /* local to world */
-    tahr_vec3 half_extents; /* boxes */
-    double radius;          /* spheres, capsules */
-    double reach;           /* capsules: half the length of the axis */
+    tahr_vec3 half_extents; /* boxes, ellipsoids; hulls: half their extents */
+    double radius;          /* spheres, capsules, cylinders, cones */
+    double reach;           /* capsules: half the length of the axis; cylinders, cones: half height */
     tahr_bounds bounds;     /* world */
     tahr__mesh mesh;
+    tahr_vec3 *vertices;      /* hulls, local */
+    tahr_vec3 middle;         /* hulls: of their extents, local */
+    tahr__hull_planes planes; /* hulls */
+    uint32_t vertex_count;
+    uint32_t reserved;
 } tahr__ccd_body;
 
 typedef struct tahr__ccd_scene {
     const tahr_host *host;
     tahr__ccd_body *bodies;
     uint32_t body_count;
-    uint32_t reserved;
+    uint32_t sweep, boolean, max_iterations; /* tahr_ccd_desc */
+    tahr__body_tree tree;
     tahr__fluids fluids;
 } tahr__ccd_scene;
 
-/* A convex piece of a body: a triangle of a mesh, or a whole box, sphere or capsule. Corners are relative to the
- * query's start, so that float-sized numbers reach libccd wherever the scene lies. */
+/* A convex piece of a body: a triangle of a mesh, or a whole body. Corners are relative to the query's start and in the
+ * query's unit, so that numbers of a usual size reach libccd wherever the scene lies and however small the shape is. */
 typedef struct tahr__ccd_piece {
     const tahr__ccd_body *body;
     tahr_vec3 corner[8];
@@ -47,11 +61,17 @@ typedef struct tahr__ccd_piece {
 /* What a query may not want to meet. */
 enum { TAHR__CCD_SOLIDS = 1, TAHR__CCD_SENSORS = 2 };
 
-/* One query: the shape, where it starts, where it goes. */
+/* One query: the shape, where it starts, where it goes. All lengths but origin are in the query's unit. */
 typedef struct tahr__ccd_probe {
     const tahr__ccd_scene *scene;
     tahr_query_context *context;
-    tahr__core core;
+    double unit;        /* of them in a metre: 1, or a power of two that makes the shape about 1 in size */
+    tahr__core core;    /* spheres, capsules, boxes */
+    tahr__convex shape; /* all: without the radius, around the start */
+    tahr__mat turn;     /* of its frame */
+    const tahr__ccd_body *hull; /* hulls: who lends the vertices; else NULL */
+    int is_core;        /* 1: core says it all */
+    double size;        /* half the longest extent of the shape */
     double radius, margin;
     tahr_vec3 origin, motion;
     double motion_length;
@@ -80,8 +100,9 @@ tahr_status tahr__ccd_scene_place(tahr__ccd_scene *scene, const tahr_body_pose *
 /* walk.c: every piece that may be within reach of a box around the start, in a fixed order. */
 typedef struct tahr__ccd_walk {
     const tahr__ccd_probe *probe;
-    tahr_bounds box; /* relative to the start */
-    tahr__bvh_walk tree;
+    tahr_bounds box; /* m, relative to the start */
+    tahr__body_walk bodies;
+    tahr__bvh_walk tree; /* of a mesh */
     uint32_t body, inside, first, count;
 } tahr__ccd_walk;
 
@@ -90,11 +111,29 @@ int tahr__ccd_walk_next(tahr__ccd_walk *walk, tahr__ccd_piece *piece);
 void tahr__ccd_triangle(const tahr__ccd_probe *probe, const tahr__ccd_body *body, uint32_t triangle,
                         tahr__ccd_piece *piece);
 
-/* measure.c: everything that core distance decides. */
+/* piece.c */
+static inline int tahr__ccd_is_round(const tahr__ccd_piece *piece)
+{
+    return piece->body->type == TAHR_BODY_SPHERE || piece->body->type == TAHR_BODY_CAPSULE;
+}
+/* Is it a cylinder, cone, ellipsoid or hull, for which there is no core distance? */
+static inline int tahr__ccd_is_convex(const tahr__ccd_piece *piece)
+{
+    return piece->body->type > TAHR_BODY_CAPSULE;
+}
+void tahr__ccd_whole_body(const tahr__ccd_probe *probe, const tahr__ccd_body *body, tahr__ccd_piece *piece);
+/* The piece by its support function, without its radius. */
+void tahr__ccd_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr__convex *convex);
+/* The winding's normal of a triangle. */
+tahr_vec3 tahr__ccd_triangle_normal(const tahr_vec3 v[3]);
+
+/* measure.c: everything that the distance decides. */
 void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
                        tahr__ccd_near *near);
 /* Can it be felt from here at all? One-sided triangles are not there for what is behind them. */
 int tahr__ccd_in_front(const tahr__ccd_piece *piece, const tahr__ccd_near *near);
+
+/* surface.c */
 /* The face along direction among those at the nearest point; the contact normal becomes the face's if it is that up to
  * rounding. Returns 0 if a neighbour at a shared edge or corner is nearer: an internal edge, not to be felt. */
 int tahr__ccd_face(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 direction,
@@ -131,8 +170,13 @@ tahr_status tahr__ccd_contacts(void *self, tahr_query_context *context, const ta
 tahr_status tahr__ccd_ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit,
                           uint32_t *count);
 
-/* probe.c: from queries to probes. Returns 0 if something is not finite: libccd crashes on that. */
-int tahr__ccd_probe_shape(tahr__ccd_probe *probe, const tahr_shape *shape, tahr_vec3 up, tahr_quat orientation);
-int tahr__ccd_probe_finite(const tahr__ccd_probe *probe);
+/* probe.c: from queries to probes: probe comes with its lengths in metres, shape NULL is a point. TAHR_OK;
+ * TAHR_E_ARGUMENT if something is not finite or beyond 1e8 m: libccd crashes on that; TAHR_E_UNSUPPORTED. */
+tahr_status tahr__ccd_probe_shape(tahr__ccd_probe *probe, const tahr_shape *shape, tahr_vec3 up, tahr_quat orientation);
+/* A place of the query in the world. */
+static inline tahr_vec3 tahr__ccd_world(const tahr__ccd_probe *probe, tahr_vec3 p)
+{
+    return v_add(probe->origin, v_scale(p, 1 / probe->unit));
+}
 
 #endif

@@ -120,11 +120,11 @@ static void report(search *s, const tahr__ccd_piece *piece, tahr__ccd_near *near
     hit.blocking = !hit.sensor;
     hit.unknown = unknown != 0;
     hit.fraction = fraction;
-    hit.distance = near->distance;
+    hit.distance = near->distance / p->unit;
     hit.start_overlap = fraction == 0 && near->distance < 0;
-    hit.depth = hit.start_overlap ? -near->distance : 0;
+    hit.depth = hit.start_overlap ? -hit.distance : 0;
     hit.normal = near->normal;
-    hit.point = v_add(p->origin, near->point);
+    hit.point = tahr__ccd_world(p, near->point);
     hit.walkable_rule = b->walkable_rule;
     hit.walkable_angle = b->walkable_angle;
     hit.surface = b->surface;
@@ -222,14 +222,14 @@ tahr_status tahr__ccd_sweep(void *self, tahr_query_context *context, const tahr_
                                            : capacity == 1                   ? TAHR__CCD_SENSORS
                                                                              : 0u};
     search s;
+    tahr_status status;
     int lost = 0;
 
     *count = 0;
     probe.up = query->up;
     probe.flags = query->flags;
-    probe.motion_length = v_length(query->motion);
-    if (!tahr__ccd_probe_shape(&probe, &query->shape, query->up, query->orientation)) return TAHR_E_UNSUPPORTED;
-    if (!tahr__ccd_probe_finite(&probe)) return TAHR_E_ARGUMENT;
+    status = tahr__ccd_probe_shape(&probe, &query->shape, query->up, query->orientation);
+    if (status < 0) return status;
     run(&s, &probe);
     if (s.edged && s.sinks) { /* which edges of one-way bodies hold was not known before all had been asked */
         probe.sinks = 1;

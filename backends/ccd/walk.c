@@ -1,55 +1,44 @@
 /* SPDX-License-Identifier: MIT
- * walk.c: the pieces that may be within reach of a query: bodies in order of their ids, meshes through their trees. */
+ * walk.c: the pieces that may be within reach of a query: bodies through the tree of their bounds, meshes through their
+ * own. */
 #include "scene.h"
 
 /* Boxes grow by this (m): far more than the rounding of coordinates at 1e7 m, far less than anything it would cost. */
 #define SLACK 1e-5
 
-static tahr_vec3 to_start(const tahr__ccd_probe *probe, const tahr__ccd_body *body, tahr_vec3 local)
+/* Half the extent of the shape along each axis, and a little more where it is not the same both ways. */
+static tahr_vec3 half_extent(const tahr__ccd_probe *probe)
 {
-    return v_add(v_sub(body->position, probe->origin), m_apply(&body->turn, local));
-}
+    tahr_vec3 half = v_make(0, 0, 0);
 
-void tahr__ccd_triangle(const tahr__ccd_probe *probe, const tahr__ccd_body *body, uint32_t triangle,
-                        tahr__ccd_piece *piece)
-{
-    const tahr__triangle *t = &body->mesh.triangles[triangle];
-
-    piece->body = body;
-    piece->corner_count = 3;
-    piece->triangle = triangle;
-    piece->radius = 0;
-    for (int i = 0; i < 3; i++)
-        piece->corner[i] = to_start(probe, body, body->mesh.vertices[t->vertex[i]]);
-}
-
-static void whole_body(const tahr__ccd_probe *probe, const tahr__ccd_body *body, tahr__ccd_piece *piece)
-{
-    tahr_vec3 h = body->half_extents;
-
-    piece->body = body;
-    piece->triangle = 0;
-    piece->radius = body->type == TAHR_BODY_BOX ? 0 : body->radius;
-    piece->corner_count = body->type == TAHR_BODY_BOX ? 8 : 3;
-    for (int i = 0; i < piece->corner_count; i++) {
-        tahr_vec3 p = v_make(i & 1 ? h.x : -h.x, i & 2 ? h.y : -h.y, i & 4 ? h.z : -h.z);
-        /* Round bodies are triangles that shrank to a segment or a point. */
-        if (piece->corner_count == 3) p = v_make(0, 0, i == 0 ? -body->reach : body->reach);
-        piece->corner[i] = to_start(probe, body, p);
+    if (probe->is_core) {
+        for (int i = 0; i < probe->core.axis_count; i++)
+            half = v_add(half, v_abs(probe->core.axis[i]));
+        return half;
     }
+    for (int i = 0; i < 3; i++) {
+        tahr_vec3 n = v_make(i == 0, i == 1, i == 2);
+        double most = d_max(tahr__convex_extent(&probe->shape, n), tahr__convex_extent(&probe->shape, v_scale(n, -1)));
+        half = v_mad(half, n, most);
+    }
+    return half;
 }
 
 void tahr__ccd_walk_begin(tahr__ccd_walk *walk, const tahr__ccd_probe *probe, tahr_vec3 motion, double reach)
 {
-    tahr_vec3 half = v_make(reach + SLACK, reach + SLACK, reach + SLACK), zero = v_make(0, 0, 0);
+    tahr_vec3 half = v_add(half_extent(probe), v_make(reach, reach, reach)), zero = v_make(0, 0, 0);
+    double metres = 1 / probe->unit;
+    tahr_bounds world;
 
-    for (int i = 0; i < probe->core.axis_count; i++)
-        half = v_add(half, v_abs(probe->core.axis[i]));
+    half = v_add(v_scale(half, metres), v_make(SLACK, SLACK, SLACK));
+    motion = v_scale(motion, metres);
     walk->probe = probe;
     walk->box.min = v_sub(v_min(zero, motion), half);
     walk->box.max = v_add(v_max(zero, motion), half);
-    walk->body = 0;
     walk->inside = walk->first = walk->count = 0;
+    world.min = v_add(walk->box.min, probe->origin);
+    world.max = v_add(walk->box.max, probe->origin);
+    tahr__body_walk_begin(&walk->bodies, &probe->scene->tree, &world, probe->origin);
 }
 
 static int overlap(const tahr_bounds *a, const tahr_bounds *b)
@@ -62,7 +51,8 @@ static int passes(const tahr__ccd_walk *walk, const tahr__ccd_body *body)
 {
     tahr_bounds world = {v_add(walk->box.min, walk->probe->origin), v_add(walk->box.max, walk->probe->origin)};
     uint32_t kind = body->flags & TAHR_BODY_SENSOR ? TAHR__CCD_SENSORS : TAHR__CCD_SOLIDS;
-    return walk->probe->leaves_out != kind && (body->mask & walk->probe->mask) != 0 &&
+    return !(body->flags & TAHR_BODY_TEMPLATE) && walk->probe->leaves_out != kind &&
+           (body->mask & walk->probe->mask) != 0 &&
            (body->id == walk->probe->ignore_body) == walk->probe->only_body && overlap(&world, &body->bounds);
 }
 
@@ -87,26 +77,23 @@ static void enter_mesh(tahr__ccd_walk *walk, const tahr__ccd_body *body)
 
 int tahr__ccd_walk_next(tahr__ccd_walk *walk, tahr__ccd_piece *piece)
 {
-    const tahr__ccd_scene *scene = walk->probe->scene;
+    const tahr__ccd_body *bodies = walk->probe->scene->bodies;
 
     for (;;) {
         if (walk->inside && walk->count > 0) {
             walk->count--;
-            tahr__ccd_triangle(walk->probe, &scene->bodies[walk->body], walk->first++, piece);
+            tahr__ccd_triangle(walk->probe, &bodies[walk->body], walk->first++, piece);
             return 1;
         }
         if (walk->inside && tahr__bvh_walk_next(&walk->tree, &walk->first, &walk->count)) continue;
-        if (walk->inside) {
-            walk->inside = 0;
-            walk->body++;
-        }
-        while (walk->body < scene->body_count && !passes(walk, &scene->bodies[walk->body]))
-            walk->body++;
-        if (walk->body >= scene->body_count) return 0;
-        if (scene->bodies[walk->body].type != TAHR_BODY_MESH) {
-            whole_body(walk->probe, &scene->bodies[walk->body++], piece);
+        walk->inside = 0;
+        do {
+            if (!tahr__body_walk_next(&walk->bodies, &walk->body)) return 0;
+        } while (!passes(walk, &bodies[walk->body]));
+        if (bodies[walk->body].type != TAHR_BODY_MESH) {
+            tahr__ccd_whole_body(walk->probe, &bodies[walk->body], piece);
             return 1;
         }
-        enter_mesh(walk, &scene->bodies[walk->body]);
+        enter_mesh(walk, &bodies[walk->body]);
     }
 }
