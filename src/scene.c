@@ -39,7 +39,11 @@ static const char *bad_field(const tahr_body_desc *b)
     }
     bad = bad ? bad : bad_count(b->rows, 2, 65536, "rows");
     bad = bad || is_size(b->half_extents.x) ? bad : "half_extents.x";
-    return bad || is_size(b->half_extents.y) ? bad : "half_extents.y";
+    bad = bad || is_size(b->half_extents.y) ? bad : "half_extents.y";
+    for (size_t i = 0; !bad && i < (size_t)b->columns * b->rows; i++) {
+        bad = fabs(b->heights[i]) > FARTHEST ? "heights" : NULL; /* of a hole, NaN, it is not */
+    }
+    return bad;
 }
 
 static const char *bad_size(const tahr_body_desc *b)

@@ -348,7 +348,8 @@ tahr_status tahr_world_touch(tahr_world *world)
     }
     tahr__move_revision(world, 1);
     world->last_revision = 0;
-    return TAHR_OK;
+    /* A backend may have caches of geometry that is not described. */
+    return world->backend->place ? world->backend->place(world->self, NULL, 0) : TAHR_OK;
 }
 
 uint64_t tahr_world_revision(const tahr_world *world)

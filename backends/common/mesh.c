@@ -7,11 +7,6 @@
 
 /* Beyond this a double has no nanometres left, and products of coordinates in the narrow phase lose micrometres. */
 #define COORDINATE_LIMIT 1e7
-/* Height over longest edge: below the first a triangle has no usable normal; below the second (an aspect of 1e4) its
- * normal is not trusted to rule a contact out early. */
-#define NO_AREA 1e-10
-#define THIN 1e-4
-
 /* Keeps every table below 2^31 entries. */
 #define MAX_TRIANGLES (1u << 28)
 #define MAX_VERTICES (3u << 28)
@@ -119,16 +114,7 @@ static tahr_status weld(const tahr_host *host, const tahr__mesh_source *s, uint3
 static tahr_vec3 source_vertex(const tahr__mesh_source *s, uint32_t i)
 {
     const double *v = s->vertices + 3 * (size_t)i;
-    return v_make(v[0], v[1], v[2]);
-}
-
-/* Height over longest edge, 0 for no area at all. */
-static double slimness(const tahr__mesh_source *s, const uint32_t v[3])
-{
-    tahr_vec3 a = source_vertex(s, v[0]), b = source_vertex(s, v[1]), c = source_vertex(s, v[2]);
-    tahr_vec3 ab = v_sub(b, a), bc = v_sub(c, b), ca = v_sub(a, c);
-    double longest2 = d_max(v_dot(ab, ab), d_max(v_dot(bc, bc), v_dot(ca, ca)));
-    return longest2 > 0 ? v_length(v_cross(ab, ca)) / longest2 : 0;
+    return v_make(v[0] + 0.0, v[1] + 0.0, v[2] + 0.0); /* one zero, whichever of the welded ones is taken */
 }
 
 /* The triangle's corners turned so that the smallest comes first: equal for equal triangles of the same winding. */
@@ -149,8 +135,9 @@ static tahr_status clean(const tahr_host *host, const tahr__mesh_source *s, cons
     for (uint32_t i = 0; i < s->triangle_count; i++) {
         const uint32_t *index = s->indices + 3 * (size_t)i;
         uint32_t raw[3] = {remap[index[0]], remap[index[1]], remap[index[2]]}, v[3];
-        double slim = slimness(s, raw);
-        if (!(slim > NO_AREA)) continue;
+        double slim =
+            tahr__slimness(source_vertex(s, raw[0]), source_vertex(s, raw[1]), source_vertex(s, raw[2]));
+        if (!(slim > TAHR__NO_AREA)) continue;
         canonical(raw, v);
         uint32_t slot = mix(((uint64_t)v[0] << 32 | v[1]) * 0x9e3779b97f4a7c15ULL + v[2]) & (size - 1);
         while (table[slot] != NONE) {
@@ -162,7 +149,7 @@ static tahr_status clean(const tahr_host *host, const tahr__mesh_source *s, cons
         if (table[slot] != NONE) continue;
         table[slot] = kept;
         memcpy(triangles[kept].vertex, raw, sizeof raw);
-        triangles[kept].source = i | (slim < THIN ? TAHR__MESH_THIN : 0);
+        triangles[kept].source = i | (slim < TAHR__THIN ? TAHR__MESH_THIN : 0);
         kept++;
     }
     put(host, table, size, sizeof *table);

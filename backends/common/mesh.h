@@ -10,6 +10,11 @@
 
 #include "bvh.h"
 
+/* Height over longest edge: below the first a triangle has no usable normal; below the second (an aspect of 1e4) its
+ * normal is not trusted to rule a contact out early. */
+#define TAHR__NO_AREA 1e-10
+#define TAHR__THIN 1e-4
+
 /* Bit of tahr__triangle.source: a sliver, its normal decides nothing early. */
 #define TAHR__MESH_THIN 0x80000000u
 
@@ -47,6 +52,14 @@ void tahr__mesh_free(const tahr_host *host, tahr__mesh *mesh);
 static inline uint32_t tahr__triangle_source(const tahr__triangle *t)
 {
     return t->source & ~TAHR__MESH_THIN;
+}
+
+/* Height over longest edge, 0 for no area at all. */
+static inline double tahr__slimness(tahr_vec3 a, tahr_vec3 b, tahr_vec3 c)
+{
+    tahr_vec3 ab = v_sub(b, a), bc = v_sub(c, b), ca = v_sub(a, c);
+    double longest2 = d_max(v_dot(ab, ab), d_max(v_dot(bc, bc), v_dot(ca, ca)));
+    return longest2 > 0 ? v_length(v_cross(ab, ca)) / longest2 : 0;
 }
 
 /* Logs an error: "body 3: <text>". */

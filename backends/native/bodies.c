@@ -34,10 +34,15 @@ static tahr_status refuse(const tahr__native *world, uint32_t body, const char *
     return TAHR_E_ARGUMENT;
 }
 
+static int is_left_out(uint32_t type)
+{
+    return type == TAHR_BODY_CYLINDER || type == TAHR_BODY_CONE || type == TAHR_BODY_ELLIPSOID;
+}
+
 static tahr_status check(const tahr__native *world, uint32_t id, const tahr_body_desc *d)
 {
     const tahr_vec3 *h = &d->half_extents;
-    if (d->type < TAHR_BODY_MESH || d->type > TAHR_BODY_CAPSULE) return refuse(world, id, "type", d->type);
+    if (d->type < TAHR_BODY_MESH || d->type > TAHR_BODY_HEIGHTS || is_left_out(d->type)) return refuse(world, id, "type", d->type);
     if (d->flags >= TAHR_BODY_ONE_WAY << 1) return refuse(world, id, "flags", d->flags);
     if (d->walkable_rule > TAHR_WALKABLE_NEVER) return refuse(world, id, "walkable_rule", d->walkable_rule);
     const char *bad = bad_pose(&d->pose);
@@ -49,7 +54,7 @@ static tahr_status check(const tahr__native *world, uint32_t id, const tahr_body
         if (!(h->x > 0 && in_range(h->x))) return refuse(world, id, "half_extents.x", h->x);
         if (!(h->y > 0 && in_range(h->y))) return refuse(world, id, "half_extents.y", h->y);
         if (!(h->z > 0 && in_range(h->z))) return refuse(world, id, "half_extents.z", h->z);
-    } else if (d->type != TAHR_BODY_MESH) {
+    } else if (d->type == TAHR_BODY_SPHERE || d->type == TAHR_BODY_CAPSULE) {
         if (!(d->radius > 0 && in_range(d->radius))) return refuse(world, id, "radius", d->radius);
         if (d->type == TAHR_BODY_CAPSULE && !(d->half_height >= d->radius && in_range(d->half_height))) {
             return refuse(world, id, "half_height (at least the radius)", d->half_height);
@@ -85,7 +90,7 @@ static void put_pose(tahr__body *body, const tahr_pose *pose)
     tahr__mat one = m_identity();
     body->turned = memcmp(&body->turn, &one, sizeof one) != 0;
     tahr_vec3 half = v_make(body->radius, body->radius, body->radius), middle = v_make(0, 0, 0);
-    if (body->type == TAHR_BODY_MESH || body->type == TAHR_BODY_BOX) {
+    if (body->type != TAHR_BODY_SPHERE && body->type != TAHR_BODY_CAPSULE) {
         half = v_scale(v_sub(body->mesh.bounds.max, body->mesh.bounds.min), 0.5);
         middle = v_add(body->mesh.bounds.min, half);
     } else {
@@ -119,6 +124,11 @@ static tahr_status open_body(tahr__native *world, uint32_t id, const tahr_body_d
     } else if (d->type == TAHR_BODY_BOX) {
         body->half_extents = d->half_extents;
         status = build_box(world, id, d->half_extents, &body->mesh);
+    } else if (d->type == TAHR_BODY_HULL) {
+        status = tahr__hull_build(world->host, d, id, &body->mesh);
+        body->half_extents = v_scale(v_sub(body->mesh.bounds.max, body->mesh.bounds.min), 0.5);
+    } else if (d->type == TAHR_BODY_HEIGHTS) {
+        status = tahr__heights_open(world->host, d, id, &body->heights, &body->mesh.bounds);
     } else {
         body->radius = d->radius;
         body->reach = d->type == TAHR_BODY_CAPSULE ? d->half_height - d->radius : 0;
@@ -183,8 +193,10 @@ tahr_status tahr__bodies_open(tahr__native *world, const tahr_world_desc *desc)
 void tahr__bodies_close(tahr__native *world)
 {
     const tahr_allocator *a = &world->host->allocator;
-    for (uint32_t i = 0; i < world->body_count; i++)
+    for (uint32_t i = 0; i < world->body_count; i++) {
         tahr__mesh_free(world->host, &world->bodies[i].mesh);
+        tahr__heights_close(world->host, &world->bodies[i].heights);
+    }
     close_group(world, &world->fixed);
     close_group(world, &world->movable);
     tahr__fluids_close(&world->fluids, world->host);
@@ -210,6 +222,7 @@ tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses,
         put_pose(&world->bodies[poses[i].body], &poses[i].pose);
     tahr__fluids_place(&world->fluids, poses, count);
     tahr__group *group = &world->movable;
+    world->revision += count == 0; /* tahr_world_touch */
     if (count == 0 || group->count == 0) return TAHR_OK;
     for (uint32_t i = 0; i < group->count; i++) {
         group->boxes[i] = tahr__bvh_box_make(&world->bodies[group->order[i]].bounds, group->tree.centre);

@@ -44,9 +44,9 @@ static void visit(tahr__search *search, const tahr__prim *prim)
     if (tahr__probe_touch(query, prim, s->margin, &f)) keep(s, &f);
 }
 
-static int same_place(const tahr__native *world, const tahr__found *a, const tahr__found *b)
+static int same_place(const tahr__found *a, const tahr__found *b)
 {
-    uint32_t sensor = (world->bodies[a->body].flags ^ world->bodies[b->body].flags) & TAHR_BODY_SENSOR;
+    uint32_t sensor = (a->kind ^ b->kind) & TAHR__SENSOR;
     tahr_vec3 n = v_sub(a->normal, b->normal), p = v_sub(a->point, b->point);
     if (sensor || v_dot(n, n) > SAME * SAME) return 0;
     /* Of one body the same plane is enough: a face that was cut into triangles is one surface. */
@@ -62,7 +62,7 @@ static void merge(contacts_state *s)
         int twin = 0;
         for (uint32_t k = kept; k-- > 0 && !twin && f.gap - s->records[k].gap <= SAME;) {
             tahr__found *old = &s->records[k];
-            if (!same_place(s->search.query->world, &f, old)) continue;
+            if (!same_place(&f, old)) continue;
             twin = 1;
             if (f.body < old->body || (f.body == old->body && f.feature < old->feature)) *old = f;
         }
@@ -73,18 +73,17 @@ static void merge(contacts_state *s)
 
 static void fill(const tahr__query *query, const tahr__found *f, tahr_contact *c)
 {
-    const tahr__body *body = &query->world->bodies[f->body];
     memset(c, 0, sizeof *c);
     c->distance = f->gap;
     c->normal = tahr__frame_to_world(query->frame, f->normal);
     c->surface_normal = tahr__frame_to_world(query->frame, f->face);
     c->point = v_add(query->frame->origin, tahr__frame_to_world(query->frame, f->point));
-    c->walkable_angle = body->walkable_angle;
-    c->walkable_rule = body->walkable_rule;
-    c->surface = body->surface;
+    c->walkable_angle = f->walkable_angle;
+    c->walkable_rule = f->walkable_rule;
+    c->surface = f->surface;
     c->body = f->body;
     c->feature = f->feature;
-    c->sensor = (body->flags & TAHR_BODY_SENSOR) != 0;
+    c->sensor = (f->kind & TAHR__SENSOR) != 0;
 }
 
 tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const tahr_contact_query *contact_query,
@@ -92,6 +91,7 @@ tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const
 {
     tahr__query query;
     contacts_state s;
+    tahr_status failed = TAHR_OK;
     tahr__query_begin(&query, self, context, contact_query->position, contact_query->up);
     tahr__query_shape(&query, &contact_query->shape, contact_query->orientation);
     /* A little more, so that the cull by planes keeps what is at the margin exactly. */
@@ -107,7 +107,9 @@ tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const
     s.margin = contact_query->margin;
     s.count = s.lost = 0;
     s.drop = contact_query->flags & TAHR_CONTACTS_DROP;
+    query.failed = &failed;
     tahr__search_run(&s.search);
+    if (failed < 0) return failed;
     merge(&s);
     uint32_t n = s.count < capacity ? s.count : capacity;
     for (uint32_t i = 0; i < n; i++)

@@ -44,6 +44,17 @@ tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body)
     return map;
 }
 
+tahr__map tahr__map_fixed(const tahr__frame *frame)
+{
+    tahr__map map;
+    map.offset = v_sub(v_make(0, 0, 0), frame->origin);
+    map.turned = frame->turned;
+    map.round = frame->round;
+    map.turn = frame->turn;
+    if (frame->turned) map.offset = m_apply(&frame->turn, map.offset);
+    return map;
+}
+
 /* Per vertex, so that triangles that share one still share it after rounding. */
 tahr_vec3 tahr__map_point(const tahr__map *map, tahr_vec3 v)
 {
@@ -107,8 +118,11 @@ void tahr__prim_begin(const tahr__body *body, uint32_t id, tahr__prim *prim)
     prim->kind = (body->flags & TAHR_BODY_TWO_SIDED ? TAHR__TWO_SIDED : 0u) |
                  (body->flags & TAHR_BODY_SENSOR ? TAHR__SENSOR : 0u) |
                  ((body->flags & (TAHR_BODY_ONE_WAY | TAHR_BODY_SENSOR)) == TAHR_BODY_ONE_WAY ? TAHR__ONE_WAY : 0u) |
-                 (body->type == TAHR_BODY_BOX ? TAHR__OF_BOX : 0u);
+                 (body->type == TAHR_BODY_BOX || body->type == TAHR_BODY_HULL ? TAHR__OF_BOX : 0u);
     prim->mask = body->mask;
+    prim->surface = body->surface;
+    prim->walkable_rule = body->walkable_rule;
+    prim->walkable_angle = body->walkable_angle;
     memset(prim->reserved, 0, sizeof prim->reserved);
 }
 
@@ -136,9 +150,26 @@ void tahr__prim_round(const tahr__map *map, const tahr__body *body, tahr__prim *
     prim->kind |= TAHR__PLANELESS;
 }
 
-void tahr__prim_solid(const tahr__map *map, tahr__prim *prim)
+void tahr__prim_heights(const tahr__map *map, const tahr__body *body, uint32_t triangle, const tahr_vec3 v[3],
+                        tahr__prim *prim)
 {
-    prim->facet.v[0] = prim->facet.v[1] = prim->facet.v[2] = map->offset;
+    tahr_vec3 n = tahr__heights_normal(v);
+    uint32_t thin = body->heights.may_be_thin && tahr__slimness(v[0], v[1], v[2]) < TAHR__THIN;
+    for (int i = 0; i < 3; i++)
+        prim->facet.v[i] = tahr__map_point(map, v[i]);
+    tahr__facet_finish(&prim->facet);
+    prim->face = map->turned ? m_apply(&map->turn, n) : n;
+    prim->item = prim->feature = triangle;
+    prim->kind = (prim->kind & ~(uint32_t)TAHR__PLANELESS) | (thin ? TAHR__PLANELESS : 0u);
+}
+
+void tahr__prim_solid(const tahr__map *map, const tahr__body *body, tahr__prim *prim)
+{
+    tahr_vec3 middle = map->offset;
+    if (body->type == TAHR_BODY_HULL) {
+        middle = tahr__map_point(map, v_scale(v_add(body->mesh.bounds.min, body->mesh.bounds.max), 0.5));
+    }
+    prim->facet.v[0] = prim->facet.v[1] = prim->facet.v[2] = middle;
     tahr__facet_finish(&prim->facet);
     prim->face = v_make(0, 0, 0);
     prim->item = TAHR__ITEM_SOLID;

@@ -20,9 +20,29 @@ static size_t lanes_bytes(const tahr__native *world)
     return whole_lines(world->capacity * TAHR__LANE_ROWS * sizeof(float));
 }
 
+static uint32_t buckets_of(const tahr__native *world)
+{
+    uint32_t size = 16;
+    while (size < 3 * world->capacity)
+        size += size;
+    return size;
+}
+
+static size_t corners_bytes(const tahr__native *world)
+{
+    size_t exact = 3 * (size_t)world->capacity * sizeof(tahr_vec3), next = 3 * (size_t)world->capacity * 4;
+    return world->gather ? exact + next + (size_t)buckets_of(world) * 4 : 0;
+}
+
+static size_t prims_bytes(const tahr__native *world)
+{
+    return world->capacity * sizeof(tahr__prim);
+}
+
 size_t tahr__cache_bytes(const tahr__native *world)
 {
-    return header_bytes() + (world->no_cache ? 0 : lanes_bytes(world) + world->capacity * sizeof(tahr__prim));
+    return header_bytes() +
+           (world->no_cache ? 0 : lanes_bytes(world) + prims_bytes(world) + whole_lines(corners_bytes(world)));
 }
 
 static float *blocks_of(tahr__cache *cache)
@@ -33,6 +53,30 @@ static float *blocks_of(tahr__cache *cache)
 static tahr__prim *prims_of(const tahr__native *world, tahr__cache *cache)
 {
     return (tahr__prim *)(void *)((unsigned char *)cache + header_bytes() + lanes_bytes(world));
+}
+
+const tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cache)
+{
+    return prims_of(world, cache);
+}
+
+tahr__corners tahr__cache_corners(const tahr__native *world, tahr__cache *cache)
+{
+    tahr__corners c;
+    c.buckets = buckets_of(world);
+    c.exact = (tahr_vec3 *)(void *)((unsigned char *)prims_of(world, cache) + prims_bytes(world));
+    c.next = (uint32_t *)(void *)(c.exact + 3 * (size_t)world->capacity);
+    c.first = c.next + 3 * (size_t)world->capacity;
+    return c;
+}
+
+uint32_t tahr__corner_bucket(const tahr__corners *corners, tahr_vec3 corner)
+{
+    uint64_t bits[3], h = 0;
+    memcpy(bits, &corner, sizeof bits);
+    for (int i = 0; i < 3; i++)
+        h = (h ^ bits[i]) * 0x9e3779b97f4a7c15ULL;
+    return (uint32_t)(h >> 32) & (corners->buckets - 1);
 }
 
 typedef struct gather {
@@ -61,6 +105,33 @@ static void store(tahr__search *search, const tahr__prim *prim)
     g->cache->count = n + 1;
 }
 
+/* The same of a triangle of the user's, with its corners and where they are found. */
+static void store_loose(tahr__search *search, const tahr__loose *loose)
+{
+    gather *g = (gather *)search;
+    const tahr__native *world = search->query->world;
+    uint32_t n = g->cache->count;
+    store(search, &loose->prim);
+    if (g->cache->overflow) return;
+    tahr__corners c = tahr__cache_corners(world, g->cache);
+    g->prims[n].item = TAHR__ITEM_LOOSE | n;
+    g->prims[n].kind &= ~(uint32_t)TAHR__FRESH;
+    for (uint32_t i = 3 * n; i < 3 * n + 3; i++) {
+        c.exact[i] = loose->corner[i % 3];
+        uint32_t *first = &c.first[tahr__corner_bucket(&c, c.exact[i])];
+        c.next[i] = *first;
+        *first = i;
+    }
+}
+
+static void gather_loose(const tahr__native *world, gather *g)
+{
+    tahr__corners c = tahr__cache_corners(world, g->cache);
+    memset(c.first, 0xff, c.buckets * sizeof c.first[0]);
+    /* What goes wrong here the query that needs it says. */
+    if (!g->cache->overflow && !tahr__source_fill(&g->search, store_loose)) g->cache->overflow = 1;
+}
+
 /* Without branches: which side is out is different every time. */
 static int inside(const tahr_bounds *a, const tahr_bounds *b)
 {
@@ -73,7 +144,9 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     tahr__cache *cache = context->cache;
     tahr__query query;
     gather g;
+    tahr_status failed = TAHR_OK;
     memset(&query, 0, sizeof query);
+    query.failed = &failed;
     query.world = world;
     query.context = context;
     query.frame = &cache->frame;
@@ -99,6 +172,8 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     g.prims = prims_of(world, cache);
     g.cache = cache;
     tahr__tree_search(&g.search, &world->fixed);
+    if (world->gather) gather_loose(world, &g);
+    cache->revision = world->revision;
     tahr__lanes_end(g.blocks, cache->count);
     context->gathers++;
 }
@@ -111,7 +186,8 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     if (!keep) cache->frame = tahr__frame_make(world, p->position, p->up);
     cache->announced = 1;
     if (world->no_cache) return TAHR_OK;
-    if (keep && cache->gathered && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds)) return TAHR_OK;
+    keep = keep && cache->gathered && cache->revision == world->revision;
+    if (keep && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds)) return TAHR_OK;
     gather_now(world, context, p);
     return TAHR_OK;
 }
@@ -170,12 +246,20 @@ int tahr__cache_holds(const tahr__search *s)
     const tahr__query *query = s->query;
     const tahr__cache *cache = query->cache;
     if (!cache || !cache->gathered || cache->overflow || (query->mask & ~cache->mask)) return 0;
+    if (cache->revision != query->world->revision) return 0;
     double reach = s->reach + 10 * TAHR__SLACK;
     tahr_vec3 grow = v_make(reach, reach, reach);
     tahr_bounds box = {v_sub(s->box.min, grow), v_add(s->box.max, grow)};
     if (inside(&box, &cache->local)) return 1;
     query->context->escapes++;
     return 0;
+}
+
+void tahr__search_fixed(tahr__search *s)
+{
+    const tahr__native *world = s->query->world;
+    tahr__tree_search(s, &world->fixed);
+    if (world->gather) tahr__source_search(s);
 }
 
 void tahr__search_run(tahr__search *s)
@@ -188,7 +272,7 @@ void tahr__search_run(tahr__search *s)
         for (uint32_t i = 0; i < count; i++)
             s->visit(s, &prims[found[i].index]);
     } else {
-        tahr__tree_search(s, &world->fixed);
+        tahr__search_fixed(s);
     }
     if (world->movable.count) tahr__tree_search(s, &world->movable);
 }

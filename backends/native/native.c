@@ -47,6 +47,8 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
         ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
     world->no_cache = d.no_cache;
     world->cull = d.no_simd ? tahr__lanes_cull_1 : tahr__lanes_best();
+    world->gather = d.gather;
+    world->gather_user = d.gather_user;
     world->cache_margin = d.cache_margin > 0 ? d.cache_margin : MARGIN_DEFAULT;
     return TAHR_OK;
 }
@@ -107,8 +109,8 @@ const tahr_backend *tahr_backend_v1_native(void)
         .abi_major = TAHR_ABI_MAJOR,
         .abi_minor = TAHR_ABI_MINOR,
         .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
-                        TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_SENSORS | TAHR_CAP_ONE_WAY |
-                        TAHR_CAP_BIT_IDENTICAL,
+                        TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_HULLS | TAHR_CAP_HEIGHTS |
+                        TAHR_CAP_SENSORS | TAHR_CAP_ONE_WAY | TAHR_CAP_BIT_IDENTICAL,
         .name = "native",
         .version = "0.1.0",
         .open = native_open,

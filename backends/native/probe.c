@@ -48,12 +48,16 @@ static int outside_a_face(const tahr__core *core, const tahr__core *solid, tahr_
     return 0;
 }
 
-/* The way out of a box that the core has entered, along one of its faces or across a pair of edges. */
-static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__probe *out)
+/* How far and which way out of a hull or box; negative: not inside. */
+static double leave_hull(const tahr__query *query, const tahr__body *body, tahr_vec3 centre, tahr_vec3 *normal)
 {
-    const tahr__body *body = &query->world->bodies[prim->body];
     tahr__map map = tahr__map_make(query->frame, body);
-    tahr_vec3 centre = query->start;
+    return tahr__hull_leave(&query->core, centre, &body->mesh, &map, normal);
+}
+
+static double leave_box(const tahr__query *query, const tahr__body *body, tahr_vec3 centre, tahr_vec3 *normal)
+{
+    tahr__map map = tahr__map_make(query->frame, body);
     tahr__core solid;
     solid.axis_count = 3;
     solid.axis[0] = v_make(body->half_extents.x, 0, 0);
@@ -61,8 +65,17 @@ static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__p
     solid.axis[2] = v_make(0, 0, body->half_extents.z);
     for (int i = 0; i < 3 && map.turned; i++)
         solid.axis[i] = m_apply(&map.turn, solid.axis[i]);
-    if (outside_a_face(&query->core, &solid, v_sub(centre, map.offset))) return 0;
-    double depth = tahr__core_leave_solid(&query->core, centre, &solid, map.offset, &out->witness.normal);
+    if (outside_a_face(&query->core, &solid, v_sub(centre, map.offset))) return -1;
+    return tahr__core_leave_solid(&query->core, centre, &solid, map.offset, normal);
+}
+
+/* The way out of a box or hull that the core has entered, along one of its faces or across a pair of edges. */
+static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__probe *out)
+{
+    const tahr__body *body = &query->world->bodies[prim->body];
+    tahr_vec3 centre = query->start;
+    double depth = body->type == TAHR_BODY_HULL ? leave_hull(query, body, centre, &out->witness.normal)
+                                                : leave_box(query, body, centre, &out->witness.normal);
     /* In the plane of a face a rounded core is overlapped by its radius, and the faces leave that to the inside. */
     if (depth < 0 || (depth == 0 && query->radius == 0)) return 0;
     tahr_vec3 n = out->witness.normal;
@@ -93,12 +106,9 @@ static double leave_round(const tahr__core *core, const tahr__prim *prim, tahr_v
 
 static unsigned sides_of(const tahr__query *query, const tahr__prim *prim)
 {
-    const tahr__body *body = &query->world->bodies[prim->body];
-    const tahr__triangle *t = &body->mesh.triangles[prim->item];
     if (!(prim->kind & TAHR__TWO_SIDED)) return 1;
     /* Past its edges only from a triangle that stands alone: beyond an edge with a neighbour lies the neighbour. */
-    int alone = t->ring[0] == prim->item && t->ring[1] == prim->item && t->ring[2] == prim->item;
-    return alone ? 7 : 3;
+    return tahr__stands_alone(query, prim) ? 7 : 3;
 }
 
 /* The distance of the core. To a triangle wholly below the lower end of an upright segment that end is the nearest, to
@@ -141,11 +151,13 @@ static int probe_start(const tahr__query *query, const tahr__prim *prim, tahr__p
     return 1;
 }
 
-/* Of a box that is left from inside: the face that the way out points through most. */
+/* Of a box or hull that is left from inside: the face that the way out points through most. */
 static uint32_t solid_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3 normal)
 {
-    tahr__map map = tahr__map_make(query->frame, &query->world->bodies[prim->body]);
+    const tahr__body *body = &query->world->bodies[prim->body];
+    tahr__map map = tahr__map_make(query->frame, body);
     tahr_vec3 n = m_unapply(&map.turn, normal), a = v_abs(n);
+    if (body->type == TAHR_BODY_HULL) return tahr__hull_face(&body->mesh, n);
     int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
     return 2 * (uint32_t)axis + (v_get(n, axis) > 0);
 }
@@ -162,6 +174,10 @@ static void found_fill(const tahr__query *query, const tahr__prim *prim, const t
     out->overlap = out->unknown = out->edge = 0;
     out->body = prim->body;
     out->item = prim->item;
+    out->kind = prim->kind;
+    out->surface = prim->surface;
+    out->walkable_rule = prim->walkable_rule;
+    out->walkable_angle = prim->walkable_angle;
     out->feature = solid ? solid_face(query, prim, normals->normal) : prim->feature;
 }
 

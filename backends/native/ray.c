@@ -68,6 +68,10 @@ static int probe_triangle(const ray_state *s, const tahr__prim *prim, tahr__foun
     f->overlap = f->unknown = f->edge = 0;
     f->body = prim->body;
     f->item = prim->item;
+    f->kind = prim->kind;
+    f->surface = prim->surface;
+    f->walkable_rule = prim->walkable_rule;
+    f->walkable_angle = prim->walkable_angle;
     f->feature = prim->feature;
     return 1;
 }
@@ -99,6 +103,7 @@ tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr
 {
     tahr__query query;
     ray_state s;
+    tahr_status failed = TAHR_OK;
     const tahr__cache *cache = context->cache;
     tahr_vec3 up = cache && cache->announced ? cache->frame.up : v_make(0, 0, 1);
     *count = 0;
@@ -115,7 +120,9 @@ tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr
     s.search.visit = visit;
     s.found = 0;
     set_axes(&s, query.motion);
+    query.failed = &failed;
     tahr__search_run(&s.search);
+    if (failed < 0) return failed;
     if (!s.found) return TAHR_OK;
     tahr__fill_hit(&query, &s.best, hit);
     hit->distance = 0;

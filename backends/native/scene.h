@@ -6,6 +6,7 @@
 #include "../common/core.h"
 #include "../common/fluid.h"
 #include "../common/mesh.h"
+#include "heights.h"
 #include "lanes.h"
 
 #include <tahr/native.h>
@@ -24,8 +25,9 @@ typedef struct tahr__body {
     double walkable_angle;
     tahr_vec3 position;
     tahr__mat turn;
-    tahr__mesh mesh;        /* meshes, and boxes as 12 triangles whose sources are the faces -x +x -y +y -z +z */
-    tahr_vec3 half_extents; /* boxes */
+    tahr__mesh mesh;        /* meshes; hulls and boxes as triangles whose sources are their faces; of heights, bounds */
+    tahr_vec3 half_extents; /* boxes; of hulls, half their local bounds */
+    tahr__heights heights;
     double radius;          /* spheres and capsules */
     double reach;           /* capsules: half the length of the axis */
     tahr_bounds bounds;     /* world */
@@ -50,6 +52,9 @@ typedef struct tahr__native {
     double cache_margin;
     tahr__group fixed, movable;
     tahr__fluids fluids;
+    tahr_gather_fn gather; /* the user's triangles, or NULL */
+    void *gather_user;
+    uint64_t revision; /* of them */
 } tahr__native;
 
 /* Where a query is computed: relative to the corner of a 4 m cell, up along +z. Everything in a frame is a pure
@@ -67,17 +72,22 @@ typedef struct tahr__map {
     uint32_t turned, round;
 } tahr__map;
 
-/* Which piece of a body a primitive is: a triangle (in leaf order), a round body, or the inside of a box. */
+/* Which piece of a body a primitive is: a triangle (in leaf order), a round body, or the inside of a box or hull; or one
+ * of the user's triangles, with its place in the cache. */
 #define TAHR__ITEM_SOLID 0x40000000u
 #define TAHR__ITEM_ROUND 0x20000000u
+#define TAHR__ITEM_LOOSE 0x10000000u
 
 /* Of tahr__prim.kind: what a query asks about the body or the triangle before it measures anything. */
 enum {
     TAHR__TWO_SIDED = 1,
     TAHR__SENSOR = 2,
     TAHR__PLANELESS = 4, /* round, solid, or so thin that the direction of its plane may be rounding */
-    TAHR__OF_BOX = 8,
-    TAHR__ONE_WAY = 16
+    TAHR__OF_BOX = 8, /* or of a hull: a solid answers for its inside */
+    TAHR__ONE_WAY = 16,
+    /* A triangle of the user's, kept in the cache (item is its index) or the head of a tahr__loose. */
+    TAHR__GATHERED = 64,
+    TAHR__FRESH = 128
 };
 
 /* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. Three lines of
@@ -88,8 +98,23 @@ typedef struct tahr__prim {
     double radius;
     uint32_t body, mask; /* mask: of the body */
     tahr_vec3 face;      /* triangles: the unit normal from exact corners, local */
-    uint32_t feature, reserved[9];
+    double walkable_angle;
+    uint32_t feature, surface, walkable_rule, reserved[5];
 } tahr__prim;
+
+/* A triangle of the user's on its way. */
+typedef struct tahr__loose {
+    tahr__prim prim;
+    tahr_vec3 corner[3]; /* exact, world */
+} tahr__loose;
+
+/* One triangle at an edge or corner, of a body without rings. */
+typedef struct tahr__near {
+    tahr_vec3 corner[3]; /* exact, of the body */
+    tahr_vec3 v[3];      /* local */
+    tahr_vec3 face;      /* local, unit */
+    uint32_t feature, two_sided;
+} tahr__near;
 
 /* One character's memory: a header and, behind it, the lanes and the primitives (gather.c). */
 typedef struct tahr__cache {
@@ -98,6 +123,7 @@ typedef struct tahr__cache {
     tahr_bounds local;  /* everything static in it has been gathered */
     uint32_t announced, gathered, overflow, mask, count;
     uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
+    uint64_t revision;  /* of the user's triangles in it */
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
 } tahr__cache;
 
@@ -119,6 +145,7 @@ typedef struct tahr__query {
     uint32_t mask, ignore_body, flags; /* flags: of a sweep; with ONLY_BODY nothing but ignore_body is searched */
     uint32_t sensors;                  /* TAHR__SENSORS_* */
     uint32_t sinks;                    /* 1: the foot has sunk into a one-way body (one_way.h) */
+    tahr_status *failed;               /* what went wrong while gathering */
 } tahr__query;
 
 /* Visits every primitive that may be within reach of box. The visitor may shrink box (and set narrowed) on the way. */
@@ -132,12 +159,16 @@ typedef struct tahr__search {
 
 /* Static bodies, from the cache if it holds all that is asked for, then movable ones. */
 void tahr__search_run(tahr__search *search);
+/* Static ones and the user's triangles, from no cache. */
+void tahr__search_fixed(tahr__search *search);
 
 /* frame.c */
 tahr__frame tahr__frame_make(const tahr__native *world, tahr_vec3 position, tahr_vec3 up);
 /* Would the same frame be made again? */
 int tahr__frame_holds(const tahr__frame *frame, tahr_vec3 position, tahr_vec3 up);
 tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body);
+/* Of what is in world coordinates. */
+tahr__map tahr__map_fixed(const tahr__frame *frame);
 tahr_vec3 tahr__map_point(const tahr__map *map, tahr_vec3 v);
 void tahr__map_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr_vec3 v[3]);
 tahr_vec3 tahr__frame_to_world(const tahr__frame *frame, tahr_vec3 direction);
@@ -147,7 +178,10 @@ tahr_bounds tahr__frame_box_to_local(const tahr__frame *frame, const tahr_bounds
 void tahr__prim_begin(const tahr__body *body, uint32_t id, tahr__prim *prim);
 void tahr__prim_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr__prim *prim);
 void tahr__prim_round(const tahr__map *map, const tahr__body *body, tahr__prim *prim);
-void tahr__prim_solid(const tahr__map *map, tahr__prim *prim);
+void tahr__prim_solid(const tahr__map *map, const tahr__body *body, tahr__prim *prim);
+/* Of a field of heights; v: its exact corners. */
+void tahr__prim_heights(const tahr__map *map, const tahr__body *body, uint32_t triangle, const tahr_vec3 v[3],
+                        tahr__prim *prim);
 tahr_bounds tahr__prim_bounds(const tahr__query *query, const tahr__prim *prim);
 
 /* bodies.c */
@@ -163,7 +197,41 @@ int tahr__cache_holds(const tahr__search *search);
  * TAHR__CACHE_MOST. */
 uint32_t tahr__cache_cull(const tahr__search *search, const tahr__prim **prims, tahr__lanes_found *found);
 size_t tahr__cache_bytes(const tahr__native *world);
+#define TAHR__NONE 0xFFFFFFFFu
+/* Exact corners of the cached triangles, three each, and who has one: the first of a bucket and the next corner, at
+ * 3 * triangle + corner; TAHR__NONE: no more. Worlds with gather only. */
+typedef struct tahr__corners {
+    tahr_vec3 *exact;
+    uint32_t *next, *first;
+    uint32_t buckets; /* a power of two */
+} tahr__corners;
+tahr__corners tahr__cache_corners(const tahr__native *world, tahr__cache *cache);
+const tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cache);
+uint32_t tahr__corner_bucket(const tahr__corners *corners, tahr_vec3 corner);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
+
+/* source.c: the triangles of the user. */
+/* Fills all but the walkable fields of a loose triangle; 0: it has no area. */
+int tahr__loose_make(const tahr__frame *frame, const tahr_triangle *t, tahr__loose *out);
+/* Hands those near the search to its visitor. */
+void tahr__source_search(tahr__search *search);
+/* The same for a cache that is being filled; take stores one. Returns 0 if something is wrong with them. */
+int tahr__source_fill(tahr__search *search, void (*take)(tahr__search *search, const tahr__loose *loose));
+/* Triangles of the body of a gathered primitive that have a corner at `corner` (exact); it itself is left out. at: a
+ * local point of the search that has found it, which all that matter contain; NULL: it may be anywhere. Of more than
+ * most those with the lowest features. */
+uint32_t tahr__source_around(const tahr__query *query, const tahr__prim *prim, tahr_vec3 corner, const tahr_vec3 *at,
+                             tahr__near *near, uint32_t most);
+/* Its exact corners. */
+const tahr_vec3 *tahr__source_corners(const tahr__query *query, const tahr__prim *prim);
+
+/* hull.c */
+tahr_status tahr__hull_build(const tahr_host *host, const tahr_body_desc *desc, uint32_t body, tahr__mesh *mesh);
+/* How far the core must move, and along which unit normal, to leave the hull; negative: it does not overlap. */
+double tahr__hull_leave(const tahr__core *core, tahr_vec3 centre, const tahr__mesh *mesh, const tahr__map *map,
+                        tahr_vec3 *normal);
+/* The face that looks that way most (body coordinates). */
+uint32_t tahr__hull_face(const tahr__mesh *mesh, tahr_vec3 direction);
 
 /* tree.c: primitives of a group of bodies, straight from their trees. */
 void tahr__tree_search(tahr__search *search, const tahr__group *group);
@@ -178,6 +246,8 @@ typedef struct tahr__contact_normals {
     double closer;          /* with TAHR__NEIGHBOUR: distance of the core to the neighbour that is nearer */
 } tahr__contact_normals;
 
+/* Has a triangle no neighbour at any edge? */
+int tahr__stands_alone(const tahr__query *query, const tahr__prim *prim);
 /* witness: of the core at centre. NEIGHBOUR: the nearest point is an edge or corner, and another triangle at it is
  * nearer; closer is the distance to that one if measure was asked for. */
 int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
@@ -193,9 +263,12 @@ typedef struct tahr__probe {
 typedef struct tahr__found {
     double t, gap;
     tahr_vec3 normal, face, point;
+    double walkable_angle;
+    uint32_t walkable_rule, surface;
     uint32_t overlap, unknown;
-    uint32_t body, feature, item;
+    uint32_t body, feature, item, kind;
     uint32_t edge; /* of a one-way body: only held by coming down on it */
+    uint32_t reserved;
 } tahr__found;
 
 enum { TAHR__FREE = 0, TAHR__BLOCKED = 1, TAHR__LATER = 2, TAHR__BESIDE = 3, TAHR__SINKS = 4 };

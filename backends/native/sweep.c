@@ -256,7 +256,7 @@ static void search(sweep_state *s)
         settle(s);
         if (s->stopper) *recent = (uint32_t)(s->stopper - prims);
     } else {
-        tahr__tree_search(&s->search, &query->world->fixed);
+        tahr__search_fixed(&s->search);
     }
     s->stopper = NULL;
     if (query->world->movable.count == 0) return;
@@ -276,9 +276,8 @@ static void run(sweep_state *s)
 
 void tahr__fill_hit(const tahr__query *query, const tahr__found *f, tahr_hit *hit)
 {
-    const tahr__body *body = &query->world->bodies[f->body];
     memset(hit, 0, sizeof *hit);
-    hit->sensor = (body->flags & TAHR_BODY_SENSOR) != 0;
+    hit->sensor = (f->kind & TAHR__SENSOR) != 0;
     hit->blocking = !hit->sensor;
     hit->start_overlap = f->overlap;
     hit->unknown = f->unknown;
@@ -288,9 +287,9 @@ void tahr__fill_hit(const tahr__query *query, const tahr__found *f, tahr_hit *hi
     hit->normal = tahr__frame_to_world(query->frame, f->normal);
     hit->surface_normal = tahr__frame_to_world(query->frame, f->face);
     hit->point = v_add(query->frame->origin, tahr__frame_to_world(query->frame, f->point));
-    hit->walkable_angle = body->walkable_angle;
-    hit->walkable_rule = body->walkable_rule;
-    hit->surface = body->surface;
+    hit->walkable_angle = f->walkable_angle;
+    hit->walkable_rule = f->walkable_rule;
+    hit->surface = f->surface;
     hit->body = f->body;
     hit->feature = f->feature;
 }
@@ -344,8 +343,10 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
 {
     tahr__query query;
     sweep_state s;
+    tahr_status failed = TAHR_OK;
     tahr__query_begin(&query, self, context, sweep->position, sweep->up);
     tahr__query_shape(&query, &sweep->shape, sweep->orientation);
+    query.failed = &failed;
     query.motion = query.frame->turned ? m_apply(&query.frame->turn, sweep->motion) : sweep->motion;
     query.motion_length = v_length(query.motion);
     query.margin = sweep->margin;
@@ -361,5 +362,6 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
         begin(&s, &query);
         run(&s);
     }
+    if (failed < 0) return failed;
     return report(&s, hits, capacity, count);
 }

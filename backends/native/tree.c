@@ -58,6 +58,37 @@ static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
     }
 }
 
+/* The same straight from the grid of a field of heights. */
+static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
+{
+    const tahr__body *body = &s->query->world->bodies[id];
+    const tahr__heights *h = &body->heights;
+    double reach = s->reach + TAHR__SLACK;
+    const tahr_vec3 grow = {reach, reach, reach};
+    tahr_bounds box = to_mesh(map, &s->box), around = {v_sub(box.min, grow), v_add(box.max, grow)};
+    tahr__heights_range range = tahr__heights_cells(h, &around);
+    tahr__prim prim;
+    tahr__prim_begin(body, id, &prim);
+    for (uint32_t row = range.row; row < range.row_end; row++) {
+        for (uint32_t column = range.column; column < range.column_end; column++) {
+            const double *low = h->z + (size_t)row * h->columns + column, *high = low + h->columns;
+            /* Of a hole nothing is known, and all comparisons are false. */
+            if (d_max(d_max(low[0], low[1]), d_max(high[0], high[1])) < around.min.z) continue;
+            if (d_min(d_min(low[0], low[1]), d_min(high[0], high[1])) > around.max.z) continue;
+            for (uint32_t k = 0; k < 2; k++) {
+                tahr_vec3 v[3];
+                uint32_t triangle = 2 * (row * (h->columns - 1) + column) + k;
+                if (!tahr__heights_triangle(h, triangle, v)) continue;
+                if (!within(&box, reach, v[0], v[1], v[2])) continue;
+                tahr__prim_heights(map, body, triangle, v, &prim);
+                s->narrowed = 0;
+                s->visit(s, &prim);
+                if (s->narrowed) box = to_mesh(map, &s->box);
+            }
+        }
+    }
+}
+
 void tahr__tree_search_body(tahr__search *s, uint32_t id)
 {
     const tahr__body *body = &s->query->world->bodies[id];
@@ -71,8 +102,12 @@ void tahr__tree_search_body(tahr__search *s, uint32_t id)
         s->visit(s, &prim);
         return;
     }
-    if (body->type == TAHR_BODY_BOX) {
-        tahr__prim_solid(&map, &prim);
+    if (body->type == TAHR_BODY_HEIGHTS) {
+        search_heights(s, id, &map);
+        return;
+    }
+    if (body->type == TAHR_BODY_BOX || body->type == TAHR_BODY_HULL) {
+        tahr__prim_solid(&map, body, &prim);
         s->visit(s, &prim);
     }
     search_mesh(s, id, &map);

@@ -72,8 +72,9 @@ typedef struct tahr_body_desc {
     uint32_t triangle_count;
 
     /* heights[row * columns + column], m along local z, at local x from -half_extents.x (column 0) to +half_extents.x and
-     * y likewise by row; NaN: a hole. Each cell is cut from its lowest corner (x, y) to its highest. At least 2 by 2,
-     * at most 65 536 each way; copied. */
+     * y likewise by row; NaN: a hole. Each cell is cut from its lowest corner (x, y) to its highest: triangle 2 * cell
+     * on the side of larger x, 2 * cell + 1 beside it, where cell = row * (columns - 1) + column; one with a hole at a
+     * corner is not there. At least 2 by 2, at most 65 536 each way, |height| <= 1e7; copied. */
     const double *heights;
     uint32_t columns, rows;
 } tahr_body_desc;
@@ -221,8 +222,8 @@ TAHR_API tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *po
  * (an invalid answer of a callback). Allocates nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_world_body(tahr_world *world, uint32_t body, tahr_body_motion *motion);
 
-/* Tells callback worlds that their geometry changed, so that cached floors are looked at again. Needs exclusive access.
- * Returns TAHR_OK, TAHR_E_NULL. Since 0.1. */
+/* Tells worlds whose geometry is the user's (callbacks, tahr_native_desc.gather) that it changed, so that cached floors
+ * and triangles are looked at again. Needs exclusive access. Returns TAHR_OK, TAHR_E_NULL. Since 0.1. */
 TAHR_API tahr_status tahr_world_touch(tahr_world *world);
 
 /* A number that changes when the world does; the same again when bodies are put back. 0 for NULL. Since 0.1. */

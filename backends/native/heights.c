@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: MIT
+ * heights.c: see heights.h. */
+#include "heights.h"
+
+#include "../common/mesh.h"
+
+#include <string.h>
+
+/* Two triangles a cell, and names of primitives have 28 bits. */
+#define MOST_CELLS (1u << 27)
+
+/* Half a cell more than rounding could be wrong by. */
+#define OUTWARD 0.5
+
+static size_t bytes_of(const tahr__heights *h)
+{
+    return (size_t)h->columns * h->rows * sizeof *h->z;
+}
+
+/* Exact at both ends, so that fields side by side fit. */
+static double place(uint32_t i, uint32_t count, double half)
+{
+    return (2.0 * i / (count - 1) - 1) * half;
+}
+
+static tahr_vec3 corner_at(const tahr__heights *h, uint32_t column, uint32_t row)
+{
+    return v_make(place(column, h->columns, h->half_x) + 0.0, place(row, h->rows, h->half_y) + 0.0,
+                  h->z[(size_t)row * h->columns + column] + 0.0);
+}
+
+/* Column and row of a corner of a triangle, seen from its cell: counter-clockwise from above. */
+static const uint8_t CORNERS[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
+
+int tahr__heights_triangle(const tahr__heights *h, uint32_t triangle, tahr_vec3 v[3])
+{
+    uint32_t cell = triangle / 2, row = cell / (h->columns - 1), column = cell % (h->columns - 1);
+    for (int i = 0; i < 3; i++) {
+        const uint8_t *at = CORNERS[triangle % 2][i];
+        v[i] = corner_at(h, column + at[0], row + at[1]);
+    }
+    double sum = v[0].z + v[1].z + v[2].z;
+    if (!(sum == sum)) return 0;
+    return !h->may_be_thin || tahr__slimness(v[0], v[1], v[2]) > TAHR__NO_AREA;
+}
+
+uint32_t tahr__heights_around(const tahr__heights *h, uint32_t triangle, uint32_t corner, uint32_t around[6])
+{
+    /* Which triangles of the cells up to one back have that corner. */
+    static const struct {
+        uint8_t column, row, triangle;
+    } near[6] = {{1, 1, 0}, {1, 1, 1}, {0, 1, 1}, {1, 0, 0}, {0, 0, 0}, {0, 0, 1}};
+    const uint8_t *at = CORNERS[triangle % 2][corner];
+    uint32_t cell = triangle / 2, wide = h->columns - 1, count = 0;
+    uint32_t column = cell % wide + at[0], row = cell / wide + at[1];
+    for (int i = 0; i < 6; i++) {
+        uint32_t c = column - near[i].column, r = row - near[i].row; /* below zero: far above */
+        if (c < wide && r < h->rows - 1) around[count++] = 2 * (r * wide + c) + near[i].triangle;
+    }
+    return count;
+}
+
+/* First and last cell of [low, high] along one way. */
+static void span(double low, double high, double half, uint32_t corners, uint32_t *first, uint32_t *end)
+{
+    double scale = (corners - 1) / (2 * half), most = corners - 1;
+    double from = floor((low + half) * scale - OUTWARD), to = floor((high + half) * scale + OUTWARD) + 1;
+    *first = (uint32_t)d_max(0, d_min(from, most));
+    *end = (uint32_t)d_max(0, d_min(to, most));
+}
+
+tahr__heights_range tahr__heights_cells(const tahr__heights *h, const tahr_bounds *box)
+{
+    tahr__heights_range r;
+    span(box->min.x, box->max.x, h->half_x, h->columns, &r.column, &r.column_end);
+    span(box->min.y, box->max.y, h->half_y, h->rows, &r.row, &r.row_end);
+    return r;
+}
+
+/* The least slimness that a triangle of this field may have: its area seen from above over its longest edge. */
+static int may_be_thin(const tahr__heights *h, double range)
+{
+    double x = 2 * h->half_x / (h->columns - 1), y = 2 * h->half_y / (h->rows - 1);
+    return !(x * y / (x * x + y * y + range * range) > 2 * TAHR__THIN);
+}
+
+static int find_bounds(const tahr__heights *h, tahr_bounds *bounds)
+{
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < 2 * (h->columns - 1) * (h->rows - 1); i++) {
+        tahr_vec3 v[3];
+        if (!tahr__heights_triangle(h, i, v)) continue;
+        if (!found) bounds->min = bounds->max = v[0];
+        found = 1;
+        bounds->min = v_min(bounds->min, v_min(v[0], v_min(v[1], v[2])));
+        bounds->max = v_max(bounds->max, v_max(v[0], v_max(v[1], v[2])));
+    }
+    return found != 0;
+}
+
+tahr_status tahr__heights_open(const tahr_host *host, const tahr_body_desc *d, uint32_t body, tahr__heights *heights,
+                               tahr_bounds *bounds)
+{
+    tahr__heights h = {NULL, d->columns, d->rows, 0, 0, d->half_extents.x, d->half_extents.y};
+    double low = INFINITY, high = -INFINITY;
+    if ((uint64_t)(h.columns - 1) * (h.rows - 1) > MOST_CELLS) {
+        tahr__log_body(host, body, "columns times rows is above 2^27");
+        return TAHR_E_UNSUPPORTED;
+    }
+    h.z = host->allocator.alloc(host->allocator.user, bytes_of(&h), 64);
+    if (!h.z) return TAHR_E_MEMORY;
+    memcpy(h.z, d->heights, bytes_of(&h));
+    for (size_t i = 0; i < (size_t)h.columns * h.rows; i++) {
+        low = d_min(h.z[i], low);
+        high = d_max(h.z[i], high);
+    }
+    h.may_be_thin = low <= high ? (uint32_t)may_be_thin(&h, high - low) : 0;
+    if (!find_bounds(&h, bounds)) {
+        tahr__log_body(host, body, "heights: no triangle of the field is without a hole at a corner");
+        tahr__heights_close(host, &h);
+        return TAHR_E_GEOMETRY;
+    }
+    *heights = h;
+    return TAHR_OK;
+}
+
+void tahr__heights_close(const tahr_host *host, tahr__heights *h)
+{
+    if (h->z) host->allocator.free(host->allocator.user, h->z, bytes_of(h), 64);
+    h->z = NULL;
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT
+ * heights.h: a field of heights: nothing is stored but the heights, triangles are made where they are asked for.
+ *
+ * Triangle 2 * cell + k of cell row * (columns - 1) + column: both are cut along the way from the lowest corner (x, y)
+ * to the highest; k = 0 lies on the side of larger x. One with a hole at a corner is not there. */
+#ifndef TAHR_NATIVE_HEIGHTS_H
+#define TAHR_NATIVE_HEIGHTS_H
+
+#include "../common/vec.h"
+
+#include <tahr/backend.h>
+
+typedef struct tahr__heights {
+    double *z; /* rows * columns; NULL: no field */
+    uint32_t columns, rows;
+    uint32_t may_be_thin, reserved; /* 0: no triangle of it is thin or without area */
+    double half_x, half_y;
+} tahr__heights;
+
+/* Cells [column, column_end) x [row, row_end). */
+typedef struct tahr__heights_range {
+    uint32_t column, column_end, row, row_end;
+} tahr__heights_range;
+
+/* TAHR_OK, TAHR_E_GEOMETRY, TAHR_E_UNSUPPORTED (with a message), TAHR_E_MEMORY. [out] bounds of its surface. */
+tahr_status tahr__heights_open(const tahr_host *host, const tahr_body_desc *desc, uint32_t body, tahr__heights *heights,
+                               tahr_bounds *bounds);
+void tahr__heights_close(const tahr_host *host, tahr__heights *heights);
+
+/* Which cells a box may concern. */
+tahr__heights_range tahr__heights_cells(const tahr__heights *heights, const tahr_bounds *box);
+/* Exact corners of a triangle; 0: it is not there. */
+int tahr__heights_triangle(const tahr__heights *heights, uint32_t triangle, tahr_vec3 v[3]);
+/* The triangles, there or not, at a corner of a triangle; returns how many, at most 6. */
+uint32_t tahr__heights_around(const tahr__heights *heights, uint32_t triangle, uint32_t corner, uint32_t around[6]);
+
+static inline tahr_vec3 tahr__heights_normal(const tahr_vec3 v[3])
+{
+    return v_unit(v_cross(v_sub(v[1], v[0]), v_sub(v[2], v[0])));
+}
+
+#endif
