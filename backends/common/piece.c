@@ -11,7 +11,7 @@
 /* Tangents converge quadratically, and halve the rest where the motion grazes: 30 halvings of a metre are 1e-9 m. */
 enum { MAX_TANGENTS = 64 };
 
-void tahr__frame_make(const tahr_vec3 *position, const tahr__mat *turn, tahr_vec3 start, tahr__frame *frame)
+void tahr__placement_make(const tahr_vec3 *position, const tahr__mat *turn, tahr_vec3 start, tahr__placement *frame)
 {
     frame->base = v_sub(*position, start);
     frame->turn = *turn;
@@ -19,17 +19,17 @@ void tahr__frame_make(const tahr_vec3 *position, const tahr__mat *turn, tahr_vec
     frame->reserved = 0;
 }
 
-static tahr_vec3 place(const tahr__frame *frame, tahr_vec3 local)
+static tahr_vec3 place(const tahr__placement *frame, tahr_vec3 local)
 {
     return v_add(frame->base, frame->turned ? m_apply(&frame->turn, local) : local);
 }
 
-static tahr_vec3 column(const tahr__frame *frame, int i, double length)
+static tahr_vec3 column(const tahr__placement *frame, int i, double length)
 {
     return m_apply(&frame->turn, v_make(i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0));
 }
 
-static void begin(tahr__piece *piece, uint32_t kind, const tahr__frame *frame)
+static void begin(tahr__piece *piece, uint32_t kind, const tahr__placement *frame)
 {
     piece->kind = kind;
     piece->two_sided = piece->triangle = piece->reserved = 0;
@@ -39,7 +39,7 @@ static void begin(tahr__piece *piece, uint32_t kind, const tahr__frame *frame)
     piece->radius = 0;
 }
 
-void tahr__piece_triangle(const tahr__frame *frame, const tahr__mesh *mesh, uint32_t triangle, tahr__piece *piece)
+void tahr__piece_triangle(const tahr__placement *frame, const tahr__mesh *mesh, uint32_t triangle, tahr__piece *piece)
 {
     begin(piece, TAHR__TRIANGLE, frame);
     piece->mesh = mesh;
@@ -49,7 +49,7 @@ void tahr__piece_triangle(const tahr__frame *frame, const tahr__mesh *mesh, uint
     tahr__facet_finish(&piece->facet);
 }
 
-void tahr__piece_box(const tahr__frame *frame, tahr_vec3 middle, tahr_vec3 half, tahr__piece *piece)
+void tahr__piece_box(const tahr__placement *frame, tahr_vec3 middle, tahr_vec3 half, tahr__piece *piece)
 {
     begin(piece, TAHR__BOX, frame);
     piece->middle = place(frame, middle);
@@ -58,7 +58,7 @@ void tahr__piece_box(const tahr__frame *frame, tahr_vec3 middle, tahr_vec3 half,
         piece->solid.axis[i] = column(frame, i, v_get(half, i));
 }
 
-void tahr__piece_round(const tahr__frame *frame, double radius, double reach, tahr__piece *piece)
+void tahr__piece_round(const tahr__placement *frame, double radius, double reach, tahr__piece *piece)
 {
     begin(piece, TAHR__ROUND, frame);
     piece->middle = frame->base;
@@ -71,7 +71,7 @@ void tahr__piece_round(const tahr__frame *frame, double radius, double reach, ta
     tahr__facet_finish(&piece->facet);
 }
 
-void tahr__piece_half_space(const tahr__frame *frame, tahr_vec3 normal, double offset, tahr__piece *piece)
+void tahr__piece_half_space(const tahr__placement *frame, tahr_vec3 normal, double offset, tahr__piece *piece)
 {
     begin(piece, TAHR__HALF_SPACE, frame);
     piece->solid.axis[0] = m_apply(&frame->turn, normal);

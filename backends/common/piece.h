@@ -11,17 +11,17 @@
 enum { TAHR__TRIANGLE = 0, TAHR__BOX = 1, TAHR__ROUND = 2, TAHR__HALF_SPACE = 3 };
 
 /* Where the frame of a body is: corners are base + turn * local. */
-typedef struct tahr__frame {
+typedef struct tahr__placement {
     tahr_vec3 base; /* relative to the start of the query */
     tahr__mat turn;
     uint32_t turned; /* 0: turn is the identity */
     uint32_t reserved;
-} tahr__frame;
+} tahr__placement;
 
 typedef struct tahr__piece {
     uint32_t kind;
     uint32_t two_sided;      /* triangles and half spaces (a plane) */
-    const tahr__frame *frame; /* triangles: where their neighbours are */
+    const tahr__placement *frame; /* triangles: where their neighbours are */
     const tahr__mesh *mesh;
     uint32_t triangle; /* in leaf order of the mesh */
     uint32_t reserved;
@@ -49,13 +49,13 @@ typedef struct tahr__near {
 } tahr__near;
 
 /* A frame from a pose, seen from the start of a query. */
-void tahr__frame_make(const tahr_vec3 *position, const tahr__mat *turn, tahr_vec3 start, tahr__frame *frame);
+void tahr__placement_make(const tahr_vec3 *position, const tahr__mat *turn, tahr_vec3 start, tahr__placement *frame);
 
 /* Fill in a piece; the frame must live as long as a piece of a mesh. Round bodies: reach is half the axis along z. */
-void tahr__piece_triangle(const tahr__frame *frame, const tahr__mesh *mesh, uint32_t triangle, tahr__piece *piece);
-void tahr__piece_box(const tahr__frame *frame, tahr_vec3 middle, tahr_vec3 half, tahr__piece *piece);
-void tahr__piece_round(const tahr__frame *frame, double radius, double reach, tahr__piece *piece);
-void tahr__piece_half_space(const tahr__frame *frame, tahr_vec3 normal, double offset, tahr__piece *piece);
+void tahr__piece_triangle(const tahr__placement *frame, const tahr__mesh *mesh, uint32_t triangle, tahr__piece *piece);
+void tahr__piece_box(const tahr__placement *frame, tahr_vec3 middle, tahr_vec3 half, tahr__piece *piece);
+void tahr__piece_round(const tahr__placement *frame, double radius, double reach, tahr__piece *piece);
+void tahr__piece_half_space(const tahr__placement *frame, tahr_vec3 normal, double offset, tahr__piece *piece);
 
 /* The shape of a query; 0 if it is none of sphere, capsule, box or not finite. */
 int tahr__shape_make(const tahr_shape *shape, tahr_vec3 up, tahr_quat orientation, tahr__shape *out);

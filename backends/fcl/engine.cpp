@@ -53,11 +53,12 @@ static fcl::Transform3<double> transform_of(const tahr_pose &pose)
     return t;
 }
 
-tahr_status tahr__fcl_engine_open(const tahr_fcl_desc *desc, tahr__fcl_engine **engine)
+tahr_status tahr__fcl_engine_open(const tahr_host *host, const tahr_fcl_desc *desc, tahr__fcl_engine **engine)
 {
     return guarded([&] {
         auto made = std::make_unique<tahr__fcl_engine>();
         made->desc = *desc;
+        made->host = host;
         made->manager = desc->manager ? static_cast<const Manager *>(desc->manager) : &made->own;
         *engine = made.release();
         return TAHR_OK;

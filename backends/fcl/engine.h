@@ -42,12 +42,11 @@ typedef struct tahr__fcl_geometry {
     const char *name;     /* for messages */
 } tahr__fcl_geometry;
 
-/* What to ask: everything that may reach into box and that wants(user, body) does not refuse. */
+/* What to ask: everything that may reach into box, of the bodies for which wants(user, body) is not 0. */
 typedef struct tahr__fcl_question {
     tahr_bounds box; /* world */
-    int (*wants)(const void *user, uint32_t body);
+    int (*wants)(const void *user, uint32_t body); /* NULL: everything */
     const void *user;
-    /* Where body's frame is, filled in by the asker for described bodies; attached ones know themselves. */
 } tahr__fcl_question;
 
 /* The answer: room for capacity parts; more make the list grow by the host's allocator. */
@@ -67,7 +66,7 @@ void tahr__fcl_list_sort(tahr__fcl_list *list);
 void tahr__fcl_list_free(tahr__fcl_list *list);
 
 /* engine.cpp: life cycle. Statuses: TAHR_OK, TAHR_E_MEMORY, TAHR_E_BACKEND (an exception). */
-tahr_status tahr__fcl_engine_open(const tahr_fcl_desc *desc, tahr__fcl_engine **engine);
+tahr_status tahr__fcl_engine_open(const tahr_host *host, const tahr_fcl_desc *desc, tahr__fcl_engine **engine);
 void tahr__fcl_engine_close(tahr__fcl_engine *engine);
 tahr_status tahr__fcl_engine_add(tahr__fcl_engine *engine, const tahr__fcl_geometry *geometry, const tahr_pose *pose);
 tahr_status tahr__fcl_engine_finish(tahr__fcl_engine *engine);
@@ -77,8 +76,8 @@ tahr_status tahr__fcl_engine_update(tahr__fcl_engine *engine);
 /* gather.cpp */
 tahr_status tahr__fcl_engine_gather(const tahr__fcl_engine *engine, const tahr__fcl_question *question,
                                     tahr__fcl_list *list);
-/* Does FCL find this body at its own place, and this triangle of it? A known overlap of the kind. */
-int tahr__fcl_engine_finds(const tahr__fcl_engine *engine, uint32_t body, uint32_t triangle);
+/* Does FCL find this triangle of a mesh at a place (local) that it has, or this whole body at all? A known overlap. */
+int tahr__fcl_engine_finds(const tahr__fcl_engine *engine, uint32_t body, uint32_t triangle, const tahr_vec3 *at);
 
 /* octree.cpp: octrees by file or points; then added like any other geometry (kind TAHR__FCL_OCTREE, identity = the
  * handle, resolution = radius). */

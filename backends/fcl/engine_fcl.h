@@ -42,7 +42,8 @@ struct Body {
     std::unique_ptr<Object> own;
     const Object *object; /* own, or the user's */
     Find find;            /* NULL: the body is one piece */
-    std::vector<uint32_t> order;
+    std::vector<uint32_t> order; /* FCL triangle to the triangle of the body; empty: the same */
+    bool all;                    /* without a tree: every triangle is near (a polytope, a lone triangle) */
 };
 
 Find find_in_mesh(const Geometry &geometry, bool collide);
@@ -64,6 +65,7 @@ template <class F> tahr_status guarded(F f) noexcept
 
 struct tahr__fcl_engine {
     tahr_fcl_desc desc;
+    const tahr_host *host;
     std::vector<tahr_fcl::Body> bodies;
     tahr_fcl::Manager own;
     const tahr_fcl::Manager *manager; /* own, or the user's */
@@ -72,6 +74,7 @@ struct tahr__fcl_engine {
     std::vector<tahr_fcl::Object *> offered; /* by an attached manager */
     std::vector<double> vertices;            /* of the geometry that is looked at */
     std::vector<uint32_t> indices;
+    std::shared_ptr<tahr_fcl::Geometry> read; /* the octree that was read last */
 };
 
 #endif

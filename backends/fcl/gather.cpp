@@ -148,11 +148,14 @@ static bool take(Object *object, Object *, void *data)
     if (s.question->wants && !s.question->wants(s.question->user, i)) return false;
     const Body &body = s.engine->bodies[i];
     tahr__fcl_part whole = {i, 0, {0, 0, 0}, 0};
-    if (!body.find)
-        tahr__fcl_list_add(s.list, &whole);
+    Sink sink = {s.list, i, body.order.empty() ? nullptr : &body.order};
+    if (body.find)
+        body.find(*object->collisionGeometry(), local_box(*object, s.box), sink);
+    else if (body.all)
+        for (size_t k = 0; k < body.order.size(); k++)
+            sink.triangle(static_cast<int>(k));
     else
-        body.find(*object->collisionGeometry(), local_box(*object, s.box),
-                  Sink{s.list, i, body.order.empty() ? nullptr : &body.order});
+        tahr__fcl_list_add(s.list, &whole);
     return s.list->status < 0;
 }
 
@@ -171,4 +174,37 @@ tahr_status tahr__fcl_engine_gather(const tahr__fcl_engine *engine, const tahr__
         engine->manager->collide(&query, &search, take);
         return list->status;
     });
+}
+
+namespace {
+struct Wish {
+    const tahr__fcl_engine *engine;
+    uint32_t body;
+};
+} // namespace
+
+static int is_wished(const void *user, uint32_t body)
+{
+    return static_cast<const Wish *>(user)->body == body;
+}
+
+int tahr__fcl_engine_finds(const tahr__fcl_engine *engine, uint32_t body, uint32_t triangle, const tahr_vec3 *at)
+{
+    const Object &object = *engine->bodies[body].object;
+    const fcl::AABB<double> &bounds = object.getAABB();
+    Vector low = bounds.min_, high = bounds.max_;
+    tahr__fcl_part room[64];
+    tahr__fcl_list list;
+    Wish wish = {engine, body};
+    int found = 0;
+
+    if (engine->bodies[body].find == find_in_octree) return 1; /* its cells were just listed */
+    if (engine->bodies[body].find) low = high = object.getTransform() * Vector(at->x, at->y, at->z);
+    tahr__fcl_question question = {{{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}}, is_wished, &wish};
+    tahr__fcl_list_begin(&list, engine->host, room, 64);
+    if (tahr__fcl_engine_gather(engine, &question, &list) < 0) list.count = 0;
+    for (uint32_t i = 0; i < list.count; i++)
+        found |= list.parts[i].body == body && list.parts[i].triangle == triangle;
+    tahr__fcl_list_free(&list);
+    return found;
 }
