@@ -18,6 +18,9 @@ static const struct backend_choice choices[] = {
 #ifdef TAHR_HAVE_CCD
     {"ccd", "libccd, by bisection of swept shapes", tahr_backend_v1_ccd, NULL, 0.005},
 #endif
+#ifdef TAHR_HAVE_FCL
+    {"fcl", "FCL finds candidates, the core distance decides", tahr_backend_v1_fcl, NULL, 0.005},
+#endif
 };
 
 static const struct {

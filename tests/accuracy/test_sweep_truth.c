@@ -13,6 +13,9 @@
 #ifdef TAHR_HAVE_CCD
 #include <tahr/ccd.h>
 #endif
+#ifdef TAHR_HAVE_FCL
+#include <tahr/fcl.h>
+#endif
 
 #include "truth_file.h"
 
@@ -71,9 +74,9 @@ static double limit_float(const truth_case *c, const truth_mesh *mesh)
     return length <= 1 ? 2e-6 : length * 1e-6 < 2e-6 ? 2e-6 : length > 100 ? 1e-4 : length * 1e-6;
 }
 
-#ifdef TAHR_HAVE_CCD
+#if defined(TAHR_HAVE_CCD) || defined(TAHR_HAVE_FCL)
 /* 1e-4 of the shape's largest extent. */
-static double limit_ccd(const truth_case *c, const truth_mesh *mesh)
+static double limit_library(const truth_case *c, const truth_mesh *mesh)
 {
     const tahr_shape *s = &c->query.shape;
     double size = s->half_height;
@@ -293,7 +296,11 @@ int main(void)
         {"native_double_agrees_with_truth", backend_agrees_with_truth, NULL, NULL, &native_double},
 #ifdef TAHR_HAVE_CCD
         {"ccd_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
-         &(subject){"ccd", tahr_backend_v1_ccd(), NULL, limit_ccd, 2}},
+         &(subject){"ccd", tahr_backend_v1_ccd(), NULL, limit_library, 2}},
+#endif
+#ifdef TAHR_HAVE_FCL
+        {"fcl_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
+         &(subject){"fcl", tahr_backend_v1_fcl(), NULL, limit_library, 2}},
 #endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

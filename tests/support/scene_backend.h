@@ -20,7 +20,7 @@ typedef struct scene_backend {
     double push;        /* m, who pushes and gets nowhere may move; 0: not by one bit, as always without input */
 } scene_backend;
 
-enum { SCENE_MAX_BACKENDS = 3 };
+enum { SCENE_MAX_BACKENDS = 4 };
 
 /* The backends of this build. */
 extern const scene_backend SCENE_BACKENDS[];

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: MIT
+ * core_box.h: exact distance between a point or segment core and a box. */
+#ifndef TAHR_COMMON_CORE_BOX_H
+#define TAHR_COMMON_CORE_BOX_H
+
+#include "core.h"
+
+/* core (0 or 1 axes) at centre against the box with these three half axes, none of them zero, around middle. [out] point
+ * on the box; distance 0: they touch or overlap, and normal is not set. Of a segment along a face the first of the
+ * nearest points is taken. */
+void tahr__core_box(const tahr__core *core, tahr_vec3 centre, const tahr__core *box, tahr_vec3 middle,
+                    tahr__witness *out);
+
+#endif

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: MIT
+ * piece.c: convex pieces: making them, measuring them, walking up to them. What faces they show is in piece_face.c. */
+#include "piece.h"
+
+#include "core_box.h"
+
+/* Nearer than this the direction between the nearest points is rounding: the way out is taken instead. */
+#define TOUCHING 1e-10
+/* Arrived (m). */
+#define ARRIVED 1e-9
+/* Tangents converge quadratically, and halve the rest where the motion grazes: 30 halvings of a metre are 1e-9 m. */
+enum { MAX_TANGENTS = 64 };
+
+void tahr__placement_make(const tahr_vec3 *position, const tahr__mat *turn, tahr_vec3 start, tahr__placement *frame)
+{
+    frame->base = v_sub(*position, start);
+    frame->turn = *turn;
+    frame->turned = turn->row[0].x != 1 || turn->row[1].y != 1 || turn->row[2].z != 1;
+    frame->reserved = 0;
+}
+
+static tahr_vec3 place(const tahr__placement *frame, tahr_vec3 local)
+{
+    return v_add(frame->base, frame->turned ? m_apply(&frame->turn, local) : local);
+}
+
+static tahr_vec3 column(const tahr__placement *frame, int i, double length)
+{
+    return m_apply(&frame->turn, v_make(i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0));
+}
+
+static void begin(tahr__piece *piece, uint32_t kind, const tahr__placement *frame)
+{
+    piece->kind = kind;
+    piece->two_sided = piece->triangle = piece->reserved = 0;
+    piece->frame = frame;
+    piece->mesh = NULL;
+    piece->solid.axis_count = 0;
+    piece->radius = 0;
+}
+
+void tahr__piece_triangle(const tahr__placement *frame, const tahr__mesh *mesh, uint32_t triangle, tahr__piece *piece)
+{
+    begin(piece, TAHR__TRIANGLE, frame);
+    piece->mesh = mesh;
+    piece->triangle = triangle;
+    for (int i = 0; i < 3; i++)
+        piece->facet.v[i] = place(frame, mesh->vertices[mesh->triangles[triangle].vertex[i]]);
+    tahr__facet_finish(&piece->facet);
+}
+
+void tahr__piece_box(const tahr__placement *frame, tahr_vec3 middle, tahr_vec3 half, tahr__piece *piece)
+{
+    begin(piece, TAHR__BOX, frame);
+    piece->middle = place(frame, middle);
+    piece->solid.axis_count = 3;
+    for (int i = 0; i < 3; i++)
+        piece->solid.axis[i] = column(frame, i, v_get(half, i));
+}
+
+void tahr__piece_round(const tahr__placement *frame, double radius, double reach, tahr__piece *piece)
+{
+    begin(piece, TAHR__ROUND, frame);
+    piece->middle = frame->base;
+    piece->radius = radius;
+    piece->solid.axis_count = reach > 0 ? 1 : 0;
+    piece->solid.axis[0] = column(frame, 2, reach);
+    /* A triangle that shrank to a segment or a point. */
+    piece->facet.v[0] = v_sub(piece->middle, piece->solid.axis[0]);
+    piece->facet.v[1] = piece->facet.v[2] = v_add(piece->middle, piece->solid.axis[0]);
+    tahr__facet_finish(&piece->facet);
+}
+
+void tahr__piece_half_space(const tahr__placement *frame, tahr_vec3 normal, double offset, tahr__piece *piece)
+{
+    begin(piece, TAHR__HALF_SPACE, frame);
+    piece->solid.axis[0] = m_apply(&frame->turn, normal);
+    piece->middle = place(frame, v_scale(normal, offset));
+}
+
+static int is_finite_vec(tahr_vec3 v)
+{
+    return v.x * 0 == 0 && v.y * 0 == 0 && v.z * 0 == 0;
+}
+
+int tahr__shape_make(const tahr_shape *shape, tahr_vec3 up, tahr_quat orientation, tahr__shape *out)
+{
+    tahr__mat turn;
+    int fine;
+
+    out->core.axis_count = 0;
+    out->radius = shape->type == TAHR_SHAPE_BOX ? 0 : shape->radius;
+    if (shape->type == TAHR_SHAPE_CAPSULE && shape->half_height > shape->radius) {
+        out->core.axis_count = 1;
+        out->core.axis[0] = v_scale(up, shape->half_height - shape->radius);
+    } else if (shape->type == TAHR_SHAPE_BOX) {
+        turn = m_from_quat(orientation);
+        out->core.axis_count = 3;
+        out->core.axis[0] = m_apply(&turn, v_make(shape->half_x, 0, 0));
+        out->core.axis[1] = m_apply(&turn, v_make(0, shape->half_y, 0));
+        out->core.axis[2] = m_apply(&turn, v_make(0, 0, shape->half_height));
+    }
+    fine = out->radius >= 0 && out->radius * 0 == 0;
+    for (int i = 0; i < out->core.axis_count; i++)
+        fine = fine && is_finite_vec(out->core.axis[i]);
+    return fine && shape->type >= TAHR_SHAPE_SPHERE && shape->type <= TAHR_SHAPE_BOX;
+}
+
+/* Corners of a box by bit: +x 1, +y 2, +z 4. Two triangles per face. */
+static const unsigned char box_triangles[12][3] = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                                                   {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+
+static void box_to_box(const tahr__core *core, tahr_vec3 centre, const tahr__piece *piece, tahr__witness *best)
+{
+    tahr_vec3 corner[8];
+
+    for (int i = 0; i < 8; i++) {
+        corner[i] = v_mad(piece->middle, piece->solid.axis[0], i & 1 ? 1 : -1);
+        corner[i] = v_mad(corner[i], piece->solid.axis[1], i & 2 ? 1 : -1);
+        corner[i] = v_mad(corner[i], piece->solid.axis[2], i & 4 ? 1 : -1);
+    }
+    for (int i = 0; i < 12; i++) {
+        tahr__facet f = {.v = {corner[box_triangles[i][0]], corner[box_triangles[i][1]], corner[box_triangles[i][2]]}};
+        tahr__witness w = {0};
+        tahr__facet_finish(&f);
+        tahr__facet_distance(core, centre, &f, &w);
+        if (i == 0 || w.distance < best->distance) *best = w;
+    }
+}
+
+/* Two axes that meet along a line, or a point on an axis: out sideways, by any direction across. */
+static tahr_vec3 across(const tahr__core *core, const tahr__core *solid)
+{
+    tahr_vec3 along = core->axis_count > 0 ? core->axis[0] : solid->axis[0];
+
+    if (core->axis_count + solid->axis_count == 0) return v_make(0, 0, 1);
+    return v_unit(v_cross(fabs(along.x) <= fabs(along.z) ? v_make(1, 0, 0) : v_make(0, 0, 1), along));
+}
+
+/* Depth of the cores in each other, or a negative number. */
+static double solid_depth(const tahr__core *core, tahr_vec3 centre, const tahr__piece *piece, double distance,
+                          tahr_vec3 *normal)
+{
+    if (distance > TOUCHING && (piece->kind == TAHR__ROUND || core->axis_count < 3)) return -1;
+    double depth = tahr__core_leave_solid(core, centre, &piece->solid, piece->middle, normal);
+    if (depth >= 0 || distance > TOUCHING) return depth;
+    /* They touch: the axis that almost separates them is the way, if there is any. */
+    if (depth < -2 * TOUCHING) *normal = across(core, &piece->solid);
+    return 0;
+}
+
+static double triangle_depth(const tahr__core *core, tahr_vec3 centre, const tahr__piece *piece, tahr_vec3 *normal)
+{
+    const tahr__triangle *t = &piece->mesh->triangles[piece->triangle];
+    int alone = 1;
+
+    for (int i = 0; i < 3; i++)
+        alone &= t->ring[i] == piece->triangle;
+    return tahr__core_leave_triangle(core, centre, piece->facet.v, !piece->two_sided ? 1u : alone ? 7u : 3u, normal);
+}
+
+static void measure_half_space(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, tahr__near *near)
+{
+    tahr_vec3 n = piece->solid.axis[0];
+    double height = v_dot(n, v_sub(centre, piece->middle));
+
+    if (piece->two_sided && height < 0) n = v_scale(n, -1);
+    near->normal = n;
+    near->part = TAHR__FACE;
+    near->distance =
+        (piece->two_sided ? fabs(height) : height) - tahr__core_extent(&shape->core, n) - shape->radius;
+    near->point = v_mad(centre, piece->solid.axis[0], -height);
+}
+
+void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, tahr__near *near)
+{
+    const tahr__core *core = &shape->core;
+    tahr__witness w = {0};
+    tahr_vec3 way_out = v_make(0, 0, 1);
+    double depth = -1;
+
+    near->reserved = 0;
+    if (piece->kind == TAHR__HALF_SPACE) {
+        measure_half_space(shape, centre, piece, near);
+        return;
+    }
+    if (piece->kind == TAHR__BOX && core->axis_count < 3)
+        tahr__core_box(core, centre, &piece->solid, piece->middle, &w);
+    else if (piece->kind == TAHR__BOX)
+        box_to_box(core, centre, piece, &w);
+    else
+        tahr__facet_distance(core, centre, &piece->facet, &w);
+    if (piece->kind != TAHR__TRIANGLE)
+        depth = solid_depth(core, centre, piece, w.distance, &way_out);
+    else if (w.distance <= TOUCHING)
+        depth = triangle_depth(core, centre, piece, &way_out);
+    near->point = w.point;
+    near->part = depth >= 0 ? TAHR__FACE : w.feature;
+    near->normal = depth >= 0 ? way_out : w.normal;
+    near->distance = (depth >= 0 ? -depth : w.distance) - shape->radius - piece->radius;
+    if (depth >= 0 && piece->kind == TAHR__BOX)
+        near->point = v_mad(centre, near->normal, depth - tahr__core_extent(core, near->normal));
+    near->point = v_mad(near->point, near->normal, piece->radius);
+}
+
+/* A tangent of a convex function lies below it: a step to its root never overshoots, and one that starts late goes back
+ * to the early side. */
+tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece *piece, double limit, double *fraction,
+                                  tahr__near *near)
+{
+    double t = *fraction;
+
+    for (int i = 0; i < MAX_TANGENTS; i++) {
+        tahr__piece_measure(motion->shape, v_scale(motion->motion, t), piece, near);
+        double gap = near->distance - motion->margin, speed = -v_dot(motion->motion, near->normal);
+        ++*motion->iterations;
+        *fraction = t;
+        if (gap <= ARRIVED && gap >= -ARRIVED) return TAHR__HIT;
+        if (!(speed > 0)) return gap > 0 ? TAHR__FREE : TAHR__UNKNOWN;
+        t += gap / speed;
+        if (t > limit) return TAHR__FREE;
+        if (t < 0) t = 0;
+        if (t == *fraction) return TAHR__HIT;
+    }
+    return TAHR__UNKNOWN;
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT
+ * sweep.c: the sweep slot: every candidate is measured at the start, those that come near are walked up to in the order
+ * in which they could be met. */
+#include "scene.h"
+
+#include "../common/hits.h"
+#include "../common/one_way.h"
+
+/* Pieces put in order before they are walked up to; of more than these the latest are asked about as they come. */
+enum { MAX_WAITING = 64 };
+/* Relative: the core's projection leaves 1e-16 by rounding; motion flatter than this to a surface is parallel. */
+#define PARALLEL 1e-12
+
+/* A piece that may be hit, not before the fraction at which the tangent of its distance at the start says so. */
+typedef struct waiter {
+    double earliest, start; /* fraction; distance at the start */
+    uint32_t part, reserved;
+} waiter;
+
+typedef struct search {
+    tahr__fcl_query *query;
+    tahr__hits hits;
+    uint32_t flags, waiting_count;
+    waiter waiting[MAX_WAITING + 1]; /* by earliest */
+} search;
+
+/* Only what is approached blocks; an overlap at the start does so whatever the motion, unless it may be left. A sensor
+ * does not block, so there is nothing to leave: its overlap is always news. */
+static int must_report(const search *s, const tahr__surface *surface, const tahr__near *near)
+{
+    int leaves = s->flags & TAHR_SWEEP_LEAVE_OVERLAP && !(surface->flags & TAHR_BODY_SENSOR);
+
+    if (near->distance < 0 && !leaves) return 1;
+    return v_dot(s->query->motion, near->normal) < -PARALLEL * s->query->motion_length;
+}
+
+static int is_there(const search *s, const tahr__surface *surface, const tahr__near *near, double start)
+{
+    if (!(surface->flags & TAHR_BODY_ONE_WAY)) return 1;
+    return tahr__one_way_blocks(s->query->up, near->normal, start, s->query->margin, s->flags);
+}
+
+/* Where the shape meets a piece. */
+typedef struct meeting {
+    uint32_t part, unknown;
+    double fraction, start;
+    tahr__near near;
+} meeting;
+
+/* Takes a contact, unless it is from behind, an internal edge, or not approached. */
+static void report(search *s, const tahr__piece *piece, meeting *m)
+{
+    const tahr__fcl_query *q = s->query;
+    const tahr__surface *surface = &tahr__fcl_query_body(q, m->part)->surface;
+    tahr_hit hit;
+
+    tahr__hit_of(surface, &hit);
+    hit.surface_normal = m->near.normal;
+    int felt = tahr__fcl_felt(q, m->part, piece, v_scale(q->motion, -1), &m->near, &hit.surface_normal) &&
+               must_report(s, surface, &m->near) && is_there(s, surface, &m->near, m->start);
+    if (!felt && !m->unknown) return;
+    hit.unknown = m->unknown;
+    hit.fraction = m->fraction;
+    hit.distance = m->near.distance;
+    hit.start_overlap = m->fraction == 0 && m->near.distance < 0;
+    hit.depth = hit.start_overlap ? -m->near.distance : 0;
+    hit.normal = m->near.normal;
+    hit.point = v_add(q->origin, m->near.point);
+    hit.feature = tahr__fcl_feature(q, m->part, piece, m->near.normal);
+    tahr__hits_keep(&s->hits, &hit);
+}
+
+static void resolve(search *s, const waiter *w)
+{
+    tahr__fcl_query *q = s->query;
+    tahr__motion motion = {&q->shape, q->motion, q->margin, &q->context->narrow_iterations};
+    double limit = tahr__hits_limit(&s->hits);
+    meeting m = {.part = w->part, .fraction = w->earliest, .start = w->start};
+    tahr__piece piece;
+
+    if (w->earliest > limit || !tahr__fcl_query_piece(q, w->part, &piece)) return;
+    tahr__verdict verdict = tahr__piece_advance(&motion, &piece, limit, &m.fraction, &m.near);
+    m.unknown = verdict == TAHR__UNKNOWN;
+    m.fraction = d_min(1, m.fraction);
+    if (verdict != TAHR__FREE) report(s, &piece, &m);
+}
+
+static void visit(search *s, uint32_t part)
+{
+    tahr__fcl_query *q = s->query;
+    meeting m = {.part = part};
+    tahr__piece piece;
+    uint32_t at;
+
+    if (!tahr__fcl_query_piece(q, part, &piece)) return;
+    q->context->narrow_tests++;
+    tahr__fcl_measure(q, part, &piece, v_make(0, 0, 0), &m.near);
+    m.start = m.near.distance;
+    double gap = m.start - q->margin, speed = -v_dot(q->motion, m.near.normal);
+    if (gap <= 0) report(s, &piece, &m);
+    if (gap <= 0 || !(speed > 0) || gap > speed * tahr__hits_limit(&s->hits)) return;
+    waiter w = {gap / speed, m.start, part, 0};
+    for (at = s->waiting_count++; at > 0 && w.earliest < s->waiting[at - 1].earliest; at--)
+        s->waiting[at] = s->waiting[at - 1];
+    s->waiting[at] = w;
+    if (s->waiting_count > MAX_WAITING) resolve(s, &s->waiting[--s->waiting_count]);
+}
+
+tahr_status tahr__fcl_sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
+                            uint32_t capacity, uint32_t *count)
+{
+    tahr__fcl_query q;
+    search s;
+    tahr_status status;
+
+    *count = 0;
+    q.scene = self;
+    q.margin = query->margin;
+    q.origin = query->position;
+    q.motion = query->motion;
+    q.up = query->up;
+    q.mask = query->mask;
+    q.ignore_body = query->ignore_body;
+    q.only_body = (query->flags & TAHR_SWEEP_ONLY_BODY) != 0;
+    q.leaves_out = query->flags & TAHR_SWEEP_SENSORS ? TAHR__FCL_SOLIDS : capacity == 1 ? TAHR__FCL_SENSORS : 0u;
+    if (query->shape.type < TAHR_SHAPE_SPHERE || query->shape.type > TAHR_SHAPE_BOX) return TAHR_E_UNSUPPORTED;
+    if (!tahr__shape_make(&query->shape, query->up, query->orientation, &q.shape) || !(query->margin >= 0))
+        return TAHR_E_ARGUMENT;
+    s.query = &q;
+    s.flags = query->flags;
+    s.waiting_count = 0;
+    status = tahr__fcl_query_begin(&q, context, q.shape.radius + q.margin);
+    tahr__hits_begin(&s.hits, q.motion_length);
+    for (uint32_t i = 0; status >= 0 && i < q.count; i++)
+        visit(&s, i);
+    for (uint32_t i = 0; status >= 0 && i < s.waiting_count; i++)
+        resolve(&s, &s.waiting[i]);
+    tahr__fcl_query_end(&q);
+    return status < 0 ? status : tahr__hits_write(&s.hits, hits, capacity, count);
+}
