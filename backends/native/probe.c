@@ -62,8 +62,8 @@ static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__p
         solid.axis[i] = m_apply(&map.turn, solid.axis[i]);
     if (outside_a_face(&query->core, &solid, v_sub(centre, map.offset))) return 0;
     double depth = tahr__core_leave_solid(&query->core, centre, &solid, map.offset, &out->witness.normal);
-    /* In the plane of a face a rounded core is overlapped by its radius, and the faces leave that to the inside. */
-    if (depth < 0 || (depth == 0 && query->radius == 0)) return 0;
+    /* In the plane of a face too: the faces leave what touches them to the inside. */
+    if (depth < 0) return 0;
     tahr_vec3 n = out->witness.normal;
     out->witness.distance = 0;
     out->witness.feature = TAHR__FACE;
