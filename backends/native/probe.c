@@ -76,8 +76,8 @@ static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__p
     tahr_vec3 centre = query->start;
     double depth = body->type == TAHR_BODY_HULL ? leave_hull(query, body, centre, &out->witness.normal)
                                                 : leave_box(query, body, centre, &out->witness.normal);
-    /* In the plane of a face a rounded core is overlapped by its radius, and the faces leave that to the inside. */
-    if (depth < 0 || (depth == 0 && query->radius == 0)) return 0;
+    /* In the plane of a face too: the faces leave what touches them to the inside. */
+    if (depth < 0) return 0;
     tahr_vec3 n = out->witness.normal;
     out->witness.distance = 0;
     out->witness.feature = TAHR__FACE;

@@ -22,23 +22,39 @@ typedef struct tahr_selftest_result {
 
 typedef void (*tahr_selftest_fn)(void *user, const tahr_selftest_result *result);
 
+/* For your own callbacks: "open me a world with these bodies": build them in your engine and open your callbacks over
+ * them (tahr_world_open_callbacks). [in] desc is valid during the call only; all its bodies are of the kinds and have
+ * the flags that tahr_selftest_desc.capabilities claims. [out] world, untouched on failure. Returns TAHR_OK or what
+ * went wrong. */
+typedef tahr_status (*tahr_selftest_open_fn)(void *user, const tahr_world_desc *desc, tahr_world **world);
+
+/* Closes a world of that function, and what is behind it. */
+typedef void (*tahr_selftest_close_fn)(void *user, tahr_world *world);
+
 /* Zero what you do not use. */
 typedef struct tahr_selftest_desc {
     uint32_t struct_size;
-    uint32_t reserved;      /* 0 */
+    uint32_t capabilities;  /* with open: TAHR_CAP_* of the shapes that your sweep takes, of the bodies that you can
+                             * build, MARGIN, and CONTACTS, RAY, SENSORS, ONE_WAY if you do them; without open: 0 */
     const void *options;    /* for tahr_world_desc.options of every world that is opened */
-    double gap_tolerance;   /* m, of the place where a sweep stops; 0: 1e-4 of the shape's size */
-    double angle_tolerance; /* rad, of normals; 0: 2 degrees */
+    double gap_tolerance;   /* m, of distances to a shape 1.8 m high, in proportion to others; 0: 9e-5 */
+    double angle_tolerance; /* rad, of normals, up to 0.5; 0: 2 degrees */
     const char *only;       /* run the cases whose name begins so; NULL: all */
-    tahr_selftest_fn report;
-    void *user;
-    const tahr_log *log;
+    tahr_selftest_fn report; /* may be NULL */
+    void *user;             /* of report, open and close */
+    const tahr_log *log;    /* what the worlds complain about; NULL: silent */
+    tahr_selftest_open_fn open;   /* or NULL: tahr_world_open on the backend */
+    tahr_selftest_close_fn close; /* NULL: tahr_world_close */
 } tahr_selftest_desc;
 
-/* Runs the cases, each in worlds of its own, and reports one after the other in a fixed order. [in] backend, desc;
- * [out] failed: how many failed, may be NULL. Returns TAHR_OK (also if cases failed), TAHR_E_NULL, TAHR_E_STRUCT_SIZE,
- * TAHR_E_UNSUPPORTED, TAHR_E_ABI, TAHR_E_ARGUMENT, TAHR_E_MEMORY. Allocates. Some seconds on a slow backend.
- * Since 0.1. */
+/* Runs the cases, each in worlds of its own, and reports one after the other in a fixed order. Small scenes with
+ * answers in closed form, near the origin and far away, asked through the same checks as in a step, and with
+ * TAHR_CAP_PLANAR in the x-y plane with up = +y. What the capabilities do not claim is not supported; whatever they
+ * claim must be right. [in] backend (NULL with desc.open), desc; [out] failed: how many failed, may be NULL; untouched
+ * on error. Returns TAHR_OK (also if cases failed), TAHR_E_NULL (desc; backend and open both missing),
+ * TAHR_E_STRUCT_SIZE, TAHR_E_ABI, TAHR_E_UNSUPPORTED (an unknown tail of desc not zero), TAHR_E_ARGUMENT (tolerances
+ * not finite or out of range; capabilities without open; `only` that no case begins with), TAHR_E_MEMORY. Allocates by
+ * malloc. Under a second on a fast backend, some seconds on a slow one. Since 0.1. */
 TAHR_API tahr_status tahr_backend_selftest(const tahr_backend *backend, const tahr_selftest_desc *desc,
                                            uint32_t *failed);
 
