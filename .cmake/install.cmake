@@ -6,6 +6,8 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(RELATIVE_PATH pc_to_prefix
     ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 string(REGEX REPLACE "/$" "" pc_to_prefix "${pc_to_prefix}")
+# Libraries with a folder or -l of their own stay as they are; "dl" becomes -ldl.
+string(REGEX REPLACE "^([A-Za-z])" "-l\\1" pc_dl "${CMAKE_DL_LIBS}")
 configure_file(.cmake/tahr.pc.in tahr.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/tahr.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "backend_check.h"
 #include "callbacks.h"
 #include "core.h"
 #include "float_mode.h"
@@ -46,23 +47,6 @@ tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint32_t type
 static void silent(void *user, int32_t level, const char *message)
 {
     (void)user, (void)level, (void)message;
-}
-
-static const char *missing_slot(const tahr_backend *b)
-{
-    const struct {
-        int there;
-        const char *name;
-    } needed[] = {{b->name != NULL, "backend.name"},   {b->version != NULL, "backend.version"},
-                  {b->open != NULL, "backend.open"},   {b->close != NULL, "backend.close"},
-                  {b->sweep != NULL, "backend.sweep"}, {b->contacts != NULL, "backend.contacts"},
-                  {b->ray != NULL, "backend.ray"}};
-    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++) {
-        if (!needed[i].there) {
-            return needed[i].name;
-        }
-    }
-    return NULL;
 }
 
 /* The log of a description, if it can be trusted to be one. */
@@ -270,15 +254,9 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
     if (status < 0) {
         return tahr__complain(log, status, "tahr_world_open", "desc:", tahr_status_message(status));
     }
-    if (backend->struct_size < sizeof *backend) {
-        return tahr__complain(log, TAHR_E_STRUCT_SIZE, "tahr_world_open", "backend.struct_size", "is too small");
-    }
-    if (tahr_abi_check((uint32_t)backend->abi_major << 16 | backend->abi_minor) < 0) {
-        return tahr__complain(log, TAHR_E_ABI, "tahr_world_open", "backend", "was built for another ABI");
-    }
-    const char *missing = missing_slot(backend);
-    if (missing) {
-        return tahr__complain(log, TAHR_E_NULL, "tahr_world_open", missing, "is NULL");
+    status = tahr__backend_check(backend, log, "tahr_world_open", NULL);
+    if (status < 0) {
+        return status;
     }
     status = new_world("tahr_world_open", desc, 0, &world);
     if (status < 0) {
