@@ -20,9 +20,9 @@ enum { BATCH = 48 };
 typedef struct stream {
     tahr_gather out;
     const tahr__query *query;
-    const char *bad;   /* what is wrong with triangle bad_at */
+    const char *bad; /* what is wrong with triangle bad_at */
     uint32_t bad_at;
-    uint32_t seen;     /* triangles handed over so far */
+    uint32_t seen; /* triangles handed over so far */
     uint32_t enough, reserved;
     void (*take)(struct stream *stream, const tahr__loose *loose);
     int (*wants)(const struct stream *stream, const tahr_triangle *t);
