@@ -282,25 +282,9 @@ int checker_crosses(struct checker *checker, tahr_vec3 from, tahr_vec3 to)
 {
     int crosses = nearest(checker, from, to, 0, HUGE_VAL, 0) <= 0;
     for (size_t i = 0; i < checker->level->mover_count && !crosses; i++) {
-        crosses = crosses_mover(&checker->moving[i], from, to);
+        crosses = !checker->level->movers[i].one_way && crosses_mover(&checker->moving[i], from, to);
     }
     return crosses;
-}
-
-static double nearest_mover(const struct checker *checker, tahr_vec3 p, tahr_vec3 q, double radius)
-{
-    double best = CHECK_REACH;
-    for (size_t i = 0; i < checker->level->mover_count; i++) {
-        const struct level_mover *mover = &checker->level->movers[i];
-        double far = vec_length(mover->half_extents) + vec_length(vec_sub(q, p)) + radius + CHECK_REACH;
-        if (vec_length(vec_sub(p, checker->moving[i].now.position)) > far) {
-            continue;
-        }
-        for (int k = 0; k < LEVEL_BOX_CORNERS; k += 3) {
-            best = least(best, triangle_distance(p, q, &checker->moving[i].corners[k]) - radius);
-        }
-    }
-    return best;
 }
 
 /* The capsule that stands for a shape: the ends of its axis. Returns its radius. */
@@ -312,6 +296,68 @@ static double axis_of(const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up,
     ends[0] = vec_sub(position, axis);
     ends[1] = vec_add(position, axis);
     return radius;
+}
+
+/* Which side of a line in the plane a place is on: above it is positive; how far, times its length. */
+static double side_of(tahr_vec3 p, tahr_vec3 a, tahr_vec3 b)
+{
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+/* Seen from what may itself move by `shift`: the foot went through from above, and the shape did not overlap it. */
+static int sinks_through(const tahr_shape *before, tahr_vec3 from, tahr_vec3 foot, const tahr_vec3 thin[2],
+                         tahr_vec3 shift)
+{
+    const tahr_vec3 up = {0, 1, 0};
+    tahr_vec3 ends[2], foot_before = vec_add(vec_sub(from, vec_scale(up, before->half_height)), shift);
+    double radius = axis_of(before, vec_add(from, shift), up, ends);
+    if (side_of(foot_before, thin[0], thin[1]) < 0 || side_of(foot, thin[0], thin[1]) >= 0 ||
+        segment_distance(ends[0], ends[1], thin[0], thin[1]) < radius) {
+        return 0;
+    }
+    double u = side_of(thin[0], foot_before, foot), v = side_of(thin[1], foot_before, foot);
+    return (u <= 0 && v >= 0) || (u >= 0 && v <= 0);
+}
+
+int checker_sinks(struct checker *checker, const tahr_shape *before, tahr_vec3 from, const tahr_shape *now,
+                  tahr_vec3 to)
+{
+    const struct level *level = checker->level;
+    const tahr_vec3 foot = {to.x, to.y - now->half_height, to.z}, still = {0, 0, 0};
+    for (size_t i = 0; i < level->thin_count; i++) {
+        const tahr_vec3 thin[2] = {level->thins[i].a, level->thins[i].b};
+        if (sinks_through(before, from, foot, thin, still)) {
+            return 1;
+        }
+    }
+    for (size_t i = 0; i < level->mover_count; i++) {
+        tahr_vec3 half = level->movers[i].half_extents, middle = checker->moving[i].now.position;
+        const tahr_vec3 top[2] = {{middle.x - half.x, middle.y + half.y, 0}, {middle.x + half.x, middle.y + half.y, 0}};
+        tahr_vec3 shift = vec_sub(middle, checker->moving[i].before.position);
+        if (level->movers[i].one_way && sinks_through(before, from, foot, top, shift)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static double nearest_mover(const struct checker *checker, tahr_vec3 p, tahr_vec3 q, double radius)
+{
+    double best = CHECK_REACH;
+    for (size_t i = 0; i < checker->level->mover_count; i++) {
+        const struct level_mover *mover = &checker->level->movers[i];
+        if (mover->one_way) {
+            continue;
+        }
+        double far = vec_length(mover->half_extents) + vec_length(vec_sub(q, p)) + radius + CHECK_REACH;
+        if (vec_length(vec_sub(p, checker->moving[i].now.position)) > far) {
+            continue;
+        }
+        for (int k = 0; k < LEVEL_BOX_CORNERS; k += 3) {
+            best = least(best, triangle_distance(p, q, &checker->moving[i].corners[k]) - radius);
+        }
+    }
+    return best;
 }
 
 double checker_mover_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up)

@@ -9,12 +9,14 @@
 #include "progress.h"
 #include "route.h"
 #include "say.h"
+#include "side.h"
 #include "spawn.h"
 #include "summary.h"
 #include "vec.h"
 #include "wander.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #define WANDER_SPEED 5.0    /* m/s, by the definition of wandering */
@@ -53,6 +55,8 @@ struct moment {
     uint32_t index;
     double time; /* s, at the start of the step */
     tahr_vec3 before;
+    uint32_t flags_before; /* of the state */
+    tahr_shape shape_before;
     tahr_input input;
     int heading_is_new;
     tahr_report report;
@@ -94,6 +98,8 @@ static int create_characters(struct run *run)
     run->characters = memory_new(o->characters, sizeof *run->characters);
     if (run->route.has_start) {
         places[0] = run->route.start;
+    } else if (o->characters == 1 && run->level.side != NULL && run->level.side->has_start) {
+        places[0] = side_start(run->level.side, &run->config);
     } else {
         failed = spawn_find(run->world, &run->level, &run->config, o->seed, places, o->characters);
     }
@@ -102,6 +108,7 @@ static int create_characters(struct run *run)
         character->spawn = places[i];
         wander_start(&character->wander, o->seed, i);
         character->wander.crouches = o->level == NULL;
+        character->wander.side = o->side;
         place_character(run, character, 0);
         tahr_status status = tahr_mover_create(run->world, &run->config, &character->mover);
         if (status < 0) {
@@ -114,6 +121,55 @@ static int create_characters(struct run *run)
     return failed;
 }
 
+static int load_side(struct run *run)
+{
+    const struct options *o = run->options;
+    const struct side_options options = {.pixels_per_metre = o->pixels_per_metre, .separate = o->separate_tiles};
+    struct side side;
+    if (side_load(&side, o->level, &options) != 0) {
+        return -1;
+    }
+    const char *base = o->level != NULL ? strrchr(o->level, '/') : NULL;
+    side_build(&run->level, &side, base != NULL ? base + 1 : o->level != NULL ? o->level : "side-scroller",
+               (o->backend->get()->capabilities & TAHR_CAP_PLANAR) != 0);
+    return 0;
+}
+
+static int load_level(struct run *run)
+{
+    const struct options *o = run->options;
+    if (o->side) {
+        return load_side(run);
+    }
+    if (o->level == NULL) {
+        level_playground(&run->level);
+        return 0;
+    }
+    return level_load(&run->level, o->level, o->up);
+}
+
+static void set_config(struct run *run)
+{
+    const struct options *o = run->options;
+    tahr_config *config = &run->config;
+    if (tahr_config_init(config, sizeof *config, o->preset) < 0) {
+        tahr_config_init(config, sizeof *config, TAHR_PRESET_PRECISE); /* until the library has the preset */
+        playground_feel(config);
+        config->jump_release_gravity = 2.5;
+        config->jump_speed = 6.5;
+        config->fall_gravity = 1.5;
+    }
+    config->max_speed = WANDER_SPEED;
+    if (o->side) {
+        side_config(config);
+    } else if (o->level == NULL) {
+        playground_feel(config);
+    }
+    if (o->shape != 0) {
+        config->shape = side_shape(o->shape, &config->shape);
+    }
+}
+
 static int open_run(struct run *run)
 {
     const struct options *o = run->options;
@@ -121,20 +177,17 @@ static int open_run(struct run *run)
     if (output_probe("csv", o->csv) != 0 || output_probe("plot", o->plot) != 0) {
         return -1;
     }
-    if (o->route != NULL && route_load(&run->route, o->route) != 0) {
+    if (o->route != NULL && route_load(&run->route, o->route, o->side) != 0) {
         return -1;
     }
-    if (o->level == NULL) {
-        level_playground(&run->level);
-    } else if (level_load(&run->level, o->level, o->up) != 0) {
+    if (o->tour) {
+        route_tour(&run->route);
+    }
+    if (load_level(run) != 0) {
         return -1;
     }
     run->result.load_seconds = (double)(clock_ns() - before) * 1e-9;
-    tahr_config_init(&run->config, sizeof run->config, o->preset);
-    run->config.max_speed = WANDER_SPEED;
-    if (o->level == NULL) {
-        playground_feel(&run->config);
-    }
+    set_config(run);
     run->poses = memory_new(run->level.mover_count, sizeof *run->poses);
     if (open_world(run) != 0 || create_characters(run) != 0) {
         return -1;
@@ -183,8 +236,7 @@ static void add_finding(struct run *run, const struct moment *m, const char *wha
 /* Where the foot is of a character whose centre is there. */
 static tahr_vec3 foot_of(tahr_vec3 centre, const tahr_state *state)
 {
-    centre.z -= state->half_height;
-    return centre;
+    return vec_sub(centre, vec_scale(state->up, state->half_height));
 }
 
 static void count_events(struct run *run, const struct moment *m, const tahr_state *state)
@@ -193,6 +245,9 @@ static void count_events(struct run *run, const struct moment *m, const tahr_sta
     for (uint32_t i = 0; i < m->report.event_count; i++) {
         const tahr_event *event = &m->events[i];
         r->events[event->type < EVENT_TYPES ? event->type : 0]++;
+        if (event->type == TAHR_EVENT_OVERLAP_BEGIN && run->level.side != NULL) {
+            side_reach(run->level.side, event->body, m->time + event->time);
+        }
         if (run->options->plot != NULL) {
             trace_mark(&run->trace, m->index, event->type, m->time + event->time, foot_of(event->position, state));
         }
@@ -229,13 +284,16 @@ static void check_step(struct run *run, const struct moment *m, const tahr_state
     if (run->checker == NULL || (run->options->check == CHECK_SAMPLED && (m->step + m->index) % SAMPLE_PERIOD != 0)) {
         return;
     }
+    const tahr_shape shape = shape_now(&run->config, state);
     r->checked++;
-    if (run->dt <= STRAIGHT_DT && checker_crosses(run->checker, m->before, state->position)) {
+    int dropped = ((state->flags | m->flags_before) & TAHR_STATE_DROPPING) != 0;
+    if (run->dt <= STRAIGHT_DT &&
+        (checker_crosses(run->checker, m->before, state->position) ||
+         (!dropped && checker_sinks(run->checker, &m->shape_before, m->before, &shape, state->position)))) {
         r->tunnels++;
         add_finding(run, m, "tunnelled", m->before);
         trace_mark(&run->trace, m->index, TRACE_TUNNEL, m->time, foot_of(state->position, state));
     }
-    const tahr_shape shape = shape_now(&run->config, state);
     double clearance = checker_clearance(run->checker, &shape, state->position, state->up);
     if (m->report.flags & TAHR_REPORT_CRUSHED) { /* there was no room, which only a mover can bring about */
         r->crushed++;
@@ -257,7 +315,8 @@ static void bring_back(struct run *run, const struct moment *m, struct character
 {
     const tahr_state *state = &character->state;
     int bad = !vec_finite(state->position) || !vec_finite(state->velocity);
-    int fell = !bad && state->position.z < run->level.bounds.min.z - FALL_OUT_DEPTH;
+    int fell = !bad && level_height(&run->level, state->position) <
+                           level_height(&run->level, run->level.bounds.min) - FALL_OUT_DEPTH;
     if (bad) {
         add_finding(run, m, "bad state", m->before);
     }
@@ -316,12 +375,14 @@ static int step_character(struct run *run, struct moment *m)
     struct character *character = &run->characters[m->index];
     m->input = (tahr_input){.struct_size = sizeof m->input};
     m->report = (tahr_report){.struct_size = sizeof m->report, .events = m->events, .event_capacity = EVENT_CAPACITY};
-    m->heading_is_new = run->route.count > 0 ? route_input(&run->route, m->time, &m->input)
+    m->heading_is_new = run->route.count > 0 ? route_input(&run->route, m->time, character->state.position, &m->input)
                                              : wander_input(&character->wander, m->time, &m->input);
     if (run->route.count == 0 && character->state.mode == TAHR_MODE_HANGING && m->heading_is_new) {
         m->input.jump = 1; /* who hangs on an edge and wants to go elsewhere climbs, or jumps off */
     }
     m->before = character->state.position;
+    m->flags_before = character->state.flags;
+    m->shape_before = shape_now(&run->config, &character->state);
     uint64_t before = clock_ns();
     tahr_status status = tahr_mover_step(character->mover, &m->input, run->dt, &character->state, &m->report);
     uint64_t ns = clock_ns() - before, clock = (uint64_t)run->result.clock_cost;
