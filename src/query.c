@@ -3,6 +3,7 @@
 #include "query.h"
 
 #include "answer.h"
+#include "drop.h"
 #include "plane.h"
 #include "query_record.h"
 #include "trail.h"
@@ -47,6 +48,10 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
     if (!may_ask(step)) {
         blocked_here(step, hit);
         return;
+    }
+    if (is_dropping(step)) {
+        flags |= TAHR_SWEEP_DROP;
+        margin = max_of(margin, drop_margin(step->config));
     }
     tahr_sweep q = {.shape = *shape,
                     .position = from,
@@ -130,7 +135,7 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
                             .margin = margin,
                             .mask = step->config->mask,
                             .ignore_body = step->ignore_body,
-                            .flags = TAHR_CONTACTS_SOLID};
+                            .flags = TAHR_CONTACTS_SOLID | (is_dropping(step) ? (uint32_t)TAHR_CONTACTS_DROP : 0u)};
     step->report.contact_queries++;
     tahr_status status = tahr__answer_contacts(step->world, &step->context, &q, contacts, capacity, &count);
     if (status < 0) {

@@ -251,7 +251,7 @@ static struct outline_point in_pixels(int64_t x, int64_t y)
 }
 
 /* Edges way[begin] to way[begin + count - 1] (counted round) are one line. */
-static void hand_out(const struct walk *walk, size_t length, size_t begin, size_t count, int closed)
+static void hand_out(const struct walk *walk, size_t length, size_t begin, size_t count, enum outline_end end)
 {
     const struct outline_edge *last = walk->way[(begin + count - 1) % length];
     for (size_t i = 0; i < count; i++) {
@@ -259,7 +259,7 @@ static void hand_out(const struct walk *walk, size_t length, size_t begin, size_
         walk->points[i] = in_pixels(e->ax, e->ay);
     }
     walk->points[count] = in_pixels(last->bx, last->by);
-    walk->found(walk->user, walk->points, count + (closed ? 0 : 1), closed, last->tag);
+    walk->found(walk->user, walk->points, count + (end == OUTLINE_RING ? 0 : 1), end, last->tag);
 }
 
 /* Follows edges from one on as far as they go; where the tag changes the line ends. */
@@ -280,7 +280,7 @@ static void follow(struct outline *outline, const struct walk *walk, struct outl
         }
     }
     if (changes == 0) {
-        hand_out(walk, length, 0, length, closed);
+        hand_out(walk, length, 0, length, closed ? OUTLINE_RING : OUTLINE_OPEN);
         return;
     }
     for (size_t done = 0, count; done < length; done += count) {
@@ -288,7 +288,8 @@ static void follow(struct outline *outline, const struct walk *walk, struct outl
         for (count = 1; done + count < length && walk->way[(begin + done + count) % length]->tag == e->tag;) {
             count++;
         }
-        hand_out(walk, length, (begin + done) % length, count, 0);
+        enum outline_end end = !closed ? OUTLINE_OPEN : done + count < length ? OUTLINE_PART : OUTLINE_LAST;
+        hand_out(walk, length, (begin + done) % length, count, end);
     }
 }
 

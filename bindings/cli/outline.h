@@ -27,8 +27,13 @@ struct outline {
 /* A closed polygon, counter-clockwise, or a line that stays open. */
 void outline_add(struct outline *outline, const struct outline_point *points, size_t count, int closed, uint32_t tag);
 
-/* Hands out every outline as few points as it needs, and frees the edges. The points are valid during the call. */
-typedef void (*outline_fn)(void *user, const struct outline_point *points, size_t count, int closed, uint32_t tag);
+/* OPEN: a line. RING: closed. PART: a line that the next one goes on from; the LAST of them ends where the first
+ * began. */
+enum outline_end { OUTLINE_OPEN, OUTLINE_RING, OUTLINE_PART, OUTLINE_LAST };
+
+/* Hands out every outline with as few points as it needs, and frees the edges. The points are valid during the call. */
+typedef void (*outline_fn)(void *user, const struct outline_point *points, size_t count, enum outline_end end,
+                           uint32_t tag);
 void outline_finish(struct outline *outline, outline_fn found, void *user);
 
 #endif

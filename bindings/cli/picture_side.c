@@ -15,6 +15,15 @@ static void set_colour(cairo_t *cairo, const double colour[3])
     cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
 }
 
+/* The line of a piece; of a path that another piece began where `goes_on`. */
+static void add_line(cairo_t *cairo, const struct axes *axes, const struct side_piece *piece, int goes_on)
+{
+    for (size_t i = goes_on ? 1 : 0; i < piece->count; i++) {
+        double x = axes_x(axes, piece->points[i].x), y = axes_y(axes, piece->points[i].y);
+        i == 0 ? cairo_move_to(cairo, x, y) : cairo_line_to(cairo, x, y);
+    }
+}
+
 static void add_path(cairo_t *cairo, const struct axes *axes, const struct side_piece *piece, struct side_point shift)
 {
     struct side_point corners[4];
@@ -44,10 +53,14 @@ static void add_path(cairo_t *cairo, const struct axes *axes, const struct side_
 static void fill_solids(cairo_t *cairo, const struct axes *axes, const struct side *side)
 {
     const struct side_point still = {0, 0};
+    int goes_on = 0;
     for (size_t i = 0; i < side->count; i++) {
         const struct side_piece *piece = &side->pieces[i];
         if (piece->kind == SIDE_SOLID && !piece->moves && piece->form != SIDE_LINE) {
             add_path(cairo, axes, piece, still);
+        } else if (piece->kind == SIDE_SOLID && piece->part != 0) {
+            add_line(cairo, axes, piece, goes_on);
+            goes_on = piece->part == 1;
         }
     }
     cairo_set_fill_rule(cairo, CAIRO_FILL_RULE_WINDING);

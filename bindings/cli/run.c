@@ -152,13 +152,7 @@ static void set_config(struct run *run)
 {
     const struct options *o = run->options;
     tahr_config *config = &run->config;
-    if (tahr_config_init(config, sizeof *config, o->preset) < 0) {
-        tahr_config_init(config, sizeof *config, TAHR_PRESET_PRECISE); /* until the library has the preset */
-        playground_feel(config);
-        config->jump_release_gravity = 2.5;
-        config->jump_speed = 6.5;
-        config->fall_gravity = 1.5;
-    }
+    tahr_config_init(config, sizeof *config, o->preset);
     config->max_speed = WANDER_SPEED;
     if (o->side) {
         side_config(config);

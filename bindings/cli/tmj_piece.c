@@ -241,12 +241,14 @@ struct joining {
     enum side_kind kind;
 };
 
-static void found_outline(void *user, const struct outline_point *points, size_t count, int closed, uint32_t tag)
+static void found_outline(void *user, const struct outline_point *points, size_t count, enum outline_end end,
+                          uint32_t tag)
 {
     const struct joining *joining = user;
     add_piece(joining->tmj,
               (struct side_piece){.kind = joining->kind,
-                                  .form = closed ? SIDE_LOOP : SIDE_LINE,
+                                  .form = end == OUTLINE_RING ? SIDE_LOOP : SIDE_LINE,
+                                  .part = end == OUTLINE_PART ? 1 : end == OUTLINE_LAST ? 2 : 0,
                                   .belt = joining->tmj->belts[tag]},
               points, count);
 }
