@@ -159,11 +159,16 @@ void picture_side(const struct picture *picture, const struct axes *axes)
     cairo_set_source_rgb(cairo, 0.97, 0.98, 1);
     cairo_fill_preserve(cairo);
     cairo_clip(cairo);
+    for (size_t i = 0; i < side->count; i++) {
+        if (side->pieces[i].kind == SIDE_WATER) {
+            draw_outline(cairo, axes, &side->pieces[i]);
+        }
+    }
     fill_solids(cairo, axes, side);
     axes_grid(axes);
     for (size_t i = 0; i < side->count; i++) {
         const struct side_piece *piece = &side->pieces[i];
-        if (!piece->moves) {
+        if (!piece->moves && piece->kind != SIDE_WATER) {
             draw_outline(cairo, axes, piece);
         }
         if (piece->belt != 0 && !piece->moves) {

@@ -180,12 +180,16 @@ tahr_vec3 side_start(const struct side *side, const tahr_config *config)
     return (tahr_vec3){side->start.x, side->start.y + config->shape.half_height + clearance, 0};
 }
 
+int side_is_place(const struct side_piece *piece)
+{
+    return piece->kind == SIDE_SENSOR || piece->kind == SIDE_GOAL;
+}
+
 void side_reach(struct side *side, uint32_t body, double time)
 {
     for (size_t i = 0; i < side->count; i++) {
         struct side_piece *piece = &side->pieces[i];
-        int asked = piece->kind == SIDE_SENSOR || piece->kind == SIDE_GOAL;
-        if (asked && piece->body == body && piece->reached < 0) {
+        if (side_is_place(piece) && piece->body == body && piece->reached < 0) {
             piece->reached = time;
         }
     }

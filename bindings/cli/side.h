@@ -69,6 +69,9 @@ tahr_shape side_shape(uint32_t type, const tahr_shape *like);
 /* The centre of a character that stands at the level's start. */
 tahr_vec3 side_start(const struct side *side, const tahr_config *config);
 
+/* Whether a piece is watched: a sensor or a goal. */
+int side_is_place(const struct side_piece *piece);
+
 /* Somebody came into this body at this time. */
 void side_reach(struct side *side, uint32_t body, double time);
 
