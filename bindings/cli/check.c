@@ -304,19 +304,17 @@ static double side_of(tahr_vec3 p, tahr_vec3 a, tahr_vec3 b)
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-/* Seen from what may itself move by `shift`: the foot went through from above, and the shape did not overlap it. */
+/* Seen from what may itself move by `shift`: the foot went through from above, and the shape did not overlap it. Who
+ * walks off an end goes round it: only what is above and then below the inside counts. */
 static int sinks_through(const tahr_shape *before, tahr_vec3 from, tahr_vec3 foot, const tahr_vec3 thin[2],
                          tahr_vec3 shift)
 {
     const tahr_vec3 up = {0, 1, 0};
     tahr_vec3 ends[2], foot_before = vec_add(vec_sub(from, vec_scale(up, before->half_height)), shift);
+    double left = least(foot_before.x, foot.x), right = most(foot_before.x, foot.x);
     double radius = axis_of(before, vec_add(from, shift), up, ends);
-    if (side_of(foot_before, thin[0], thin[1]) < 0 || side_of(foot, thin[0], thin[1]) >= 0 ||
-        segment_distance(ends[0], ends[1], thin[0], thin[1]) < radius) {
-        return 0;
-    }
-    double u = side_of(thin[0], foot_before, foot), v = side_of(thin[1], foot_before, foot);
-    return (u <= 0 && v >= 0) || (u >= 0 && v <= 0);
+    return left >= thin[0].x && right <= thin[1].x && side_of(foot_before, thin[0], thin[1]) >= 0 &&
+           side_of(foot, thin[0], thin[1]) < 0 && segment_distance(ends[0], ends[1], thin[0], thin[1]) >= radius;
 }
 
 int checker_sinks(struct checker *checker, const tahr_shape *before, tahr_vec3 from, const tahr_shape *now,

@@ -12,6 +12,8 @@
 #include <string.h>
 #include <tahr/config.h>
 
+#define TOUR_SECONDS 65 /* it waits for a shuttle and a lift on the way */
+
 enum {
     OPTION_LEVEL = 256,
     OPTION_UP,
@@ -66,7 +68,7 @@ void options_help(void)
           "  --2d               two dimensions, seen from the side: x to the right, y up\n"
           "  --up y|z           which axis of the file points up (y); shown and written is always Z up: (x, -z, y)\n"
           "  --characters N     1 to 100000 wandering characters (16)\n"
-          "  --seconds S        simulated time (10)\n"
+          "  --seconds S        simulated time (10; 65 with --tour)\n"
           "  --rate HZ          steps per second, 1 to 100000 (60)\n"
           "  --seed K           of spawn points and headings (1)\n"
           "  --preset NAME      settings of the characters: precise, unreal, platformer (precise;\n"
@@ -271,6 +273,7 @@ static int check_side(struct options *o, const char given[OPTION_HELP + 1])
         say_error("--tour: is a route through the bundled level; expected neither --level nor --route with it");
         return -1;
     }
+    o->seconds = o->tour && !given[OPTION_SECONDS] ? TOUR_SECONDS : o->seconds;
     if (o->side && !given[OPTION_PRESET]) {
         o->preset = TAHR_PRESET_PLATFORMER;
     }
@@ -312,7 +315,7 @@ static int check_together(struct options *o, const char given[OPTION_HELP + 1])
 
 int options_parse(struct options *options, int argc, char **argv)
 {
-    char given[OPTION_HELP + 1] = {0};
+    char given[OPTION_HELP + 1] = {0}; /* by option */
     int option;
     *options = (struct options){.up = 'y',
                                 .characters = 16,

@@ -280,7 +280,7 @@ static void check_step(struct run *run, const struct moment *m, const tahr_state
     }
     const tahr_shape shape = shape_now(&run->config, state);
     r->checked++;
-    int dropped = ((state->flags | m->flags_before) & TAHR_STATE_DROPPING) != 0;
+    int dropped = ((state->flags | m->flags_before) & TAHR_STATE_DROPPING) || (m->input.flags & TAHR_INPUT_DROP);
     if (run->dt <= STRAIGHT_DT &&
         (checker_crosses(run->checker, m->before, state->position) ||
          (!dropped && checker_sinks(run->checker, &m->shape_before, m->before, &shape, state->position)))) {
