@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -150,42 +151,59 @@ static void no_seam_stops_a_sweep_along_it(void **unused)
     }
 }
 
-/* A wall behind the seams, and a slope that begins at one, are met where they are: with the gap a hair below the margin a
- * slope of angle a is at its margin where its foot is s = (r + m - (r + g) cos a) / sin a before the centre. */
+typedef struct obstacle {
+    double slope, gap; /* tangent; 0: a wall */
+    double at;         /* x of the centre where it is met */
+} obstacle;
+
+/* A hull from x = 6 to 10 with its left corner on the floor, or a block. */
+static tahr_body_desc body_of(const obstacle *o, double (*ramp)[3])
+{
+    tahr_body_desc b = box2d_box(8, 0.5, 2, 0.5);
+    if (o->slope > 0) {
+        const double from[4][3] = {{6, 0, 0}, {10, 4 * o->slope, 0}, {10, 0, 0}, {6, 0, 1}};
+        memcpy(ramp, from, sizeof from);
+        assert_int_equal(tahr_body_desc_init(&b, sizeof b, TAHR_BODY_HULL), TAHR_OK);
+        b.vertices = ramp[0];
+        b.vertex_count = 4;
+    }
+    return b;
+}
+
+/* A wall behind the seams, and a slope of angle a that begins at one, are met where they are: a steep one at its margin,
+ * where its foot is s = (r + m - (r + g) cos a) / sin a before the centre; a gentle one, which the centre's foot on it
+ * reaches when it is within the margin already, at s = (r + g) tan a, though its corner was at the margin before. */
 static void what_lies_behind_a_seam_is_met(void **unused)
 {
-    const double r = 0.35, margin = 0.01, gap = 0.01 - 1e-7, angle = 0.5;
-    const double ramp[6][3] = {{6, 0, 0}, {10, 4 * 0.54630248984379048, 0}, {10, 0, 0}, {6, 0, 1}};
+    const double r = 0.35, margin = 0.01, steep = atan(0.5), near_margin = 0.01 - 1e-7;
+    const obstacle all[] = {
+        {0, near_margin, 6 - r - margin},
+        {0.5, near_margin, 6 - (r + margin - (r + near_margin) * cos(steep)) / sin(steep)},
+        {0.1, 0.005, 6 - (r + 0.005) * 0.1},
+    };
     (void)unused;
-    assert_near(tan(angle), 0.54630248984379048, 1e-15);
-    for (int k = 0; k < engine_count * LAYOUTS * 2; k++) {
+    for (int k = 0; k < engine_count * LAYOUTS * 3; k++) {
+        const obstacle *o = &all[k % 3];
         fake_log log = {0};
-        uint32_t count = lay(k / 2 % LAYOUTS);
-        tahr_world *world;
+        uint32_t count = lay(k / 3 % LAYOUTS), found = 0;
+        double ramp[4][3];
         tahr_hit hit;
         tahr_config c = config_of(TAHR_SHAPE_CAPSULE);
-        tiles[count] = box2d_box(8, 0.5, 2, 0.5);
-        if (k % 2) {
-            assert_int_equal(tahr_body_desc_init(&tiles[count], sizeof tiles[count], TAHR_BODY_HULL), TAHR_OK);
-            tiles[count].vertices = ramp[0];
-            tiles[count].vertex_count = 4;
-        }
-        world = box2d_open(engines[k / 2 / LAYOUTS], tiles, count + 1, &log);
+        tiles[count] = body_of(o, ramp);
+        tahr_world *world = box2d_open(engines[k / 3 / LAYOUTS], tiles, count + 1, &log);
         tahr_sweep q = {.shape = c.shape,
-                        .position = {1.07, 0.9 + gap, 0},
+                        .position = {1.07, 0.9 + o->gap, 0},
                         .up = {0, 1, 0},
                         .orientation = {0, 0, 0, 1},
                         .motion = {8, 0, 0},
                         .margin = margin,
                         .mask = 0xFFFFFFFFu,
                         .ignore_body = TAHR_NO_BODY};
-        uint32_t found = 0;
         assert_int_equal(tahr_world_sweep(world, &q, &hit, 1, &found), TAHR_OK);
         assert_int_equal(found, 1);
         assert_int_equal(hit.body, count);
-        double at = k % 2 ? 6 - (r + margin - (r + gap) * cos(angle)) / sin(angle) : 6 - r - margin;
-        assert_near(q.position.x + 8 * hit.fraction, at, 1e-8);
-        assert_near(hit.normal.x, k % 2 ? -sin(angle) : -1, 1e-9);
+        assert_near(q.position.x + 8 * hit.fraction, o->at, 1e-8);
+        assert_near(hit.normal.x, o->slope > 0 ? -sin(atan(o->slope)) : -1, 1e-9);
         tahr_world_close(world);
     }
 }
