@@ -5,6 +5,7 @@ set(box2d_links)
 set(box2d_defines)
 set(box2d_language C)
 set(box2d_package) # for find_package(tahr)
+set(box2d_3_include)
 file(GLOB box2d_sources CONFIGURE_DEPENDS backends/box2d/*.c)
 list(FILTER box2d_sources EXCLUDE REGEX "/engine_v3\\.c$")
 
@@ -19,10 +20,11 @@ if(NOT "${TAHR_BACKEND_BOX2D}" STREQUAL "OFF")
         if(NOT box2d_3_sources OR NOT EXISTS ${TAHR_BOX2D3_DIR}/include/box2d/box2d.h)
             message(FATAL_ERROR "TAHR_BOX2D3_DIR=${TAHR_BOX2D3_DIR} holds no src/*.c and include/box2d/box2d.h")
         endif()
-        # Not ours: no warnings of ours, and its own dialect (C17, clock_gettime).
+        # Not ours: no warnings of ours, and its own dialect (C17, clock_gettime). Its headers are named like those of
+        # 2.4, so nobody inherits them: who wants them says so (box2d_3_include).
         add_library(tahr_box2d_3 STATIC EXCLUDE_FROM_ALL ${box2d_3_sources})
-        target_include_directories(tahr_box2d_3 SYSTEM
-            PUBLIC $<BUILD_INTERFACE:${TAHR_BOX2D3_DIR}/include> PRIVATE ${TAHR_BOX2D3_DIR}/src)
+        target_include_directories(tahr_box2d_3 SYSTEM PRIVATE ${TAHR_BOX2D3_DIR}/include ${TAHR_BOX2D3_DIR}/src)
+        set(box2d_3_include ${TAHR_BOX2D3_DIR}/include)
         set_target_properties(tahr_box2d_3 PROPERTIES
             C_STANDARD 17 C_EXTENSIONS ON POSITION_INDEPENDENT_CODE ON C_VISIBILITY_PRESET hidden)
         find_package(Threads REQUIRED)
@@ -38,6 +40,30 @@ if(NOT "${TAHR_BACKEND_BOX2D}" STREQUAL "OFF")
         list(APPEND box2d_links ${box2d_3})
         list(APPEND box2d_defines TAHR_BOX2D_HAS_3)
         list(APPEND box2d_sources backends/box2d/engine_v3.c)
+        # The queries of a world got an origin between releases that all call themselves 3.2.0; CastMover is the one whose
+        # number of arguments changed. Only compiled: the library itself may not be built yet.
+        include(CheckCSourceCompiles)
+        set(kept_type ${CMAKE_TRY_COMPILE_TARGET_TYPE})
+        set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+        set(CMAKE_REQUIRED_FLAGS "-std=gnu17")
+        if(box2d_3_include)
+            set(CMAKE_REQUIRED_INCLUDES ${box2d_3_include})
+            set_source_files_properties(backends/box2d/engine_v3.c PROPERTIES
+                COMPILE_OPTIONS "-isystem;${box2d_3_include}")
+        else()
+            set(CMAKE_REQUIRED_LIBRARIES ${box2d_3})
+        endif()
+        check_c_source_compiles("#include <box2d/box2d.h>
+            float cast(b2WorldId w, b2Pos o, const b2Capsule *c, b2Vec2 t, b2QueryFilter f);
+            float cast(b2WorldId w, b2Pos o, const b2Capsule *c, b2Vec2 t, b2QueryFilter f)
+            { return b2World_CastMover(w, o, c, t, f); }" TAHR_BOX2D_3_ORIGIN)
+        set(CMAKE_TRY_COMPILE_TARGET_TYPE ${kept_type})
+        unset(CMAKE_REQUIRED_FLAGS)
+        unset(CMAKE_REQUIRED_INCLUDES)
+        unset(CMAKE_REQUIRED_LIBRARIES)
+        if(TAHR_BOX2D_3_ORIGIN)
+            list(APPEND box2d_defines TAHR_BOX2D_3_ORIGIN)
+        endif()
     endif()
     if(with_cxx AND NOT TARGET box2d::box2d)
         find_package(box2d 2.4 CONFIG QUIET)

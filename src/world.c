@@ -291,8 +291,11 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
     }
     world->backend = backend;
     world->has |= backend->body_motion ? (uint32_t)TAHR__HAS_BASES : 0u;
-    /* A backend that brings its own scene may have fluids in it that nobody described. */
+    /* A backend that brings its own scene may have fluids and sensors in it that nobody described. */
     world->has |= backend->fluid && desc->body_count == 0 ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
+    if (backend->body_motion && (backend->capabilities & TAHR_CAP_SENSORS) && desc->body_count == 0) {
+        world->has |= TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS;
+    }
     *out = world;
     return TAHR_OK;
 }

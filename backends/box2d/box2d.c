@@ -1,8 +1,80 @@
 /* SPDX-License-Identifier: MIT
  * box2d.c: the table of the box2d backend and its life cycle. */
-#include <tahr/box2d.h>
+#include "scene.h"
+
+static tahr_status open_scene(const tahr_host *host, const tahr_world_desc *desc, void **self)
+{
+    tahr__b2_scene *scene = host->allocator.alloc(host->allocator.user, sizeof *scene, 64);
+    tahr_status status;
+
+    if (!scene) return TAHR_E_MEMORY;
+    status = tahr__b2_scene_open(scene, host, desc);
+    if (status < 0)
+        host->allocator.free(host->allocator.user, scene, sizeof *scene, 64);
+    else
+        *self = scene;
+    return status;
+}
+
+static void close_scene(void *self)
+{
+    tahr__b2_scene *scene = self;
+    tahr_allocator allocator;
+
+    if (!scene) return;
+    allocator = scene->host->allocator;
+    tahr__b2_scene_close(scene);
+    allocator.free(allocator.user, scene, sizeof *scene, 64);
+}
+
+static tahr_status place(void *self, const tahr_body_pose *poses, uint32_t count)
+{
+    return tahr__b2_scene_place(self, poses, count);
+}
+
+static tahr_status body_motion(void *self, uint32_t body, tahr_body_motion *motion)
+{
+    const tahr__b2_scene *scene = self;
+    return scene->attached ? scene->engine->world_motion(&scene->desc, body, motion) : TAHR_E_NOT_FOUND;
+}
+
+static tahr_status fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *answer)
+{
+    const tahr__b2_scene *scene = self;
+    tahr_fluid_query flat = *query;
+
+    (void)context;
+    flat.position.z = 0;
+    tahr__fluids_ask(&scene->fluids, &flat, answer);
+    return TAHR_OK;
+}
+
+static const tahr_backend backend = {
+    .struct_size = sizeof backend,
+    .abi_major = TAHR_ABI_MAJOR,
+    .abi_minor = TAHR_ABI_MINOR,
+    .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
+                    TAHR_CAP_BOX | TAHR_CAP_PLANAR | TAHR_CAP_SOLIDS | TAHR_CAP_HULLS | TAHR_CAP_CHAINS |
+                    TAHR_CAP_ONE_WAY | TAHR_CAP_SENSORS,
+    .name = "box2d",
+#if defined(TAHR_BOX2D_HAS_2) && defined(TAHR_BOX2D_HAS_3)
+    .version = "3 and 2.4",
+#elif defined(TAHR_BOX2D_HAS_3)
+    .version = "3",
+#else
+    .version = "2.4",
+#endif
+    .open = open_scene,
+    .close = close_scene,
+    .sweep = tahr__b2_sweep,
+    .contacts = tahr__b2_contacts,
+    .ray = tahr__b2_ray,
+    .place = place,
+    .body_motion = body_motion,
+    .fluid = fluid,
+};
 
 const tahr_backend *tahr_backend_v1_box2d(void)
 {
-    return NULL;
+    return &backend;
 }
