@@ -18,6 +18,9 @@ static const struct backend_choice choices[] = {
 #ifdef TAHR_HAVE_CCD
     {"ccd", "libccd, by bisection of swept shapes", tahr_backend_v1_ccd, NULL, 0.005},
 #endif
+#ifdef TAHR_HAVE_BOX2D
+    {"box2d", "Box2D, two dimensions: with --2d", tahr_backend_v1_box2d, NULL, 0.001},
+#endif
 };
 
 static const struct {
