@@ -66,6 +66,7 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
         blocked_here(step, hit);
         return;
     }
+    flags |= step->passes ? (uint32_t)TAHR_SWEEP_PASS : 0u;
     if (is_dropping(step)) {
         flags |= TAHR_SWEEP_DROP;
         margin = max_of(margin, drop_margin(step->config));

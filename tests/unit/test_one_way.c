@@ -25,7 +25,7 @@ static void the_two_rules_agree(void **unused)
         tahr_vec3 up = dice_direction(&dice), n = dice_direction(&dice);
         double margin = oracle_below(&dice, 4) ? oracle_uniform(&dice, 0, 0.02) : 0;
         double distance = oracle_uniform(&dice, -1, 3) * (oracle_below(&dice, 2) ? margin : 1e-3 * margin);
-        uint32_t flags = oracle_below(&dice, 16);
+        uint32_t flags = oracle_below(&dice, 64);
         assert_int_equal(tahr_one_way_blocks(&up, &n, distance, margin, flags),
                          tahr__one_way_blocks(up, n, distance, margin, flags));
     }
