@@ -7,18 +7,24 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const char level_side_tmj[], level_tour_json[];
+extern const unsigned char level_side_tmj[], level_side_png[], level_tour_json[];
+extern const unsigned long level_side_tmj_size, level_side_png_size, level_tour_json_size;
 
 static const struct {
-    const char *name, *text, *about;
+    const char *name, *about;
+    const unsigned char *bytes;
+    const unsigned long *size;
 } levels[] = {
-    [LEVEL_SIDE] = {"side.tmj", level_side_tmj, "the level of `tahr run --2d`, to be opened with Tiled"},
-    [LEVEL_TOUR] = {"tour.json", level_tour_json, "the route of `tahr run --2d --tour` through it"},
+    [LEVEL_SIDE] = {"side.tmj", "the level of `tahr run --2d`, to be opened with Tiled", level_side_tmj,
+                    &level_side_tmj_size},
+    [LEVEL_TILES] = {"side.png", "how its tiles look there", level_side_png, &level_side_png_size},
+    [LEVEL_TOUR] = {"tour.json", "the route of `tahr run --2d --tour` through it", level_tour_json,
+                    &level_tour_json_size},
 };
 
 const char *level_text(int level)
 {
-    return levels[level].text;
+    return (const char *)levels[level].bytes;
 }
 
 int level_command(int argc, char **argv)
@@ -33,10 +39,10 @@ int level_command(int argc, char **argv)
     }
     for (size_t i = 0; i < count; i++) {
         if (strcmp(levels[i].name, argv[1]) == 0) {
-            fputs(levels[i].text, stdout);
+            fwrite(levels[i].bytes, 1, *levels[i].size, stdout);
             return EXIT_GOOD;
         }
     }
-    say_error("level '%s': expected %s or %s", argv[1], levels[LEVEL_SIDE].name, levels[LEVEL_TOUR].name);
+    say_error("level '%s': expected side.tmj, side.png or tour.json", argv[1]);
     return EXIT_USAGE;
 }

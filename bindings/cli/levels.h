@@ -3,9 +3,9 @@
 #ifndef TAHR_CLI_LEVELS_H
 #define TAHR_CLI_LEVELS_H
 
-enum { LEVEL_SIDE, LEVEL_TOUR };
+enum { LEVEL_SIDE, LEVEL_TILES, LEVEL_TOUR };
 
-/* Their text, as it lies in bindings/cli/levels. */
+/* The text of one of them, as it lies in bindings/cli/levels. */
 const char *level_text(int level);
 
 /* `tahr level [NAME]`: lists them, or writes one to standard output. Returns an exit code. */

@@ -31,8 +31,8 @@ static void add_path(cairo_t *cairo, const struct axes *axes, const struct side_
     size_t count = piece->count;
     if (piece->form == SIDE_CIRCLE) {
         double radius = piece->radius * axes->width / (axes->x1 - axes->x0);
-        cairo_new_sub_path(cairo);
-        cairo_arc(cairo, axes_x(axes, points[0].x), axes_y(axes, points[0].y), radius, 0, 6.283185307179586);
+        cairo_new_sub_path(cairo); /* the way round that outlines go, or it would be a hole in what it overlaps */
+        cairo_arc_negative(cairo, axes_x(axes, points[0].x), axes_y(axes, points[0].y), radius, 6.283185307179586, 0);
         return;
     }
     if (piece->form == SIDE_BOX) {

@@ -243,7 +243,9 @@ static void count_events(struct run *run, const struct moment *m, const tahr_sta
             side_reach(run->level.side, event->body, m->time + event->time);
         }
         if (run->options->plot != NULL) {
-            trace_mark(&run->trace, m->index, event->type, m->time + event->time, foot_of(event->position, state));
+            int dropped = event->type == TAHR_EVENT_LEFT_GROUND && (m->input.flags & TAHR_INPUT_DROP);
+            trace_mark(&run->trace, m->index, dropped ? (uint32_t)TRACE_DROPPED : event->type, m->time + event->time,
+                       foot_of(event->position, state));
         }
     }
 }
