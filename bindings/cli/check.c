@@ -385,8 +385,7 @@ static double box_clearance(struct checker *checker, const tahr_shape *box, tahr
 {
     double clearance = outline_clearance(checker, position, box->half_x, box->half_height);
     double inner_x = box->half_x - CHECK_BOX_DEPTH, inner_y = box->half_height - CHECK_BOX_DEPTH;
-    if (clearance <= 0 && inner_x > 0 && inner_y > 0 &&
-        outline_clearance(checker, position, inner_x, inner_y) <= 0) {
+    if (clearance <= 0 && inner_x > 0 && inner_y > 0 && outline_clearance(checker, position, inner_x, inner_y) <= 0) {
         return -CHECK_BOX_DEPTH;
     }
     return clearance;

@@ -38,7 +38,7 @@ static const struct {
     const char *name;
     int (*call)(int argc, char **argv);
 } commands[] = {
-    {"run", run_command},     {"info", info_command}, {"level", level_command}, {"help", help_command},
+    {"run", run_command},     {"info", info_command}, {"level", level_command},       {"help", help_command},
     {"--help", help_command}, {"-h", help_command},   {"--version", version_command},
 };
 

@@ -79,27 +79,28 @@ void options_help(void)
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
         printf("%s %s", i ? "," : "", backend_choice_at(i)->name);
     }
-    fputs(" (native)\n"
-          "  --route FILE       one character with timed inputs instead of wandering, as JSON:\n"
-          "                     {\"start\": [x, y, z], \"inputs\": [{\"time\": 0, \"move\": [1, 0, 0], \"jump\": "
-          "true}, ...]}\n"
-          "                     or the list alone. An entry holds until the next one; what it does not name is off.\n"
-          "                     move: direction, length 0 to 1; jump, crouch; facing: direction; start: centre of the\n"
-          "                     capsule; once, when the entry begins: launch: velocity to add; mode: its name.\n"
-          "                     drop: through the platform stood on. Instead of time: after: seconds since the entry\n"
-          "                     before began; at_x, at_y: when the centre passes there. With --2d z may be left out\n"
-          "  --tour             with --2d and no --level: the bundled route through everything in the bundled level\n"
-          "  --pixels-per-metre P  of a --2d level (its property pixels_per_metre, or one tile's height)\n"
-          "  --tiles MODE       of a --2d level: joined: neighbouring tiles become one outline; separate: one body each\n"
-          "                     (joined)\n"
-          "  --csv FILE         one row per character and step\n"
-          "  --plot FILE        .svg or .png: the level from above with the paths, and the heights below\n"
-          "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling (from 5 Hz up)\n"
-          "                     and overlaps\n"
-          "  --json             the summary as one JSON object\n"
-          "\n"
-          "Exit code: 0 all well, 1 a check failed or the run could not go on, 2 wrong usage.\n",
-          stdout);
+    fputs(
+        " (native)\n"
+        "  --route FILE       one character with timed inputs instead of wandering, as JSON:\n"
+        "                     {\"start\": [x, y, z], \"inputs\": [{\"time\": 0, \"move\": [1, 0, 0], \"jump\": "
+        "true}, ...]}\n"
+        "                     or the list alone. An entry holds until the next one; what it does not name is off.\n"
+        "                     move: direction, length 0 to 1; jump, crouch; facing: direction; start: centre of the\n"
+        "                     capsule; once, when the entry begins: launch: velocity to add; mode: its name.\n"
+        "                     drop: through the platform stood on. Instead of time: after: seconds since the entry\n"
+        "                     before began; at_x, at_y: when the centre passes there. With --2d z may be left out\n"
+        "  --tour             with --2d and no --level: the bundled route through everything in the bundled level\n"
+        "  --pixels-per-metre P  of a --2d level (its property pixels_per_metre, or one tile's height)\n"
+        "  --tiles MODE       of a --2d level: joined: neighbouring tiles become one outline; separate: one body each\n"
+        "                     (joined)\n"
+        "  --csv FILE         one row per character and step\n"
+        "  --plot FILE        .svg or .png: the level from above with the paths, and the heights below\n"
+        "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling (from 5 Hz up)\n"
+        "                     and overlaps\n"
+        "  --json             the summary as one JSON object\n"
+        "\n"
+        "Exit code: 0 all well, 1 a check failed or the run could not go on, 2 wrong usage.\n",
+        stdout);
 }
 
 static int bad_value(const char *option, const char *value, const char *wanted)

@@ -128,7 +128,7 @@ static void draw_marks(const struct picture *picture, const struct axes *axes)
             }
             int map = axes != &picture->profile;
             picture_symbol(picture->cairo, &kinds[k], axes_x(axes, (double)(map ? mark->x : mark->time)),
-                        axes_y(axes, (double)(map || side ? mark->y : mark->z)), kinds[k].size * factor);
+                           axes_y(axes, (double)(map || side ? mark->y : mark->z)), kinds[k].size * factor);
             drawn++;
         }
     }

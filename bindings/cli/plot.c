@@ -228,12 +228,13 @@ static void draw_picture(const struct picture *picture)
     cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
     text_at(cairo, MARGIN_LEFT, 32, 18, 0, picture->plot->caption);
     cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-    text_at(cairo, MARGIN_LEFT, 54, 12, 0,
-            picture->plot->level->side != NULL
-                ? "The level from the side with the way of the feet of every character from its dot on, coloured by mode;"
-                  " below, their height over time."
-                : "The level from above with the way of every character from its dot on, coloured by mode;"
-                  " below, the height of the feet over time.");
+    text_at(
+        cairo, MARGIN_LEFT, 54, 12, 0,
+        picture->plot->level->side != NULL
+            ? "The level from the side with the way of the feet of every character from its dot on, coloured by mode;"
+              " below, their height over time."
+            : "The level from above with the way of every character from its dot on, coloured by mode;"
+              " below, the height of the feet over time.");
     for (size_t i = 0; i < picture->strip_count; i++) {
         draw_map(picture, &picture->maps[i]);
     }

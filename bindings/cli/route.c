@@ -36,7 +36,8 @@ static int read_vector(const struct place *place, const char *key, const json_t 
     double x[3] = {0, 0, 0};
     size_t count = json_array_size(value);
     if (count != 3 && !(place->planar && count == 2)) {
-        return complain(place, key, place->planar ? "expected a list of two numbers" : "expected a list of three numbers");
+        return complain(place, key,
+                        place->planar ? "expected a list of two numbers" : "expected a list of three numbers");
     }
     for (size_t k = 0; k < count; k++) {
         const json_t *item = json_array_get(value, k);
@@ -115,7 +116,8 @@ static int read_key(const struct place *place, const char *key, const json_t *va
     if (strcmp(key, "mode") == 0) {
         return read_mode(place, value, entry);
     }
-    return complain(place, key, "unknown; known are time, after, at_x, at_y, move, jump, crouch, drop, facing, launch, mode");
+    return complain(place, key,
+                    "unknown; known are time, after, at_x, at_y, move, jump, crouch, drop, facing, launch, mode");
 }
 
 static int read_entry(const struct place *place, json_t *object, struct route_entry *entry)
@@ -133,7 +135,7 @@ static int read_entry(const struct place *place, json_t *object, struct route_en
         }
     }
     int waits = (json_object_get(object, "time") != NULL) + (json_object_get(object, "after") != NULL) +
-                   (json_object_get(object, "at_x") != NULL) + (json_object_get(object, "at_y") != NULL);
+                (json_object_get(object, "at_x") != NULL) + (json_object_get(object, "at_y") != NULL);
     if (waits == 0) {
         return complain(place, "time", "missing");
     }

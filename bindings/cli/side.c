@@ -114,13 +114,13 @@ static void add_body(struct level *level, const struct side_piece *piece, int pl
 static void add_mover(struct level *level, const struct side_piece *piece)
 {
     struct side_point low = piece->points[0], high = piece->points[1];
-    level_add_mover(level, &(struct level_mover){
-                               .half_extents = {(high.x - low.x) / 2, (high.y - low.y) / 2, SIDE_DEPTH},
-                               .center = {(low.x + high.x) / 2, (low.y + high.y) / 2, 0},
-                               .swing = in_plane(piece->swing),
-                               .period = piece->period,
-                               .pause = piece->pause,
-                               .one_way = piece->kind == SIDE_ONE_WAY});
+    level_add_mover(level,
+                    &(struct level_mover){.half_extents = {(high.x - low.x) / 2, (high.y - low.y) / 2, SIDE_DEPTH},
+                                          .center = {(low.x + high.x) / 2, (low.y + high.y) / 2, 0},
+                                          .swing = in_plane(piece->swing),
+                                          .period = piece->period,
+                                          .pause = piece->pause,
+                                          .one_way = piece->kind == SIDE_ONE_WAY});
     level->bodies[level->body_count - 1].surface_velocity.x = piece->belt;
 }
 

@@ -23,7 +23,7 @@ struct side_piece {
     size_t count;
     double radius;
     double belt; /* m/s to the right, of its surface */
-    int part;             /* of a closed outline in several lines: 1: the next piece goes on, 2: the last */
+    int part;    /* of a closed outline in several lines: 1: the next piece goes on, 2: the last */
     int both;    /* a line that blocks from both sides */
     int moves;   /* a box that goes along swing and back */
     struct side_point swing;

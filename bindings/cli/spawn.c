@@ -81,7 +81,7 @@ static int search_column(tahr_world *world, const struct level *level, const tah
     double *height = height_of(level, &at);
     int found = 0, proper = 0; /* found: on faces of the better kind so far */
     *height = *height_of(level, &high) + 1;
-    for (int layer = 0; layer < MAX_LAYERS && *height > lowest; layer++) {
+    for (int layer = 0; layer<MAX_LAYERS && * height> lowest; layer++) {
         tahr_ray ray = {.origin = at, .mask = config->mask, .ignore_body = TAHR_NO_BODY};
         tahr_hit hit = {0};
         uint32_t count = 0;

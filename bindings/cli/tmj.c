@@ -38,7 +38,9 @@ static int read_size(struct tmj *tmj, const json_t *map, const struct side_optio
     }
     tmj->bottom = json_is_true(json_object_get(map, "infinite")) ? 0 : height * tmj->tile_height;
     double own = tmj_map_property(tmj, map, "pixels_per_metre", &failed);
-    tmj->pixels_per_metre = options->pixels_per_metre > 0 ? options->pixels_per_metre : own > 0 ? own : tmj->tile_height;
+    tmj->pixels_per_metre = options->pixels_per_metre > 0 ? options->pixels_per_metre
+                            : own > 0                     ? own
+                                                          : tmj->tile_height;
     return failed;
 }
 
@@ -51,8 +53,9 @@ static int read_map(struct tmj *tmj, const json_t *map, const struct side_option
     tmj_join_tiles(tmj);
     if (!failed && tmj->shaped == 0) {
         failed = tmj->bare > 0
-                     ? tmj_complain(tmj, "none of its %zu tiles has a collision shape; draw some in Tiled's collision "
-                                         "editor, or give the tile or the layer the class \"solid\"",
+                     ? tmj_complain(tmj,
+                                    "none of its %zu tiles has a collision shape; draw some in Tiled's collision "
+                                    "editor, or give the tile or the layer the class \"solid\"",
                                     tmj->bare)
                      : tmj_complain(tmj, "holds nothing to stand on: neither tiles nor objects");
     }

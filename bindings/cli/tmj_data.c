@@ -116,9 +116,9 @@ static int read_text(struct tmj *tmj, const char *text, int packed, uint32_t *nu
         numbers[i] = (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
     }
     free(bytes);
-    return size == 4 * count ? 0
-                             : tmj_complain(tmj, "data: %zu bytes; expected %zu (width times height times 4)", size,
-                                            4 * count);
+    return size == 4 * count
+               ? 0
+               : tmj_complain(tmj, "data: %zu bytes; expected %zu (width times height times 4)", size, 4 * count);
 }
 
 uint32_t *tmj_data(struct tmj *tmj, const json_t *holder, const json_t *layer, size_t count)

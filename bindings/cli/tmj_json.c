@@ -113,9 +113,9 @@ const json_t *tmj_list(struct tmj *tmj, const json_t *object, const char *key)
 static const struct {
     const char *name;
     enum tmj_kind kind;
-} kinds[] = {{"solid", TMJ_SOLID},   {"one_way", TMJ_ONE_WAY}, {"water", TMJ_WATER}, {"sensor", TMJ_SENSOR},
-             {"goal", TMJ_GOAL},     {"start", TMJ_START},     {"mover", TMJ_PLAIN}, {"belt", TMJ_PLAIN},
-             {"decoration", TMJ_DECORATION}};
+} kinds[] = {{"solid", TMJ_SOLID},   {"one_way", TMJ_ONE_WAY}, {"water", TMJ_WATER},
+             {"sensor", TMJ_SENSOR}, {"goal", TMJ_GOAL},       {"start", TMJ_START},
+             {"mover", TMJ_PLAIN},   {"belt", TMJ_PLAIN},      {"decoration", TMJ_DECORATION}};
 
 #define KIND_COUNT (sizeof kinds / sizeof *kinds)
 

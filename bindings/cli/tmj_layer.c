@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_GROUPS 32  /* inside each other */
-#define MAX_TILES 4e6  /* of one layer or chunk */
+#define MAX_GROUPS 32 /* inside each other */
+#define MAX_TILES 4e6 /* of one layer or chunk */
 
 static const double offset_range[2] = {-4e6, 4e6};
 

@@ -138,10 +138,9 @@ static int add_shape(struct tmj *tmj, const struct tmj_shape *shape)
     own->swing = to_metres(tmj, (struct outline_point){shape->traits.swing_x, -shape->traits.swing_y});
     own->period = shape->traits.period > 0 ? shape->traits.period : 4;
     own->pause = shape->traits.pause;
-    return 2 * own->pause < own->period
-               ? 0
-               : tmj_complain(tmj, "pause %g s: expected less than half of the period of %g s", own->pause,
-                              own->period);
+    return 2 * own->pause < own->period ? 0
+                                        : tmj_complain(tmj, "pause %g s: expected less than half of the period of %g s",
+                                                       own->pause, own->period);
 }
 
 static uint32_t tag_of(struct tmj *tmj, double belt)
@@ -192,9 +191,7 @@ int tmj_tile_piece(struct tmj *tmj, struct tmj_shape *shape)
     if (shape->form == TMJ_LINE && kind != TMJ_ONE_WAY) {
         return add_shape(tmj, shape);
     }
-    struct outline *outline = shape->form == TMJ_LINE ? &tmj->lines
-                              : kind == TMJ_ONE_WAY   ? &tmj->planks
-                                                      : &tmj->solids;
+    struct outline *outline = shape->form == TMJ_LINE ? &tmj->lines : kind == TMJ_ONE_WAY ? &tmj->planks : &tmj->solids;
     outline_add(outline, shape->points, shape->count, shape->form == TMJ_POLYGON, tag);
     return 0;
 }
@@ -248,7 +245,9 @@ static void found_outline(void *user, const struct outline_point *points, size_t
     add_piece(joining->tmj,
               (struct side_piece){.kind = joining->kind,
                                   .form = end == OUTLINE_RING ? SIDE_LOOP : SIDE_LINE,
-                                  .part = end == OUTLINE_PART ? 1 : end == OUTLINE_LAST ? 2 : 0,
+                                  .part = end == OUTLINE_PART   ? 1
+                                          : end == OUTLINE_LAST ? 2
+                                                                : 0,
                                   .belt = joining->tmj->belts[tag]},
               points, count);
 }

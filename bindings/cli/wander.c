@@ -87,7 +87,8 @@ static void side_heading(struct wander *wander)
     double begin = wander->next_change;
     wander->heading = (tahr_vec3){way < REST_CHANCE ? 0 : way < (1 + REST_CHANCE) / 2 ? -1 : 1, 0, 0};
     wander->jump_until = jump < SIDE_JUMP_CHANCE ? begin + HOLD_MAX * hold : begin - 1;
-    wander->drop_until = jump >= SIDE_JUMP_CHANCE && jump < SIDE_JUMP_CHANCE + DROP_CHANCE ? begin + DROP_TIME : begin - 1;
+    wander->drop_until =
+        jump >= SIDE_JUMP_CHANCE && jump < SIDE_JUMP_CHANCE + DROP_CHANCE ? begin + DROP_TIME : begin - 1;
 }
 
 static int side_input(struct wander *wander, double time, tahr_input *input)

@@ -33,10 +33,14 @@ static void pass(struct sides *s, struct outline_point a, struct outline_point b
 {
     int x = whole(a.x), y = whole(a.y), to_x = whole(b.x), to_y = whole(b.y);
     assert_true((x == to_x) != (y == to_y));
-    for (; x < to_x; x++) s->right[x][y]++;
-    for (; x > to_x; x--) s->left[x - 1][y]++;
-    for (; y < to_y; y++) s->up[x][y]++;
-    for (; y > to_y; y--) s->down[x][y - 1]++;
+    for (; x < to_x; x++)
+        s->right[x][y]++;
+    for (; x > to_x; x--)
+        s->left[x - 1][y]++;
+    for (; y < to_y; y++)
+        s->up[x][y]++;
+    for (; y > to_y; y--)
+        s->down[x][y - 1]++;
 }
 
 static void count_line(void *user, const struct outline_point *p, size_t count, enum outline_end end, uint32_t tag)
