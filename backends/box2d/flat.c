@@ -226,7 +226,8 @@ static void crossing(const tahr__flat_shape *shape, tahr__vec2 centre, const tah
     tahr__vec2 foot = centre;
 
     best_face(shape, centre, piece, piece->one_sided ? 1 : tahr__flat_face_count(piece), closed, &best);
-    if (piece->count != 2 || piece->lone) best_side(shape, centre, piece, &best);
+    /* A closed face closes the sides of the shape that look the same way. */
+    if (!closed && (piece->count != 2 || piece->lone)) best_side(shape, centre, piece, &best);
     if (!(best.separation > -INFINITY)) best.separation = 0; /* two points, or no way out is open */
     near->distance = best.separation < 0 ? best.separation : 0;
     near->normal = best.normal;
