@@ -56,6 +56,16 @@ static vec3 exact_unit(vec3 n)
     return normal_is_exact(n) ? n : unit(n);
 }
 
+/* In a world of two dimensions no normal has a third one. */
+static const char *out_of_plane(const tahr_world *world, vec3 normal, vec3 surface_normal)
+{
+    int planar = (world->backend->capabilities & TAHR_CAP_PLANAR) != 0;
+    if (!planar || (normal.z == 0 && surface_normal.z == 0)) {
+        return NULL;
+    }
+    return normal.z == 0 ? "surface_normal.z" : "normal.z";
+}
+
 /* Returns the name of the first bad field, or makes the normals exact. */
 static const char *refine(tahr_hit *h)
 {
@@ -112,6 +122,7 @@ tahr_status tahr__refine_hits(const tahr_world *world, tahr_status status, tahr_
     }
     for (uint32_t i = 0; i < count; i++) {
         const char *bad = refine(&hits[i]);
+        bad = bad ? bad : out_of_plane(world, hits[i].normal, hits[i].surface_normal);
         if (bad) {
             return tahr__bad_answer(world, "sweep", bad);
         }
@@ -141,6 +152,7 @@ tahr_status tahr__answer_contacts(const tahr_world *world, tahr_query_context *c
     }
     for (uint32_t i = 0; i < *count; i++) {
         const char *bad = bad_contact(&contacts[i]);
+        bad = bad ? bad : out_of_plane(world, contacts[i].normal, contacts[i].surface_normal);
         if (bad) {
             return tahr__bad_answer(world, "contacts", bad);
         }
@@ -159,6 +171,7 @@ tahr_status tahr__answer_ray(const tahr_world *world, tahr_query_context *contex
         return tahr__bad_answer(world, "ray", status < 0 ? "status" : "count");
     }
     const char *bad = *count ? bad_hit(hit) : NULL;
+    bad = *count && !bad ? out_of_plane(world, hit->normal, hit->surface_normal) : bad;
     return bad ? tahr__bad_answer(world, "ray", bad) : status;
 }
 

@@ -21,7 +21,7 @@ static const char *bad_request(const tahr_input *in, const tahr_shape *shape)
     tahr_shape asked = *shape;
     asked.radius = in->radius;
     asked.half_height = in->half_height;
-    const uint32_t known = (TAHR_INPUT_DRIVE_LEVEL << 1) - 1;
+    const uint32_t known = (TAHR_INPUT_DROP << 1) - 1;
     if (in->flags & ~known) {
         return "input.flags";
     }
@@ -173,7 +173,7 @@ static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
     if (!tahr__is_mode(s->mode)) {
         return "state.mode";
     }
-    const uint32_t flags = (TAHR_STATE_CRUSHED << 1) - 1;
+    const uint32_t flags = (TAHR_STATE_DROP_HELD << 1) - 1;
     if (s->flags & ~flags) {
         return "state.flags";
     }

@@ -203,7 +203,7 @@ static void carry(tahr__step *step, const tahr_pose *now)
     if (known && lost == 0) {
         carry_floor(step, &last, now);
     }
-    if (step->config->turn_with_base) {
+    if (step->config->turn_with_base && !is_flat(step)) {
         turn_along(step, last.orientation, now->orientation);
     }
     int followed = tahr__decide(step, TAHR_RULE_BASE, lost <= FOLLOWED, NULL, lost, FOLLOWED, "carried with the base");

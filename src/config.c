@@ -109,6 +109,30 @@ static void unreal(tahr_config *c)
     c->turn_rate = 6.283185307179586;
 }
 
+/* PRECISE in a plane of constant z, for a character of 1.8 m among tiles of 1 m. A jump is 2.06 m high, two tiles, and
+ * rises for 0.46 s: v^2 / 2g and v / g; published platformers lie between 0.3 and 0.5 s. Coyote times in use are 0.08
+ * to 0.15 s, buffers 0.1 to 0.2 s. Crouched it fits under one tile. */
+static void platformer(tahr_config *c)
+{
+    c->plane = vec(0, 0, 1);
+    c->gravity = vec(0, -19.62, 0);
+    c->jump_speed = 9;
+    c->acceleration = 40;
+    c->braking_deceleration = 40;
+    c->air_control = 1;
+    c->terminal_speed = 25;
+    c->coyote_time = 0.1;
+    c->jump_buffer = 0.12;
+    c->jump_release_gravity = 3;
+    c->fall_gravity = 1.5;
+    c->wall_slide_speed = 3;
+    c->wall_jump_speed = 6;
+    c->wall_coyote_time = 0.1;
+    c->corner_correction = 0.25;
+    c->lift_momentum = 0.1;
+    c->crouched_half_height = 0.45;
+}
+
 tahr_status tahr_config_init(tahr_config *config, size_t size, int32_t preset)
 {
     tahr_config c;
@@ -118,7 +142,7 @@ tahr_status tahr_config_init(tahr_config *config, size_t size, int32_t preset)
     if (size < sizeof c) {
         return TAHR_E_STRUCT_SIZE;
     }
-    if (preset != TAHR_PRESET_PRECISE && preset != TAHR_PRESET_UNREAL) {
+    if (preset < TAHR_PRESET_PRECISE || preset > TAHR_PRESET_PLATFORMER) {
         return TAHR_E_ARGUMENT;
     }
     memset(config, 0, size);
@@ -126,6 +150,9 @@ tahr_status tahr_config_init(tahr_config *config, size_t size, int32_t preset)
     precise(&c);
     if (preset == TAHR_PRESET_UNREAL) {
         unreal(&c);
+    }
+    if (preset == TAHR_PRESET_PLATFORMER) {
+        platformer(&c);
     }
     c.struct_size = (uint32_t)size;
     c.preset = (uint32_t)preset;

@@ -4,6 +4,7 @@
 #include "fall_two_walls.h"
 
 #include "corner.h"
+#include "drop.h"
 #include "hanging.h"
 #include "jump.h"
 #include "landing.h"
@@ -354,6 +355,7 @@ static void stop_drift(tahr__step *step)
 static int fall_slice(tahr__step *step, fall *f)
 {
     int answer = GOES_ON;
+    tahr__watch_drop(step);
     feel_pull(step, f);
     if (step->limits->feel & TAHR__FEEL_EDGES && hangs(step, f)) {
         f->left += f->rest;
@@ -364,6 +366,9 @@ static int fall_slice(tahr__step *step, fall *f)
     int met = move_on(step, f, f->motion);
     tell_apex(step, f);
     step->ahead = f->h - f->rest;
+    if (met && is_dropping(step) && dot(f->swept.hit.normal, step->state.up) > 0) { /* the next layer, or a floor */
+        tahr__end_drop(step);
+    }
     if (met) {
         answer = f->swept.hit.unknown ? ENDS : meet(step, f);
     }

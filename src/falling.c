@@ -5,6 +5,7 @@
 
 #include "base_motion.h"
 #include "corner.h"
+#include "drop.h"
 #include "fall_two_walls.h"
 #include "floor.h"
 #include "hanging.h"
@@ -302,6 +303,9 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     double used = duration;
     int pushed = tahr__move(step, chord, hit);
     int met = is_met(hit);
+    if (met && is_dropping(step) && dot(hit->normal, step->state.up) > 0) { /* the next layer, or a floor */
+        tahr__end_drop(step);
+    }
     if (met && f->plane_count == 0 && !pushed) {
         step->state.position = start;
         used = meet_on_arc(step, &a, chord, duration, hit);
@@ -374,6 +378,7 @@ static tahr__next fall_slice(tahr__step *step, double time)
     while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         tahr__planes_forget(step, f.planes, &f.plane_count);
+        tahr__watch_drop(step);
         if (step_has_fluids(step) && tahr__is_carried(step, step->state.position, step->state.velocity)) {
             tahr__next swim = {TAHR_MODE_SWIMMING, f.left};
             tahr__begin_swimming(step);

@@ -6,6 +6,7 @@
 
 #include <string.h>
 
+#include "drop.h"
 #include "floor.h"
 #include "modes.h"
 #include "move.h"
@@ -60,7 +61,7 @@ int tahr__find_edge(tahr__step *step, vec3 facing, double below, tahr_hit *edge)
         return tahr__decide(step, TAHR_RULE_LEDGE_GRAB, 0, edge, over, 0, "the wall is higher");
     }
     tahr__ray(step, add_scaled(from, facing, -inward), scale(up, -(over + below)), edge);
-    if (!edge->blocking || !tahr__is_walkable(step, edge, 0)) {
+    if (!edge->blocking || !tahr__is_walkable(step, edge, 0) || tahr__is_one_way(step, edge->body)) {
         return tahr__decide(step, TAHR_RULE_LEDGE_GRAB, 0, edge, below, 0, "no top to stand on");
     }
     tahr_hit ceiling; /* a ray that began inside of it would have seen nothing */

@@ -2,6 +2,7 @@
  * jump.c: when a jump starts, how it is held and cut short, and the timers of what is forgiven. */
 #include "jump.h"
 
+#include "drop.h"
 #include "hanging.h"
 #include "modes.h"
 #include "plane.h"
@@ -42,6 +43,9 @@ void tahr__flight_ended(tahr__step *step, uint32_t mode)
     step->state.coyote_left = 0;
     step->state.jump_count = 0;
     step->state.flags &= ~(uint32_t)TAHR_STATE_EDGE_SPENT;
+    if (is_dropping(step)) {
+        tahr__end_drop(step);
+    }
     if (mode != TAHR_MODE_HANGING) {
         tahr__forget_walls(step);
     }

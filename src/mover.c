@@ -5,6 +5,7 @@
 #include "arguments.h"
 #include "base_motion.h"
 #include "core.h"
+#include "drop.h"
 #include "jump.h"
 #include "launch.h"
 #include "limits.h"
@@ -30,6 +31,16 @@ static const double MIN_SLICE = 1e-9;
  * Each time costs some 40 queries to find where the floor ended. */
 enum { MAX_SLICES = 6 };
 
+/* In a world of two dimensions everybody stays in its plane. Returns the field that does not, or NULL. */
+static const char *out_of_plane(const tahr_world *world, const tahr_config *c)
+{
+    if (!(world->backend->capabilities & TAHR_CAP_PLANAR)) {
+        return NULL;
+    }
+    int planar = c->plane.x == 0 && c->plane.y == 0 && c->plane.z != 0;
+    return !planar ? "plane" : c->gravity.z != 0 ? "gravity" : NULL;
+}
+
 tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **out)
 {
     const char *field = NULL;
@@ -47,6 +58,11 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     if (!(world->backend->capabilities & tahr__shape_capability(config->shape.type))) {
         return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", "shape.type",
                               "is not among the backend's shapes");
+    }
+    field = out_of_plane(world, config);
+    if (field) {
+        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", field,
+                              "leaves the plane of x and y, and the world is one of two dimensions");
     }
     tahr_allocator a = world->memory.user;
     size_t cache_size = world->backend->cache_size ? world->backend->cache_size(world->self) : 0;
@@ -155,6 +171,9 @@ static void run(tahr__step *step, double dt, int plain)
     announce(step, dt, stance);
     if (!plain) {
         answer_requests(step, dt, stance);
+        if (asks_drop(step)) {
+            tahr__begin_drop(step);
+        }
     }
     tahr__begin_jump(step);
     tahr__time_slice(step);
@@ -330,7 +349,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         step.pull = &pull;
     }
     step.ignore_body = TAHR_NO_BODY;
-    step.just_teleported = 0;
+    step.passes = step.just_teleported = 0;
     step.dt = dt;
     step.push_left = mover->config.max_depenetration;
     step.time = step.ahead = 0;

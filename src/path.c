@@ -2,6 +2,7 @@
  * path.c: the path of one slice of walking: closed-form pieces, bent by walls, lifted onto ramps and steps. */
 #include "path.h"
 
+#include "drop.h"
 #include "floor.h"
 #include "launch.h"
 #include "move.h"
@@ -52,6 +53,11 @@ void tahr__path_carry_floor(tahr__path *w, const tahr__step *step)
     w->ramp_count = 0;
     if (floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE)) {
         carry(w, floor->surface_normal);
+        /* The edge of a one-way body (a crest, a platform's end) stops nothing that does not come down on it: the foot
+         * rolls over it by itself. */
+        if (dot(floor->normal, floor->surface_normal) < 1 - 1e-6 && tahr__is_one_way(step, floor->body)) {
+            carry(w, floor->normal);
+        }
     }
 }
 

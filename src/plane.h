@@ -23,6 +23,16 @@ static inline int may_rise(const tahr__step *step)
     return !is_in_plane(step) || (out < 1e-6 && out > -1e-6);
 }
 
+/* Is it seen from the side, and may not turn about up? In a world of two dimensions, and a shape that is not round: half
+ * turned it would be another one in the plane. */
+static inline int is_flat(const tahr__step *step)
+{
+    uint32_t type = step->limits->shape.type;
+    int planar = (step->world->backend->capabilities & TAHR_CAP_PLANAR) != 0;
+    int round = type != TAHR_SHAPE_BOX && type != TAHR_SHAPE_ELLIPSOID && type != TAHR_SHAPE_HULL;
+    return is_in_plane(step) && may_rise(step) && (planar || !round);
+}
+
 /* Makes what a surface forbids into what it forbids in the plane: normal . x >= offset. Returns 0, and a half-space
  * that forbids nothing, for a surface that faces out of the plane, which nothing in it can meet or leave. */
 int tahr__plane_surface(const tahr__step *step, vec3 *normal, double *offset);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * step_contact.c: config.step_rule CONTACT: up, along, down, and judged by where the shape came down. For the face
  * behind the edge as the judge see step_up.c. */
+#include "drop.h"
 #include "floor.h"
 #include "floor_distance.h"
 #include "plane.h"
@@ -30,7 +31,7 @@ static int refuse(tahr__step *step, const tahr_hit *hit, double value, double li
 static int can_step_up(const tahr__step *step, const tahr_hit *hit)
 {
     return is_blocked(hit) && step->state.mode != TAHR_MODE_FALLING &&
-           !(world_body_flags(step->world, hit->body) & TAHR_BODY_NO_STEP);
+           !(world_body_flags(step->world, hit->body) & TAHR_BODY_NO_STEP) && !tahr__is_one_way(step, hit->body);
 }
 
 /* How far up and down, and from where. On a floor the hover gap is part of the step; the way down is longer by two

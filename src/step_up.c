@@ -6,6 +6,7 @@
  * come, so the decision is the same at every frame rate, and needs no memory of former frames. */
 #include "step_up.h"
 
+#include "drop.h"
 #include "floor.h"
 #include "lip.h"
 #include "plane.h"
@@ -92,6 +93,9 @@ static int land(tahr__step *step, attempt *a)
     tahr__sweep(step, &step->limits->shape, a->position, scale(a->up, -range), c->skin, 0, hit);
     if (!hit->blocking || hit->start_overlap) {
         return refuse(step, hit, range, 0, "nothing to land on");
+    }
+    if (tahr__is_one_way(step, hit->body)) {
+        return refuse(step, hit, 0, 0, "passed from below");
     }
     double top = dot(hit->point, a->up), base = floor_height(step, top);
     a->rise = top - dot(step->state.floor.point, a->up);

@@ -3,6 +3,7 @@
 #include "turning.h"
 
 #include "elementary.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 
@@ -40,9 +41,32 @@ void tahr__right(tahr__step *step)
     }
 }
 
+/* Seen from the side there are two ways to face, and no box turns from one to the other through the third dimension:
+ * at once. */
+static void mirror(tahr__step *step)
+{
+    tahr_state *s = &step->state;
+    vec3 goal = along_plane(step->limits, step_level(step, step->input->facing));
+    vec3 forward = unit(step_level(step, rotate(s->orientation, vec(1, 0, 0))));
+    double c = dot(forward, unit(goal));
+    if (length_squared(goal) == 0 || length_squared(forward) == 0) {
+        return;
+    }
+    if (c < -1 + 1e-12) {
+        s->orientation = quat_multiply((tahr_quat){s->up.x, s->up.y, s->up.z, 0}, s->orientation);
+    } else if (c < 1 - 1e-12) { /* put askew by its user */
+        s->orientation = quat_multiply(quat_between(forward, unit(goal)), s->orientation);
+    }
+    s->orientation = quat_unit(s->orientation);
+}
+
 void tahr__face(tahr__step *step, double dt)
 {
     tahr_state *s = &step->state;
+    if (is_flat(step)) {
+        mirror(step);
+        return;
+    }
     vec3 goal = unit(step_level(step, step->input->facing));
     vec3 forward = unit(step_level(step, rotate(s->orientation, vec(1, 0, 0))));
     if (length_squared(goal) == 0 || length_squared(forward) == 0) {

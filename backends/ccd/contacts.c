@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * contacts.c: the contacts slot, by core distance. */
+#include "../common/one_way.h"
 #include "scene.h"
 
 /* Contacts with the same point (m) and normal are one: duplicates and coplanar twins that share no corner. */
@@ -53,6 +54,11 @@ static void visit(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, co
     tahr__ccd_measure(probe, piece, v_make(0, 0, 0), &near);
     if (near.distance > probe->margin || !tahr__ccd_in_front(piece, &near)) return;
     if (!tahr__ccd_face(probe, piece, near.normal, &near, &contact.surface_normal)) return;
+    if (tahr__ccd_is_one_way(b) &&
+        (probe->flags || tahr__one_way_edge(near.normal, contact.surface_normal) ||
+         !tahr__one_way_blocks(probe->up, near.normal, near.distance, probe->margin, 0))) {
+        return; /* dropped through, on an edge, or not from above */
+    }
     contact.distance = near.distance;
     contact.normal = near.normal;
     contact.point = v_add(probe->origin, near.point);
@@ -72,6 +78,8 @@ tahr_status tahr__ccd_contacts(void *self, tahr_query_context *context, const ta
                              .context = context,
                              .margin = query->margin,
                              .origin = query->position,
+                             .up = query->up,
+                             .flags = query->flags & TAHR_CONTACTS_DROP ? TAHR_SWEEP_DROP : 0u,
                              .mask = query->mask,
                              .ignore_body = query->ignore_body,
                              .leaves_out = query->flags & TAHR_CONTACTS_SOLID ? TAHR__CCD_SENSORS : 0u};

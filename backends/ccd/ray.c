@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * ray.c: the ray slot. libccd has no rays and no answer for points: a point advances by tangents of the core distance,
  * which for a face is one exact step. */
+#include "../common/one_way.h"
 #include "scene.h"
 
 static int comes_before(const tahr_hit *a, const tahr_hit *b)
@@ -27,7 +28,8 @@ static int visit(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, dou
         hit->surface_normal = v_scale(hit->surface_normal, -1);
     }
     hit->normal = hit->surface_normal;
-    if (v_dot(hit->normal, probe->motion) >= 0) return 0;
+    double into = -v_dot(hit->normal, probe->motion);
+    if (into <= 0 || (tahr__ccd_is_one_way(b) && into < TAHR__ONE_WAY_TOP * probe->motion_length)) return 0;
     hit->blocking = 1;
     hit->fraction = fraction;
     hit->point = v_add(probe->origin, centre);

@@ -58,6 +58,9 @@ typedef struct tahr__ccd_probe {
     uint32_t mask, ignore_body;
     int only_body;       /* 1: nothing is there but ignore_body */
     uint32_t leaves_out; /* 0, or TAHR__CCD_SOLIDS or _SENSORS */
+    tahr_vec3 up;        /* of the query */
+    uint32_t flags;      /* TAHR_SWEEP_* */
+    uint32_t sinks;      /* 1: the foot has sunk into a one-way body (one_way.h) */
 } tahr__ccd_probe;
 
 /* The nearest points of the shape and a piece. */
@@ -106,6 +109,16 @@ tahr__ccd_verdict tahr__ccd_impact(const tahr__ccd_probe *probe, const tahr__ccd
 /* From a fraction known to be free, by tangents of the convex distance; never late. */
 tahr__ccd_verdict tahr__ccd_advance(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double limit,
                                     double *fraction, tahr__ccd_near *near);
+
+/* one_way.c: is a one-way body there where it is met at a fraction of the motion? Others always are. */
+typedef struct tahr__ccd_one_way {
+    int edge;  /* it is, on an edge */
+    int sinks; /* it is not, and the foot sinks into it */
+} tahr__ccd_one_way;
+
+int tahr__ccd_is_one_way(const tahr__ccd_body *body);
+int tahr__ccd_one_way_blocks(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, const tahr__ccd_near *near,
+                             tahr_vec3 face, double fraction, tahr__ccd_one_way *out);
 
 /* gjk.c: libccd's boolean. 1: swept shape and piece overlap, 0: they do not, -1: libccd used up its iterations. */
 int tahr__ccd_swept_overlap(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double fraction);

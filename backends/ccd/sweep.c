@@ -20,6 +20,7 @@ typedef struct search {
     const tahr__ccd_probe *probe;
     uint32_t flags;
     uint32_t sensor_count, lost, waiting_count;
+    uint32_t edged, sinks; /* of one-way bodies: an edge was kept; the foot sinks into one */
     int found;
     tahr_hit best; /* blocking */
     tahr_hit sensors[MAX_SENSORS];
@@ -108,8 +109,13 @@ static void report(search *s, const tahr__ccd_piece *piece, tahr__ccd_near *near
     tahr_hit hit = {0};
 
     int felt = tahr__ccd_in_front(piece, near) &&
-               tahr__ccd_face(p, piece, v_scale(p->motion, -1), near, &hit.surface_normal) && must_report(s, b, near);
+               tahr__ccd_face(p, piece, v_scale(p->motion, -1), near, &hit.surface_normal);
     if (!felt && !unknown) return;
+    tahr__ccd_one_way one_way;
+    int there = tahr__ccd_one_way_blocks(p, piece, near, hit.surface_normal, fraction, &one_way);
+    s->sinks |= (uint32_t)one_way.sinks;
+    if (!there || (!must_report(s, b, near) && !unknown)) return;
+    s->edged |= (uint32_t)one_way.edge;
     hit.sensor = (b->flags & TAHR_BODY_SENSOR) != 0;
     hit.blocking = !hit.sensor;
     hit.unknown = unknown != 0;
@@ -185,6 +191,22 @@ static uint32_t write_hits(search *s, tahr_hit *hits, uint32_t capacity, int *lo
     return count;
 }
 
+static void run(search *s, const tahr__ccd_probe *probe)
+{
+    tahr__ccd_walk walk;
+    tahr__ccd_piece piece;
+
+    s->probe = probe;
+    s->flags = probe->flags;
+    s->sensor_count = s->lost = s->waiting_count = s->edged = s->sinks = 0;
+    s->found = 0;
+    tahr__ccd_walk_begin(&walk, probe, probe->motion, probe->radius + probe->margin);
+    while (tahr__ccd_walk_next(&walk, &piece))
+        visit(s, &piece);
+    for (uint32_t i = 0; i < s->waiting_count; i++)
+        resolve(s, &s->waiting[i]);
+}
+
 tahr_status tahr__ccd_sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
                             uint32_t capacity, uint32_t *count)
 {
@@ -200,23 +222,19 @@ tahr_status tahr__ccd_sweep(void *self, tahr_query_context *context, const tahr_
                                            : capacity == 1                   ? TAHR__CCD_SENSORS
                                                                              : 0u};
     search s;
-    tahr__ccd_walk walk;
-    tahr__ccd_piece piece;
     int lost = 0;
 
     *count = 0;
-    s.probe = &probe;
-    s.flags = query->flags;
-    s.sensor_count = s.lost = s.waiting_count = 0;
-    s.found = 0;
+    probe.up = query->up;
+    probe.flags = query->flags;
     probe.motion_length = v_length(query->motion);
     if (!tahr__ccd_probe_shape(&probe, &query->shape, query->up, query->orientation)) return TAHR_E_UNSUPPORTED;
     if (!tahr__ccd_probe_finite(&probe)) return TAHR_E_ARGUMENT;
-    tahr__ccd_walk_begin(&walk, &probe, probe.motion, probe.radius + probe.margin);
-    while (tahr__ccd_walk_next(&walk, &piece))
-        visit(&s, &piece);
-    for (uint32_t i = 0; i < s.waiting_count; i++)
-        resolve(&s, &s.waiting[i]);
+    run(&s, &probe);
+    if (s.edged && s.sinks) { /* which edges of one-way bodies hold was not known before all had been asked */
+        probe.sinks = 1;
+        run(&s, &probe);
+    }
     *count = write_hits(&s, hits, capacity, &lost);
     return lost || (s.lost && capacity > 1) ? TAHR_TRUNCATED : TAHR_OK;
 }

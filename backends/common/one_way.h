@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * one_way.h: when a body with TAHR_BODY_ONE_WAY is there. The same rule as tahr_one_way_blocks: backends never link
- * libtahr. */
+ * libtahr.
+ *
+ * A contact is judged by what the query began with and by what it meets, never by a velocity of some earlier step: so
+ * platforms may move, and every frame rate gives the same answer. Faces hold whoever was above them. An edge (a corner,
+ * a crest) holds only what comes down on it, else it would bend a jump past a platform's end; and not a foot that has
+ * sunk into another one-way body, else the next tile would catch what passes through this one. */
 #ifndef TAHR_COMMON_ONE_WAY_H
 #define TAHR_COMMON_ONE_WAY_H
 
@@ -8,12 +13,37 @@
 
 /* cos 60 degrees: what leans more is its side or its bottom. */
 #define TAHR__ONE_WAY_TOP 0.5
+/* Of the margin: an overlap of less is the rounding of who was put exactly onto it (1e-9 m at 1e7 m). */
+#define TAHR__ONE_WAY_ROUNDING 1e-3
 
 /* distance: signed, where the question begins; normal: the contact normal; flags, margin: those of a sweep. */
 static inline int tahr__one_way_blocks(tahr_vec3 up, tahr_vec3 normal, double distance, double margin, uint32_t flags)
 {
-    int dropped = (flags & TAHR_SWEEP_DROP) && distance <= 2 * margin;
-    return distance >= 0 && v_dot(up, normal) >= TAHR__ONE_WAY_TOP && !dropped;
+    int dropped = (flags & TAHR_SWEEP_PASS) || ((flags & TAHR_SWEEP_DROP) && distance <= 2 * margin);
+    if (flags & TAHR_SWEEP_WHOLE) return 1;
+    return distance >= -TAHR__ONE_WAY_ROUNDING * margin && v_dot(up, normal) >= TAHR__ONE_WAY_TOP && !dropped;
+}
+
+/* Is the contact on an edge or a corner, whose normal is that of no face? */
+static inline int tahr__one_way_edge(tahr_vec3 normal, tahr_vec3 face)
+{
+    return v_dot(normal, face) < 1 - 1e-6;
+}
+
+/* Has the foot sunk into a one-way body that is not there, or is about to? Asked of every one-way body that does not
+ * block where the question begins; distance and normal: there, of the surfaces; inside: 1 where more than the rounding
+ * of the shape is in it (the cores cross), for that is no foot. */
+static inline int tahr__one_way_sinks(tahr_vec3 up, tahr_vec3 normal, double distance, double margin, int inside)
+{
+    return distance <= 2 * margin && v_dot(up, normal) >= TAHR__ONE_WAY_TOP && !inside;
+}
+
+/* Does an edge that passed tahr__one_way_blocks hold? motion: of the sweep; below: how far the contact lies below the
+ * lowest point of the shape where the question begins, along up; sinks: tahr__one_way_sinks of any body. In contacts
+ * edges never count: they have no motion. */
+static inline int tahr__one_way_edge_holds(tahr_vec3 up, tahr_vec3 motion, double below, double margin, int sinks)
+{
+    return v_dot(motion, up) < 0 && (!sinks || below > 2 * margin);
 }
 
 #endif

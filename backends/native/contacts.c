@@ -13,7 +13,7 @@ enum { MOST = 256 };
 typedef struct contacts_state {
     tahr__search search;
     double margin;
-    uint32_t count, lost;
+    uint32_t count, lost, drop, reserved;
     tahr__found records[MOST];
 } contacts_state;
 
@@ -40,6 +40,7 @@ static void visit(tahr__search *search, const tahr__prim *prim)
     contacts_state *s = (contacts_state *)search;
     const tahr__query *query = search->query;
     tahr__found f;
+    if (s->drop && prim->kind & TAHR__ONE_WAY) return;
     if (tahr__probe_touch(query, prim, s->margin, &f)) keep(s, &f);
 }
 
@@ -105,6 +106,7 @@ tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const
     s.search.visit = visit;
     s.margin = contact_query->margin;
     s.count = s.lost = 0;
+    s.drop = contact_query->flags & TAHR_CONTACTS_DROP;
     tahr__search_run(&s.search);
     merge(&s);
     uint32_t n = s.count < capacity ? s.count : capacity;

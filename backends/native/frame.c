@@ -106,6 +106,7 @@ void tahr__prim_begin(const tahr__body *body, uint32_t id, tahr__prim *prim)
     prim->feature = 0;
     prim->kind = (body->flags & TAHR_BODY_TWO_SIDED ? TAHR__TWO_SIDED : 0u) |
                  (body->flags & TAHR_BODY_SENSOR ? TAHR__SENSOR : 0u) |
+                 ((body->flags & (TAHR_BODY_ONE_WAY | TAHR_BODY_SENSOR)) == TAHR_BODY_ONE_WAY ? TAHR__ONE_WAY : 0u) |
                  (body->type == TAHR_BODY_BOX ? TAHR__OF_BOX : 0u);
     prim->mask = body->mask;
     memset(prim->reserved, 0, sizeof prim->reserved);

@@ -4,6 +4,7 @@
  * The distance between convex sets under translation is a convex function of time. Newton's method from the left on a
  * convex function never passes the root: every iterate is proven free. A plane is reached in one step, a curved contact
  * quadratically. */
+#include "../common/one_way.h"
 #include "plane.h"
 #include "scene.h"
 
@@ -158,7 +159,7 @@ static void found_fill(const tahr__query *query, const tahr__prim *prim, const t
     out->face = normals->face;
     out->point = probe->witness.point;
     if (prim->radius > 0) out->point = v_mad(out->point, normals->normal, prim->radius);
-    out->overlap = out->unknown = 0;
+    out->overlap = out->unknown = out->edge = 0;
     out->body = prim->body;
     out->item = prim->item;
     out->feature = solid ? solid_face(query, prim, normals->normal) : prim->feature;
@@ -169,6 +170,7 @@ typedef struct flight {
     const tahr__query *query;
     const tahr__prim *prim;
     double target, t;
+    double began; /* the gap at the start, or more than the margin */
     tahr__probe probe;
 } flight;
 
@@ -218,9 +220,48 @@ static int advance(flight *f, double limit)
     return -1;
 }
 
+/* Local frames have up along +z. */
+static const tahr_vec3 UP = {0, 0, 1};
+
+/* Is a one-way body there at this contact? What was met only because a nearer neighbour is not there is not there
+ * either. */
+static int is_one_way_there(const flight *f, const tahr__contact_normals *normals, int at_start, tahr__found *out)
+{
+    const tahr__query *query = f->query;
+    double nearest = query->flags & TAHR_SWEEP_DROP ? query->margin : 0;
+    tahr_vec3 n = normals->normal;
+    if (!tahr__one_way_blocks(UP, n, f->began, query->margin, query->flags) ||
+        (!at_start && f->probe.gap < nearest - TAHR__ONE_WAY_ROUNDING * query->margin)) {
+        return 0;
+    }
+    out->edge = (uint32_t)tahr__one_way_edge(n, normals->face);
+    if (!out->edge) return f->began >= 0 || approaching(query, n);
+    double below = query->start.z - tahr__core_extent(&query->core, UP) - query->radius - f->probe.witness.point.z;
+    return tahr__one_way_edge_holds(UP, query->motion, below, query->margin, (int)query->sinks);
+}
+
+static int judge_one_way(const flight *f, const tahr__contact_normals *normals, int at_start, tahr__found *out)
+{
+    int inside = (f->prim->item & TAHR__ITEM_SOLID) || f->probe.witness.distance <= 0;
+    if (!is_one_way_there(f, normals, at_start, out)) {
+        int drops = (f->query->flags & TAHR_SWEEP_DROP) != 0, gone = drops || (at_start && f->began < 0);
+        int sinks = tahr__one_way_sinks(UP, normals->normal, f->began, f->query->margin, inside);
+        return gone && sinks ? TAHR__SINKS : TAHR__FREE;
+    }
+    uint32_t edge = out->edge;
+    if (!approaching(f->query, normals->normal)) return TAHR__FREE;
+    out->t = at_start ? 0 : f->t;
+    found_fill(f->query, f->prim, &f->probe, normals, out);
+    out->overlap = at_start && f->probe.gap < 0;
+    out->edge = edge;
+    return TAHR__BLOCKED;
+}
+
 /* What a contact of this surface amounts to. at_start: found without moving. */
 static int judge(const flight *f, const tahr__contact_normals *normals, int at_start, tahr__found *out)
 {
+    int one_way = (f->prim->kind & TAHR__ONE_WAY) && !(f->query->flags & TAHR_SWEEP_WHOLE);
+    if (one_way) return judge_one_way(f, normals, at_start, out);
     if (at_start) {
         if (blocks_at_start(f, normals, out)) return TAHR__BLOCKED;
         out->gap = f->probe.gap;
@@ -272,12 +313,14 @@ int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const ta
     f.target = query->radius + prim->radius + query->margin;
     query->context->narrow_tests++;
     query->context->narrow_iterations++;
+    if (f.t > 0 && (prim->kind & TAHR__ONE_WAY) && (query->flags & TAHR_SWEEP_DROP)) f.t = 0;
     if (f.t > 0) {
         measure(query, prim, v_mad(query->start, query->motion, f.t), &f.probe.witness);
         f.probe.gap = query->margin + 1; /* it is beyond the margin, by how much does not matter */
     } else if (!probe_start(query, prim, &f.probe)) {
         return TAHR__FREE;
     }
+    f.began = f.probe.gap;
     return fly(&f, ask->limit, ask->beside, out);
 }
 
@@ -291,6 +334,11 @@ int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double m
     if (!probe_start(query, prim, &probe) || probe.gap > margin) return 0;
     tahr_vec3 toward = v_scale(probe.witness.normal, -1);
     if (tahr__resolve(query, prim, query->start, &probe.witness, toward, 0, &normals) != TAHR__ACCEPTED) return 0;
+    if ((prim->kind & TAHR__ONE_WAY) &&
+        (!tahr__one_way_blocks(UP, normals.normal, probe.gap, margin, 0) ||
+         tahr__one_way_edge(normals.normal, normals.face))) {
+        return 0;
+    }
     out->t = 0;
     found_fill(query, prim, &probe, &normals, out);
     out->overlap = probe.gap < 0;

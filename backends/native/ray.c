@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * ray.c: the ray slot. Triangles by sheared edge functions (Woop, Benthin, Wald 2013, "Watertight ray/triangle
  * intersection"): two triangles that share an edge compute it with exactly opposite signs, so nothing slips between. */
+#include "../common/one_way.h"
 #include "scene.h"
 
 #include <string.h>
@@ -64,7 +65,7 @@ static int probe_triangle(const ray_state *s, const tahr__prim *prim, tahr__foun
     f->gap = 0;
     f->normal = f->face = normals.normal;
     f->point = v_mad(query->start, query->motion, t);
-    f->overlap = f->unknown = 0;
+    f->overlap = f->unknown = f->edge = 0;
     f->body = prim->body;
     f->item = prim->item;
     f->feature = prim->feature;
@@ -85,6 +86,7 @@ static void visit(tahr__search *search, const tahr__prim *prim)
         query->context->narrow_tests++;
         if (!probe_triangle(s, prim, &f)) return;
     }
+    if (prim->kind & TAHR__ONE_WAY && -v_dot(f.normal, query->motion) < TAHR__ONE_WAY_TOP * query->motion_length) return;
     if (s->found && !tahr__found_before(&f, &s->best)) return;
     s->best = f;
     s->found = 1;

@@ -76,7 +76,8 @@ enum {
     TAHR__TWO_SIDED = 1,
     TAHR__SENSOR = 2,
     TAHR__PLANELESS = 4, /* round, solid, or so thin that the direction of its plane may be rounding */
-    TAHR__OF_BOX = 8
+    TAHR__OF_BOX = 8,
+    TAHR__ONE_WAY = 16
 };
 
 /* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. Three lines of
@@ -117,6 +118,7 @@ typedef struct tahr__query {
     double half;                       /* of an upright segment, 0 for a point */
     uint32_t mask, ignore_body, flags; /* flags: of a sweep; with ONLY_BODY nothing but ignore_body is searched */
     uint32_t sensors;                  /* TAHR__SENSORS_* */
+    uint32_t sinks;                    /* 1: the foot has sunk into a one-way body (one_way.h) */
 } tahr__query;
 
 /* Visits every primitive that may be within reach of box. The visitor may shrink box (and set narrowed) on the way. */
@@ -193,14 +195,15 @@ typedef struct tahr__found {
     tahr_vec3 normal, face, point;
     uint32_t overlap, unknown;
     uint32_t body, feature, item;
+    uint32_t edge; /* of a one-way body: only held by coming down on it */
 } tahr__found;
 
-enum { TAHR__FREE = 0, TAHR__BLOCKED = 1, TAHR__LATER = 2, TAHR__BESIDE = 3 };
+enum { TAHR__FREE = 0, TAHR__BLOCKED = 1, TAHR__LATER = 2, TAHR__BESIDE = 3, TAHR__SINKS = 4 };
 
 /* Does the primitive stop the motion at or before limit (what comes later may be missed)? earliest: what plane.h
  * says, at most limit. BESIDE: within the margin at the start (out->gap) and not blocking. LATER, only without beside:
  * not before out->t; ask again with beside, the smallest gap of all that were BESIDE (the margin if none), when
- * everything has been asked. */
+ * everything has been asked. SINKS: the foot has sunk into this one-way body, which does not block. */
 typedef struct tahr__ask {
     double earliest, limit;
     const double *beside;

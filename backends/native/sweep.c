@@ -33,6 +33,8 @@ typedef struct sweep_state {
     double limit;              /* first and a hair, or 1 */
     uint32_t tied, sensor_count, lost, waiting;
     uint32_t again; /* this is the second time */
+    uint32_t edged; /* the edge of a one-way body was among the ties */
+    uint32_t sinks; /* and the foot has sunk into one */
     double beside;  /* the smallest gap of what is within the margin at the start and does not block */
     double later;   /* the earliest time at which something undecided may block; > 1: nothing */
     waiter waiters[WAITING];
@@ -61,6 +63,7 @@ void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query
     query->motion_length = query->radius = query->margin = query->half = 0;
     query->flags = 0;
     query->sensors = TAHR__SENSORS_NONE;
+    query->sinks = 0;
 }
 
 void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat orientation)
@@ -157,12 +160,16 @@ static void probe(sweep_state *s, const tahr__prim *prim, double earliest)
     int answer = tahr__probe_sweep(query, prim, &ask, &f);
     if (answer == TAHR__BESIDE && !sensor) s->beside = d_min(s->beside, f.gap);
     if (answer == TAHR__LATER) s->later = d_min(s->later, f.t);
+    if (answer == TAHR__SINKS) s->sinks = 1;
     if (answer != TAHR__BLOCKED) return;
     if (sensor) {
         note_sensor(s, &f);
         return;
     }
-    if (tie(s, &f)) s->stopper = prim;
+    if (tie(s, &f)) {
+        s->stopper = prim;
+        s->edged |= f.edge;
+    }
 }
 
 /* Nothing that lies beyond the limit is searched for any more. */
@@ -317,6 +324,21 @@ static tahr_status report(sweep_state *s, tahr_hit *hits, uint32_t capacity, uin
     return truncated ? TAHR_TRUNCATED : TAHR_OK;
 }
 
+static void begin(sweep_state *s, const tahr__query *query)
+{
+    s->search.query = query;
+    s->search.box = tahr__query_box(query, 1.0);
+    s->search.reach = query->radius + query->margin;
+    s->search.narrowed = s->search.reserved = 0;
+    s->search.visit = visit;
+    s->limit = 1;
+    s->stopper = NULL;
+    s->hair = query->motion_length > 0 ? HAIR / query->motion_length : 0;
+    s->tied = s->sensor_count = s->lost = s->again = s->waiting = s->edged = s->sinks = 0;
+    s->beside = query->margin;
+    s->later = 2;
+}
+
 tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const tahr_sweep *sweep, tahr_hit *hits,
                                uint32_t capacity, uint32_t *count)
 {
@@ -332,17 +354,12 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.flags = sweep->flags;
     query.sensors = capacity > 1 ? TAHR__SENSORS_TOO : TAHR__SENSORS_NONE;
     if (sweep->flags & TAHR_SWEEP_SENSORS) query.sensors = TAHR__SENSORS_ONLY;
-    s.search.query = &query;
-    s.search.box = tahr__query_box(&query, 1.0);
-    s.search.reach = query.radius + query.margin;
-    s.search.narrowed = s.search.reserved = 0;
-    s.search.visit = visit;
-    s.limit = 1;
-    s.stopper = NULL;
-    s.hair = query.motion_length > 0 ? HAIR / query.motion_length : 0;
-    s.tied = s.sensor_count = s.lost = s.again = s.waiting = 0;
-    s.beside = query.margin;
-    s.later = 2;
+    begin(&s, &query);
     run(&s);
+    if (s.edged && s.sinks) { /* which edges hold was not known before all had been asked */
+        query.sinks = 1;
+        begin(&s, &query);
+        run(&s);
+    }
     return report(&s, hits, capacity, count);
 }

@@ -57,7 +57,7 @@ void options_help(void)
           "  --seconds S        simulated time (10)\n"
           "  --rate HZ          steps per second, 1 to 100000 (60)\n"
           "  --seed K           of spawn points and headings (1)\n"
-          "  --preset NAME      settings of the characters: precise, unreal (precise)\n"
+          "  --preset NAME      settings of the characters: precise, unreal, platformer (precise)\n"
           "  --backend NAME     collision engine, one of",
           stdout);
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {

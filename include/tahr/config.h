@@ -12,7 +12,7 @@ extern "C" {
 /* PRECISE: closed forms, a constant skin, all planes at once: rate-independent, the default. UNREAL: the behaviour, the
  * constants and the order of queries of Unreal's CharacterMovementComponent, in SI units, for projects that need to
  * move alike. Both are settings of the one code: every line below with two defaults. PLATFORMER: PRECISE for a
- * side-scroller: gravity (0, -9.81, 0), plane (0, 0, 1), and the forgiveness that its players expect. */
+ * side-scroller in the plane of x and y: a jump two tiles of 1 m high, and the forgiveness that its players expect. */
 enum { TAHR_PRESET_PRECISE = 1, TAHR_PRESET_UNREAL = 2, TAHR_PRESET_PLATFORMER = 3 };
 
 /* How velocity becomes a displacement. EXACT: the closed form of the whole piece; the same at every frame rate.
@@ -47,7 +47,8 @@ enum { TAHR_STEP_BY_TREAD = 1, TAHR_STEP_BY_CONTACT = 2 };
  * as high above a lift that sinks as above the ground; and of the base's turning. */
 enum { TAHR_IMPART_LEVEL = 1 << 0, TAHR_IMPART_UP = 1 << 1, TAHR_IMPART_TURN = 1 << 2 };
 
-/* Defaults in brackets are those of TAHR_PRESET_PRECISE, and after a bar those of TAHR_PRESET_UNREAL where they differ.
+/* Defaults in brackets are those of TAHR_PRESET_PRECISE, after a bar those of TAHR_PRESET_UNREAL, and after a double
+ * bar those of TAHR_PRESET_PLATFORMER, where they differ.
  * Ranges, inclusive, h = shape.half_height (tahr_config_check names what is outside): skin 1e-5 h..0.5 h; pull_back
  * 1e-6 h..0.1 h; max_depenetration, max_depenetration_character and perch_threshold 0..1e4 m; plane unit or zero; mass
  * 1e-3..1e6 kg; push_force 0..1e9 N; walkable_angle 0..90 degrees and no more with its hysteresis; 1 <= floor_target <=
@@ -85,7 +86,7 @@ typedef struct tahr_config {
                        * of it is added to every push, where a shape larger by it fits */
     double max_depenetration; /* m [1.0 | 5.0] JOINT: longest way out of overlaps per step; SINGLE: longest push */
     double max_depenetration_character; /* m [1.0] SINGLE: the same, out of a body with TAHR_BODY_CHARACTER */
-    tahr_vec3 plane;   /* [0] unit normal of the plane through the character that it stays in (a side-scroller); zero:
+    tahr_vec3 plane;   /* [0 || (0, 0, 1)] unit normal of the plane through the character that it stays in (a side-scroller); zero:
                       * none. Wishes, gravity, launches and pushes count along it. Equal to up (seen from above):
                       * nothing falls, jumps, steps up or snaps down */
     double mass;       /* kg [80 | 100] */
@@ -108,18 +109,18 @@ typedef struct tahr_config {
 
     /* Walking */
     double max_speed;            /* m/s [6] */
-    double acceleration;         /* m/s2 [20.48] along the wish */
+    double acceleration;         /* m/s2 [20.48 || 40] along the wish */
     double turn_friction;        /* 1/s [8] decay of the velocity across the wish */
-    double braking_deceleration; /* m/s2 [20.48] without input, or above the speed asked for */
+    double braking_deceleration; /* m/s2 [20.48 || 40] without input, or above the speed asked for */
     double braking_drag;         /* 1/s [16] added to it, proportional to speed */
     double stop_speed;           /* m/s [0 | 0.1] STEPPED: braking below this is standing */
 
     /* Falling */
-    tahr_vec3 gravity;          /* m/s2 [0, 0, -9.81 | -9.8]; up is opposite */
-    double jump_speed;          /* m/s [4.2] */
+    tahr_vec3 gravity;          /* m/s2 [0, 0, -9.81 | -9.8 || 0, -19.62, 0]; up is opposite */
+    double jump_speed;          /* m/s [4.2 || 9] */
     double jump_hold_time;      /* s [0] a held jump button suspends gravity this long */
-    double terminal_speed;      /* m/s [40] fastest fall */
-    double air_control;         /* of acceleration [0.25 | 0.05] */
+    double terminal_speed;      /* m/s [40 || 25] fastest fall */
+    double air_control;         /* of acceleration [0.25 | 0.05 || 1] */
     double air_boost;           /* of air_control [1 | 2] below air_boost_speed */
     double air_boost_speed;     /* m/s [0 | 0.25] */
     double air_turn_friction;   /* 1/s [0] turn_friction in the air */
@@ -135,7 +136,7 @@ typedef struct tahr_config {
                                 * stays */
 
     /* Crouching */
-    double crouched_half_height; /* m [0.55 | 0.4] with input.crouch; the radius, if that is more */
+    double crouched_half_height; /* m [0.55 | 0.4 || 0.45] with input.crouch; the radius, if that is more */
     double crouched_speed;       /* m/s [3] */
 
     /* Swimming and flying. EXACT, in water: from rest a full wish accelerates by acceleration and tends to swim_speed;
@@ -153,24 +154,24 @@ typedef struct tahr_config {
     double fly_speed;        /* m/s [6] */
     double fly_drag;         /* 1/s [0.15] drag of flying without input */
 
-    /* Feel: all off by default; times count inside steps, the same at every frame rate. A press of the jump button
+    /* Feel: all off but in PLATFORMER; times count inside steps, the same at every frame rate. A press of the jump button
      * starts the first that is possible of: a jump from the ground, one within coyote_time, one off a wall, one of
      * air_jumps; else it is remembered for jump_buffer and starts at the next landing or wall. A press starts one
      * jump at most, and no jump is higher than the one from the ground: in the air the speed against gravity is
      * raised to jump_speed, never beyond. A wall leans by 15 degrees at most; one that was jumped off, or any that
      * faces alike within 30 degrees, cannot be again before the ground or the touch of another wall. */
-    double coyote_time; /* s [0] a jump still starts this long after the floor ended, unless by jump or launch */
-    double jump_buffer; /* s [0] a jump asked for this long before a landing starts at it */
-    double jump_release_gravity; /* of gravity [1] while a jump rises with its button up: variable height */
-    double fall_gravity;         /* of gravity [1] while falling */
-    double wall_slide_speed;     /* m/s [0: off] fastest fall while pushing against a wall */
-    double wall_jump_speed;      /* m/s [0: off] away from the wall, with jump_speed upward */
-    double wall_coyote_time; /* s [0] a wall jump still starts this long after the wall was more than 1.5 skin away */
+    double coyote_time; /* s [0 || 0.1] a jump still starts this long after the floor ended, unless by jump or launch */
+    double jump_buffer; /* s [0 || 0.12] a jump asked for this long before a landing starts at it */
+    double jump_release_gravity; /* of gravity [1 || 3] while a jump rises with its button up: variable height */
+    double fall_gravity;         /* of gravity [1 || 1.5] while falling */
+    double wall_slide_speed;     /* m/s [0: off || 3] fastest fall while pushing against a wall */
+    double wall_jump_speed;      /* m/s [0: off || 6] away from the wall, with jump_speed upward */
+    double wall_coyote_time; /* s [0 || 0.1] a wall jump still starts this long after the wall was more than 1.5 skin away */
     double ledge_grab; /* m [0: off] falling and pushing into a wall, hangs (TAHR_MODE_HANGING) where its head passes
                                * an edge, or on one at most this far above it; a jump climbs, crouching or moving away
                                * lets go */
-    double corner_correction; /* m [0: off] a rising head is moved aside at most this far to clear a corner */
-    double lift_momentum;     /* s [0] the velocity of a base is still imparted this long after it stopped */
+    double corner_correction; /* m [0: off || 0.25] a rising head is moved aside at most this far to clear a corner */
+    double lift_momentum;     /* s [0 || 0.1] the velocity of a base is still imparted this long after it stopped */
     uint32_t air_jumps;       /* [0] jumps in the air before the next landing, water or edge; walking off a ledge costs
                                * none */
     uint32_t reserved_feel;   /* 0 */
@@ -201,7 +202,7 @@ TAHR_API tahr_status tahr_config_scale(tahr_config *config, double factor);
  * 0.1. */
 TAHR_API tahr_status tahr_config_check(const tahr_config *config, const char **field);
 
-/* "precise", "unreal", or "?". Static memory. Since 0.1. */
+/* "precise", "unreal", "platformer", or "?". Static memory. Since 0.1. */
 TAHR_API const char *tahr_preset_name(int32_t preset);
 
 #ifdef __cplusplus

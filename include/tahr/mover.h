@@ -57,7 +57,7 @@ typedef struct tahr_input {
  * tahr_mover_destroy. Allocates from the world's allocator. May run on several threads, also while movers of the world
  * step, if that allocator and the log may be called so; not while the world is opened, changed or closed.
  * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (shape not among the backend's, unknown tail of
- * config not zero), TAHR_E_ARGUMENT (the log names the field), TAHR_E_MEMORY. Since 0.1. */
+ * config not zero, a plane or a gravity that leaves the plane of a TAHR_CAP_PLANAR world), TAHR_E_ARGUMENT (the log names the field), TAHR_E_MEMORY. Since 0.1. */
 TAHR_API tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **mover);
 
 /* Frees a mover; its world must still be open and no step of it under way. NULL is allowed. Threads as for

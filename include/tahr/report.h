@@ -41,7 +41,8 @@ enum {
     TAHR_LEFT_LEDGE = 0, /* the floor ended */
     TAHR_LEFT_JUMP = 1,
     TAHR_LEFT_LAUNCH = 2,
-    TAHR_LEFT_MODE = 3 /* another mode was asked for, or a fluid was entered */
+    TAHR_LEFT_MODE = 3, /* another mode was asked for, or a fluid was entered */
+    TAHR_LEFT_DROP = 4  /* through the one-way body that the event names */
 };
 
 /* Something that happened inside a step. time counts from the start of the step, in order. Frozen. */
@@ -81,7 +82,8 @@ typedef struct tahr_event {
     X(TAHR_RULE_WALL_JUMP, 21, "wall_jump")          \
     X(TAHR_RULE_LEDGE_GRAB, 22, "ledge_grab")        \
     X(TAHR_RULE_CORNER, 23, "corner")                \
-    X(TAHR_RULE_PULL_BACK, 24, "pull_back")
+    X(TAHR_RULE_PULL_BACK, 24, "pull_back")         \
+    X(TAHR_RULE_DROP, 25, "drop")
 
 enum {
 #define TAHR_RULE_ENUM(constant, value, name) constant = (value),

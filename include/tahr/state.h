@@ -56,7 +56,7 @@ enum {
     TAHR_STATE_WALL_SPENT = 1 << 6,   /* that wall was jumped off: not again before ground or another wall */
     TAHR_STATE_EDGE_SPENT = 1 << 7, /* an edge as high as floor.point was let go: none there before falling below it */
     TAHR_STATE_CRUSHED = 1 << 8,    /* overlaps something that it could not be pushed out of */
-    TAHR_STATE_DROPPING = 1 << 9,   /* on its way through the one-way body that it stood on */
+    TAHR_STATE_DROPPING = 1 << 9,   /* falling, and nothing one-way as near as a floor is there for it */
     TAHR_STATE_DROP_HELD = 1 << 10  /* TAHR_INPUT_DROP was on in the last step */
 };
 
@@ -98,7 +98,7 @@ typedef struct tahr_state {
     tahr_vec3 wall_normal; /* of the last wall touched in the air, jumped off or hung on, level; zero: none */
     uint32_t wall_body;    /* or TAHR_NO_BODY */
     uint32_t wall_feature;
-    uint32_t drop_body; /* one-way platform being dropped through, or TAHR_NO_BODY */
+    uint32_t drop_body; /* while DROPPING the one-way body that it stood on, and falls away from; else TAHR_NO_BODY */
     uint32_t drop_feature;
     uint8_t reserved[40];
 } tahr_state;
