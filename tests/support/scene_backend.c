@@ -12,13 +12,18 @@
  * ccd's are within 1e-4 m, exact onto a level floor, and it may enter 5 mm where native may enter 1 mm. Slides of ccd
  * are judged at 1e-2 of their way (2 mm for the 0.2 m or so into a gutter), who pushes into a corner at 1e-6 m. */
 const scene_backend SCENE_BACKENDS[] = {
-    {"native", tahr_backend_v1_native, 1, TAHR_NATIVE_FLOAT, 1.0, 1e-5, 2e-6, 2e-6, 1e-3, 0, 0},
-    {"native-double", tahr_backend_v1_native, 1, TAHR_NATIVE_DOUBLE, 1.0, 1e-5, 1e-9, 0, 1e-3, 0, 0},
+    {"native", tahr_backend_v1_native, 1, TAHR_NATIVE_FLOAT, 1.0, 1e-5, 2e-6, 2e-6, 1e-3, 0, 0, 0},
+    {"native-double", tahr_backend_v1_native, 1, TAHR_NATIVE_DOUBLE, 1.0, 1e-5, 1e-9, 0, 1e-3, 0, 0, 0},
 #ifdef TAHR_HAVE_CCD
-    {"ccd", tahr_backend_v1_ccd, 0, 0, 1.0, 1e-5, 1e-4, 0, 5e-3, 2e-3, 1e-6},
+    {"ccd", tahr_backend_v1_ccd, 0, 0, 1.0, 1e-5, 1e-4, 0, 5e-3, 2e-3, 1e-6, 0},
 #endif
 };
 const int SCENE_BACKEND_COUNT = (int)(sizeof SCENE_BACKENDS / sizeof SCENE_BACKENDS[0]);
+
+const scene_backend SCENE_PLANAR_BACKENDS[] = {
+    {.name = NULL},
+};
+const int SCENE_PLANAR_BACKEND_COUNT = (int)(sizeof SCENE_PLANAR_BACKENDS / sizeof SCENE_PLANAR_BACKENDS[0]) - 1;
 
 static void complain(void *user, int32_t level, const char *message)
 {
