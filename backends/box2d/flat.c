@@ -165,7 +165,8 @@ static void keep_pair(pair *best, tahr__vec2 on_shape, tahr__vec2 on_piece, int 
 
 static void nearest_pair(const tahr__flat_shape *shape, tahr__vec2 centre, const tahr__flat *piece, pair *best)
 {
-    int edges = piece->count > 2 ? piece->count : piece->count - 1, sides = side_count(shape) > 2 ? 4 : shape->count - 1;
+    int edges = piece->count > 2 ? piece->count : piece->count - 1,
+        sides = side_count(shape) > 2 ? 4 : shape->count - 1;
     double t;
 
     *best = (pair){.square = INFINITY};

@@ -122,7 +122,8 @@ static int edge_holds(const search *s, const meeting *m)
     for (int i = 0; i < p->shape.count; i++)
         reach = d_max(reach, f_dot(p->up, p->shape.corner[i]));
     return tahr__one_way_edge_holds(tahr__b2_lift(p->up, 0), tahr__b2_lift(p->motion, 0),
-                                    -(reach + p->shape.radius) - f_dot(m->near.point, p->up), p->margin, s->sinks_first);
+                                    -(reach + p->shape.radius) - f_dot(m->near.point, p->up), p->margin,
+                                    s->sinks_first);
 }
 
 /* Is a one-way body there, where it is met? Others always are. */

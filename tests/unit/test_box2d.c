@@ -207,7 +207,8 @@ static void tiles_are_left_upward_only(void **unused)
         tahr_world *world = box2d_open(engines[e], bodies, 20, &log);
         for (uint32_t type = 1; type <= 3; type++) {
             for (int i = 0; i < 40; i++) {
-                tahr_sweep q = sweep_of(type, 8 + 0.0257 * i, shape_of(type).half_height - (i % 2 ? 1e-9 : 1e-2), 1, 0, 0);
+                tahr_sweep q =
+                    sweep_of(type, 8 + 0.0257 * i, shape_of(type).half_height - (i % 2 ? 1e-9 : 1e-2), 1, 0, 0);
                 uint32_t count = touch(world, &q, 0, contacts);
                 assert_true(count >= 1);
                 for (uint32_t n = 0; n < count; n++) {
@@ -333,8 +334,8 @@ static void rays_meet_what_is_first(void **unused)
         const struct {
             double x, y, dx, dy, at, nx, ny;
             uint32_t body;
-        } rows[] = {{0, 0, 10, 0, 2, -1, 0, 0},    {0, 5, 0, -4, 3, 0, 1, 2},    {0, 0, 0, 5, -1, 0, 0, 0},
-                    {0, 0, 0, -10, 4.5, 0, 1, 3},  {3, 0, 10, 0, -1, 0, 0, 0},   {0, 0, 1.5, 0, -1, 0, 0, 0},
+        } rows[] = {{0, 0, 10, 0, 2, -1, 0, 0},   {0, 5, 0, -4, 3, 0, 1, 2},  {0, 0, 0, 5, -1, 0, 0, 0},
+                    {0, 0, 0, -10, 4.5, 0, 1, 3}, {3, 0, 10, 0, -1, 0, 0, 0}, {0, 0, 1.5, 0, -1, 0, 0, 0},
                     {6, 0.5, -10, 0, 2, 1, 0, 0}};
         for (int i = 0; i < 7; i++) {
             tahr_hit hit;
@@ -464,8 +465,7 @@ static void numbers_that_are_none_are_refused_by_the_slots(void **unused)
         uint64_t asked = memory.requests;
         for (int i = 0; i < 6; i++) {
             tahr_sweep q = sweep_of(TAHR_SHAPE_BOX, 0, 3, 0, -2, 0.01);
-            double *fields[] = {&q.position.x,       &q.motion.y,     &q.margin,
-                                &q.shape.half_height, &q.shape.half_x, &q.up.y};
+            double *fields[] = {&q.position.x, &q.motion.y, &q.margin, &q.shape.half_height, &q.shape.half_x, &q.up.y};
             tahr_hit hits[2];
             uint32_t count = 0;
             *fields[i] = i % 2 ? NAN : INFINITY;
