@@ -11,7 +11,7 @@
 static const tahr_native_desc native_float = {.struct_size = sizeof native_float, .precision = TAHR_NATIVE_FLOAT};
 static const tahr_native_desc native_double = {.struct_size = sizeof native_double, .precision = TAHR_NATIVE_DOUBLE};
 
-#ifdef TAHR_HAVE_BOX2D
+#ifdef TAHR_HAVE_BOX2D_2
 static const tahr_box2d_desc box2d_2 = {.struct_size = sizeof box2d_2, .engine = TAHR_BOX2D_2};
 #endif
 
@@ -24,6 +24,8 @@ static const struct backend_choice choices[] = {
 #endif
 #ifdef TAHR_HAVE_BOX2D /* levels of two dimensions only */
     {"box2d", "Box2D, the newest there is, in a plane", tahr_backend_v1_box2d, NULL, 0.001},
+#endif
+#ifdef TAHR_HAVE_BOX2D_2
     {"box2d-2", "Box2D 2.4", tahr_backend_v1_box2d, &box2d_2, 0.001},
 #endif
 };

@@ -6,7 +6,8 @@
 
 #include <vector>
 
-namespace {
+namespace
+{
 
 struct place {
     b2World world{b2Vec2(0, 0)};

@@ -7,7 +7,8 @@
 #include <tahr/box2d.h>
 #include <tahr/tahr.h>
 
-namespace {
+namespace
+{
 
 /* Tahr names bodies by numbers: here what each carries as user data. */
 enum : uint32_t { GROUND = 0, LIFT = 1, GATE = 2, CRATES = 3 };

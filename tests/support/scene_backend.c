@@ -4,6 +4,9 @@
 
 #include <stdio.h>
 
+#ifdef TAHR_HAVE_BOX2D
+#include <tahr/box2d.h>
+#endif
 #ifdef TAHR_HAVE_CCD
 #include <tahr/ccd.h>
 #endif
@@ -20,7 +23,14 @@ const scene_backend SCENE_BACKENDS[] = {
 };
 const int SCENE_BACKEND_COUNT = (int)(sizeof SCENE_BACKENDS / sizeof SCENE_BACKENDS[0]);
 
+/* Gaps of box2d are within 1e-9 m, on either engine. Its precision is the engine. */
 const scene_backend SCENE_PLANAR_BACKENDS[] = {
+#ifdef TAHR_HAVE_BOX2D
+    {"box2d", tahr_backend_v1_box2d, 0, TAHR_BOX2D_NEWEST, 1.0, 1e-5, 1e-9, 0, 1e-3, 0, 0, 1},
+#ifdef TAHR_HAVE_BOX2D_2
+    {"box2d-2", tahr_backend_v1_box2d, 0, TAHR_BOX2D_2, 1.0, 1e-5, 1e-9, 0, 1e-3, 0, 0, 1},
+#endif
+#endif
     {.name = NULL},
 };
 const int SCENE_PLANAR_BACKEND_COUNT = (int)(sizeof SCENE_PLANAR_BACKENDS / sizeof SCENE_PLANAR_BACKENDS[0]) - 1;
@@ -38,6 +48,9 @@ tahr_status scene_backend_open(const scene_backend *backend, const tahr_body_des
 {
     tahr_log log = {NULL, complain};
     tahr_native_desc native = {.struct_size = sizeof native};
+#ifdef TAHR_HAVE_BOX2D
+    tahr_box2d_desc box2d = {.struct_size = sizeof box2d, .engine = backend->precision};
+#endif
     tahr_world_desc desc;
     tahr_world_desc_init(&desc, sizeof desc);
     if (options) {
@@ -49,5 +62,8 @@ tahr_status scene_backend_open(const scene_backend *backend, const tahr_body_des
     desc.body_count = count;
     desc.log = &log;
     desc.options = backend->native ? &native : NULL;
+#ifdef TAHR_HAVE_BOX2D
+    desc.options = backend->planar ? (const void *)&box2d : desc.options;
+#endif
     return tahr_world_open(backend->get(), &desc, world);
 }

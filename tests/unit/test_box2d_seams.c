@@ -52,7 +52,8 @@ static uint32_t lay(int layout)
         return 1;
     }
     for (int i = 0; i < TILES; i++) {
-        tiles[i] = layout == BOXES ? box2d_box((i - 0.5) * WIDTH, noise(i) - 0.5, WIDTH / 2, 0.5) : box2d_chain(corners[i], 2);
+        tiles[i] =
+            layout == BOXES ? box2d_box((i - 0.5) * WIDTH, noise(i) - 0.5, WIDTH / 2, 0.5) : box2d_chain(corners[i], 2);
     }
     return TILES;
 }
@@ -240,7 +241,8 @@ static void chains_lead_up_and_down_slopes(void **unused)
         r.input.move = (tahr_vec3){down ? -1 : 1, 0, 0};
         box2d_rig_steps(&r, 40 * 60, 1.0 / 60);
         assert_int_equal(r.hits, 0);
-        double lost = c.max_speed * c.max_speed / (2 * c.acceleration), cosine = 1 / sqrt(1 + 0.36397023426620234 * 0.36397023426620234);
+        double lost = c.max_speed * c.max_speed / (2 * c.acceleration),
+               cosine = 1 / sqrt(1 + 0.36397023426620234 * 0.36397023426620234);
         assert_true(fabs(r.state.position.x - start) >= 0.999 * (40 * c.max_speed - lost) * cosine);
         box2d_rig_close(&r);
     }

@@ -181,7 +181,8 @@ static void make_body(trial *t)
 static void make_shape(trial *t)
 {
     tahr_sweep *q = &t->query;
-    double angle = oracle_below(&dice, 3) ? uniform(-3, 3) : 0, radius = uniform(0.1, 0.5), half = radius + uniform(0, 1);
+    double angle = oracle_below(&dice, 3) ? uniform(-3, 3) : 0, radius = uniform(0.1, 0.5),
+           half = radius + uniform(0, 1);
     double wide = uniform(0.1, 0.6), ux = sin(angle), uy = cos(angle);
     memset(q, 0, sizeof *q);
     q->shape.type = 1 + oracle_below(&dice, 3);
@@ -331,10 +332,10 @@ static void twenty_thousand_sweeps_are_within_a_nanometre_of_the_truth(void **un
     }
     for (int e = 0; e < engine_count; e++) {
         const tally *s = &sums[e];
-        print_message("Box2D %u: %d hits, %d overlaps; worst gap %.1e m, depth %.1e m, contact %.1e m, normal %.1e deg; "
-                      "%d missed, %d false\n",
-                      engines[e], s->hits, s->overlaps, s->gap, s->depth, s->contact, s->normal, s->missed,
-                      s->false_hits);
+        print_message(
+            "Box2D %u: %d hits, %d overlaps; worst gap %.1e m, depth %.1e m, contact %.1e m, normal %.1e deg; "
+            "%d missed, %d false\n",
+            engines[e], s->hits, s->overlaps, s->gap, s->depth, s->contact, s->normal, s->missed, s->false_hits);
         assert_true(s->hits > 6000 && s->overlaps > 1000);
         assert_int_equal(s->missed + s->false_hits, 0);
         assert_true(s->gap <= 2e-9 && s->depth <= 2e-9 && s->contact <= 2e-9 && s->normal <= 0.1);
