@@ -13,7 +13,7 @@ ARGS ?=
 WERROR ?=
 CMAKE_ARGS ?=
 
-.PHONY: build setup setup-run run test test-full asan bench install clean format help
+.PHONY: build setup setup-run run run-2d test test-full asan bench install clean format help
 
 # Ninja if it is there and the folder is not configured yet; a configured folder keeps its generator.
 # Of its talk only what is left out and why is shown, unless it fails.
@@ -46,6 +46,13 @@ run_options = $(if $(LEVEL),--level "$(LEVEL)") $(if $(UP),--up $(UP)) $(if $(BA
 	--csv $(BUILD)/run.csv --plot $(BUILD)/run.svg $(ARGS)
 run: build
 	$(strip $(BUILD)/bin/tahr run $(run_options))
+
+# From the side: the tour through the bundled level, unless a level, a route or wanderers are asked for.
+tour = $(if $(LEVEL)$(findstring --characters,$(ARGS))$(findstring --route,$(ARGS)),,--tour)
+run_2d_options = --2d $(tour) $(if $(LEVEL),--level "$(LEVEL)") $(if $(BACKEND),--backend $(BACKEND)) \
+	--csv $(BUILD)/run-2d.csv --plot $(BUILD)/run-2d.svg $(ARGS)
+run-2d: build
+	$(strip $(BUILD)/bin/tahr run $(run_2d_options))
 
 test: setup
 	@$(call configure,$(BUILD),-DTAHR_TESTS=ON)
@@ -83,6 +90,8 @@ help:
 	@echo "make              build the library and the shell into $(BUILD)/"
 	@echo "make run          walk the bundled playground; leaves $(BUILD)/run.svg and $(BUILD)/run.csv"
 	@echo "                  LEVEL=file  UP=y|z  BACKEND=native|native-double|ccd  ARGS='more options'"
+	@echo "make run-2d       a tour through the bundled side-scroller; leaves $(BUILD)/run-2d.svg and $(BUILD)/run-2d.csv"
+	@echo "                  LEVEL=file.tmj (of Tiled)  BACKEND=native|ccd|box2d  ARGS='more options'"
 	@echo "make test         all tests but the long ones"
 	@echo "make test-full    all tests"
 	@echo "make asan         all tests under AddressSanitizer and UBSan, in $(BUILD)/asan"

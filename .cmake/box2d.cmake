@@ -6,6 +6,7 @@ set(box2d_defines)
 set(box2d_language C)
 set(box2d_package) # for find_package(tahr)
 set(box2d_3_include)
+set(box2d_3_headers)
 file(GLOB box2d_sources CONFIGURE_DEPENDS backends/box2d/*.c)
 list(FILTER box2d_sources EXCLUDE REGEX "/engine_v3\\.c$")
 
@@ -21,10 +22,13 @@ if(NOT "${TAHR_BACKEND_BOX2D}" STREQUAL "OFF")
             message(FATAL_ERROR "TAHR_BOX2D3_DIR=${TAHR_BOX2D3_DIR} holds no src/*.c and include/box2d/box2d.h")
         endif()
         # Not ours: no warnings of ours, and its own dialect (C17, clock_gettime). Its headers are named like those of
-        # 2.4, so nobody inherits them: who wants them says so (box2d_3_include).
+        # 2.4, so nobody inherits them: who wants them says so (tahr_box2d_3_headers).
         add_library(tahr_box2d_3 STATIC EXCLUDE_FROM_ALL ${box2d_3_sources})
         target_include_directories(tahr_box2d_3 SYSTEM PRIVATE ${TAHR_BOX2D3_DIR}/include ${TAHR_BOX2D3_DIR}/src)
         set(box2d_3_include ${TAHR_BOX2D3_DIR}/include)
+        add_library(tahr_box2d_3_headers INTERFACE)
+        target_include_directories(tahr_box2d_3_headers SYSTEM INTERFACE ${box2d_3_include})
+        set(box2d_3_headers tahr_box2d_3_headers)
         set_target_properties(tahr_box2d_3 PROPERTIES
             C_STANDARD 17 C_EXTENSIONS ON POSITION_INDEPENDENT_CODE ON C_VISIBILITY_PRESET hidden)
         find_package(Threads REQUIRED)

@@ -154,6 +154,7 @@ struct tahr__step {
     const tahr_input *given;  /* instead of the caller's, */
     vec3 began;               /* and where the character was before */
     uint32_t ignore_body;     /* not there for this step's queries now, or TAHR_NO_BODY */
+    uint32_t passes;          /* 1: no one-way body is there for this step's sweeps now */
     uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */
     uint32_t frame_body;      /* what state.velocity is relative to in this step, or TAHR_NO_BODY (base_motion.c) */
     uint32_t frame_is_base;   /* 1: it stood on it; 0: it meets it in the air */

@@ -6,6 +6,7 @@
  * so not on the frame rate. */
 #include "corner.h"
 
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 
@@ -48,17 +49,31 @@ static double way_aside(tahr__step *step, vec3 direction)
     return min_of(aside * (1 - hit.fraction) + clear, aside);
 }
 
+/* The sides of a box, both ways, as far as they lie in the plane that the character stays in. */
+static uint32_t sides_of(const tahr__step *step, vec3 *directions)
+{
+    const vec3 sides[2] = {rotate(step->state.orientation, vec(1, 0, 0)),
+                           rotate(step->state.orientation, vec(0, 1, 0))};
+    uint32_t count = 0;
+    for (int i = 0; i < 2; i++) {
+        vec3 side = along_plane(step->limits, sides[i]);
+        if (length(side) > FLAT) { /* else it points out of the plane */
+            directions[count++] = is_in_plane(step) ? unit(side) : side;
+        }
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        directions[count + i] = scale(directions[i], -1);
+    }
+    return 2 * count;
+}
+
 /* Directions worth a look: away from an edge that was hit; of boxes, along their sides. */
 static uint32_t directions_of(const tahr__step *step, const tahr_hit *hit, vec3 *directions)
 {
     vec3 level = step_level(step, hit->normal);
     vec3 motion = step_level(step, step->state.velocity);
     if (step->limits->shape.type == TAHR_SHAPE_BOX) {
-        directions[0] = rotate(step->state.orientation, vec(1, 0, 0));
-        directions[1] = rotate(step->state.orientation, vec(0, 1, 0));
-        directions[2] = scale(directions[0], -1);
-        directions[3] = scale(directions[1], -1);
-        return 4;
+        return sides_of(step, directions);
     }
     if (length(level) <= FLAT) {
         level = motion;

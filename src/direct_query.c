@@ -60,7 +60,8 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     if (!bad && !(vec_is_finite(query->motion) && length(query->motion) <= 1e6)) {
         bad = "motion";
     }
-    const uint32_t flags = TAHR_SWEEP_LEAVE_OVERLAP | TAHR_SWEEP_ONLY_BODY | TAHR_SWEEP_SENSORS;
+    const uint32_t flags = TAHR_SWEEP_LEAVE_OVERLAP | TAHR_SWEEP_ONLY_BODY | TAHR_SWEEP_SENSORS | TAHR_SWEEP_DROP | TAHR_SWEEP_WHOLE |
+                           TAHR_SWEEP_PASS;
     if (!bad && (query->flags & ~flags || query->reserved)) {
         bad = query->reserved ? "reserved" : "flags";
     }
@@ -98,7 +99,7 @@ tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *que
         return null_argument(world, "tahr_world_contacts", query, contacts, "contacts");
     }
     const char *bad = bad_placement(&query->shape, query->position, query->up, query->orientation, query->margin);
-    if (!bad && (query->flags & ~(uint32_t)TAHR_CONTACTS_SOLID || query->reserved)) {
+    if (!bad && (query->flags & ~(uint32_t)(TAHR_CONTACTS_SOLID | TAHR_CONTACTS_DROP) || query->reserved)) {
         bad = query->reserved ? "reserved" : "flags";
     }
     if (bad) {

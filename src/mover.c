@@ -349,7 +349,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         step.pull = &pull;
     }
     step.ignore_body = TAHR_NO_BODY;
-    step.just_teleported = 0;
+    step.passes = step.just_teleported = 0;
     step.dt = dt;
     step.push_left = mover->config.max_depenetration;
     step.time = step.ahead = 0;

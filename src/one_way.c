@@ -10,6 +10,9 @@ int32_t tahr_one_way_blocks(const tahr_vec3 *up, const tahr_vec3 *normal, double
     if (!up || !normal) {
         return 0;
     }
-    int dropped = (flags & TAHR_SWEEP_DROP) && distance <= 2 * margin;
-    return distance >= 0 && dot(*up, *normal) >= 0.5 && !dropped;
+    if (flags & TAHR_SWEEP_WHOLE) {
+        return 1;
+    }
+    int dropped = (flags & TAHR_SWEEP_PASS) || ((flags & TAHR_SWEEP_DROP) && distance <= 2 * margin);
+    return distance >= -1e-3 * margin && dot(*up, *normal) >= 0.5 && !dropped;
 }

@@ -2,6 +2,7 @@
  * path.c: the path of one slice of walking: closed-form pieces, bent by walls, lifted onto ramps and steps. */
 #include "path.h"
 
+#include "drop.h"
 #include "floor.h"
 #include "launch.h"
 #include "move.h"
@@ -52,6 +53,11 @@ void tahr__path_carry_floor(tahr__path *w, const tahr__step *step)
     w->ramp_count = 0;
     if (floor_is_walkable(floor) && (floor->flags & TAHR_FLOOR_FACE)) {
         carry(w, floor->surface_normal);
+        /* The edge of a one-way body (a crest, a platform's end) stops nothing that does not come down on it: the foot
+         * rolls over it by itself. */
+        if (dot(floor->normal, floor->surface_normal) < 1 - 1e-6 && tahr__is_one_way(step, floor->body)) {
+            carry(w, floor->normal);
+        }
     }
 }
 
@@ -171,12 +177,21 @@ static vec3 along_floor(const tahr__path *w, const tahr__step *step, vec3 level)
                                           : scale(lifted, size / sqrt(size * size + climb * climb));
 }
 
+/* An edge as high as the floor, as between bodies that lie flush; which of its faces is told does not count. Of one that
+ * is higher, the round of the foot and its skin would meet the top beside their lowest point, where the normal leans by
+ * this height over their radius from up. 1e-9 m: the backends' rounding, and nothing to step up on. */
+static int is_seam(const tahr__step *step, const tahr_hit *hit, double up)
+{
+    return (1 - up) * (step->limits->shape.radius + step->config->skin) < 1e-9 &&
+           hit->walkable_rule != TAHR_WALKABLE_NEVER;
+}
+
 /* A walkable face in the way: go on along it. Its contact normal must be walkable too; the lip of a step is not a
  * ramp. */
 static int take_ramp(tahr__step *step, tahr__path *w, const tahr_hit *hit)
 {
     double up = dot(hit->normal, step->state.up), limit = tahr__walkable_limit(step, hit, 0);
-    if (up < limit || !tahr__is_walkable(step, hit, 0)) {
+    if (up < limit || (!is_seam(step, hit, up) && !tahr__is_walkable(step, hit, 0))) {
         return tahr__decide(step, TAHR_RULE_RAMP, 0, hit, up, limit, "too steep to go on along");
     }
     for (uint32_t i = 0; i < w->ramp_count; i++) {

@@ -9,6 +9,7 @@
 
 #include "base_motion.h"
 #include "body_motion.h"
+#include "drop.h"
 #include "move.h"
 #include "query.h"
 #include "report.h"
@@ -195,9 +196,25 @@ static void push(tahr__step *step, uint32_t body, vec3 from, double dt)
     tahr__event(step, TAHR_EVENT_HIT, &m.hit, speed);
 }
 
+/* Is it inside of a one-way body before both move? Asked with the body solid for once. */
+static int is_inside(tahr__step *step, uint32_t body, vec3 from)
+{
+    const tahr__body_note *note = &step->world->bodies[body];
+    tahr_hit hit;
+    if (!(note->flags & TAHR_BODY_ONE_WAY)) {
+        return 0;
+    }
+    step->ignore_body = body;
+    tahr__sweep(step, &step->limits->shape, tahr__carried(&note->before, &note->pose, from),
+                scale(step->state.up, -step->config->skin), 0, TAHR_SWEEP_ONLY_BODY | TAHR_SWEEP_WHOLE, &hit);
+    step->ignore_body = TAHR_NO_BODY;
+    return hit.blocking && hit.start_overlap;
+}
+
 /* In the air: the body that the character meets in this step, or that would push it. Their relative motion is then the
- * same at every frame rate: a landing on a train, a jump off a lift that rises. */
-static uint32_t first_met(tahr__step *step, vec3 own)
+ * same at every frame rate: a landing on a train, a jump off a lift that rises. Or the one-way body that it is passing:
+ * seen from the world a lift that sinks would be below the foot already before the foot has moved. */
+static uint32_t first_met(tahr__step *step, vec3 own, uint32_t *inside)
 {
     const tahr_world *world = step->world;
     const vec3 from = step->state.position;
@@ -213,6 +230,10 @@ static uint32_t first_met(tahr__step *step, vec3 own)
         if (time > 2 && meets(step, body, from, from, &m)) {
             time = 1 + m.time;
         }
+        if (time > 2 && is_inside(step, body, from)) {
+            time = 2;
+        }
+        *inside = time < soonest ? time == 2 : *inside;
         if (time < soonest) {
             soonest = time;
             first = body;
@@ -221,18 +242,30 @@ static uint32_t first_met(tahr__step *step, vec3 own)
     return first;
 }
 
+/* Who drops falls away from the platform, not from the world: seen from the world a lift that rises would pass him before
+ * he has left it. */
+static uint32_t dropped_from(const tahr__step *step)
+{
+    uint32_t body = step->state.drop_body;
+    int moves = is_dropping(step) && body < step->world->body_count && step->world->bodies[body].dt > 0;
+    return moves ? body : TAHR_NO_BODY;
+}
+
 static void take_frame(tahr__step *step, double dt)
 {
     tahr_state *s = &step->state;
     tahr_body_motion motion;
     vec3 own = add_scaled(scale(s->velocity, dt), step->pull->gravity, 0.5 * dt * dt);
-    uint32_t body = first_met(step, own);
+    uint32_t body = dropped_from(step), inside = body != TAHR_NO_BODY;
+    body = inside ? body : first_met(step, own, &inside);
     if (body == TAHR_NO_BODY || tahr__body_motion(step->world, body, &motion) < 0) {
         return;
     }
     const tahr__body_note *note = &step->world->bodies[body];
     step->ignore_body = body;
+    step->passes = inside; /* what it is inside of may be a row of bodies: all of them are elsewhere already */
     tahr__go_along(step, sub(tahr__carried(&note->before, &note->pose, s->position), s->position));
+    step->passes = 0;
     step->ignore_body = TAHR_NO_BODY;
     step->frame_body = body;
     step->frame_velocity = tahr__point_velocity(&motion, step_foot(step), 1);

@@ -41,6 +41,23 @@ static void blocked_here(const tahr__step *step, tahr_hit *hit)
     hit->normal = hit->surface_normal = step->state.up;
 }
 
+/* Deeper than this (m) is an overlap; less is the rounding of a touch: of somebody put exactly onto a floor. */
+static const double TOUCHING = 1e-7;
+
+/* An overlap that is a touch blocks what approaches, and what leaves is asked for again. */
+static tahr_status touch(tahr__step *step, tahr_sweep *q, tahr_hit *hit, uint32_t *count)
+{
+    if (dot(hit->normal, q->motion) < 0 || q->flags & TAHR_SWEEP_LEAVE_OVERLAP) {
+        hit->start_overlap = 0;
+        hit->distance = hit->depth = 0;
+        return TAHR_OK;
+    }
+    tahr_sweep leaving = *q;
+    leaving.flags |= TAHR_SWEEP_LEAVE_OVERLAP;
+    step->report.sweeps++;
+    return answer_sweep(step->world, &step->context, &leaving, hit, 1, count);
+}
+
 void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
                  tahr_hit *hit)
 {
@@ -49,6 +66,7 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
         blocked_here(step, hit);
         return;
     }
+    flags |= step->passes ? (uint32_t)TAHR_SWEEP_PASS : 0u;
     if (is_dropping(step)) {
         flags |= TAHR_SWEEP_DROP;
         margin = max_of(margin, drop_margin(step->config));
@@ -66,6 +84,9 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
     tahr_status status = step->trail && shape == &step->limits->shape
                              ? tahr__sensing_sweep(step, &q, hit, &count)
                              : answer_sweep(step->world, &step->context, &q, hit, 1, &count);
+    if (status >= 0 && count > 0 && hit->start_overlap && hit->depth <= TOUCHING) {
+        status = touch(step, &q, hit, &count);
+    }
     if (status < 0) {
         step->error = status;
         blocked_here(step, hit);

@@ -45,11 +45,14 @@ static void insert(collection *c, const tahr_contact *contact)
     c->out[at] = *contact;
 }
 
-static int is_there(const collection *c, const tahr__b2_piece *piece, const tahr__flat_near *near)
+/* Of one-way bodies the faces that are stood on; without a motion their edges are not there. */
+static int is_there(const collection *c, const tahr__b2_piece *piece, const tahr__flat_near *near, tahr__vec2 face)
 {
-    if (!(piece->owner.flags & TAHR_BODY_ONE_WAY)) return 1;
-    return !(c->flags & TAHR_CONTACTS_DROP) && near->distance >= 0 &&
-           f_dot(c->probe->up, near->normal) >= TAHR__ONE_WAY_TOP;
+    tahr_vec3 normal = tahr__b2_lift(near->normal, 0);
+
+    if ((piece->owner.flags & (TAHR_BODY_ONE_WAY | TAHR_BODY_SENSOR)) != TAHR_BODY_ONE_WAY) return 1;
+    return !(c->flags & TAHR_CONTACTS_DROP) && !tahr__one_way_edge(normal, tahr__b2_lift(face, 0)) &&
+           tahr__one_way_blocks(tahr__b2_lift(c->probe->up, 0), normal, near->distance, c->probe->margin, 0);
 }
 
 static void visit(void *user, tahr__b2_piece *piece)
@@ -64,8 +67,8 @@ static void visit(void *user, tahr__b2_piece *piece)
     tahr__flat_measure(&p->shape, f_make(0, 0), &piece->flat, 0, &near);
     if (near.distance > p->margin || !tahr__b2_in_front(piece, &near)) return;
     tahr__b2_leave(p, piece, &near);
-    if (!is_there(c, piece, &near)) return;
     face = tahr__b2_face(piece, &near, near.normal);
+    if (!is_there(c, piece, &near, face)) return;
     contact.sensor = (piece->owner.flags & TAHR_BODY_SENSOR) != 0;
     if (!contact.sensor && !near.crosses && tahr__b2_is_seam(p, piece, &near, near.normal, &face)) return;
     contact.distance = near.distance;

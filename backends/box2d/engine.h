@@ -79,7 +79,8 @@ extern const tahr__b2_engine tahr__b2_engine_3;
 /* Category and mask as Box2D matches them, with the group's exception. */
 static inline int tahr__b2_filter(const tahr_box2d_desc *desc, uint64_t category, uint64_t mask, int32_t group)
 {
-    uint64_t own = desc->category_bits ? desc->category_bits : 1u, wants = desc->mask_bits ? desc->mask_bits : ~(uint64_t)0;
+    uint64_t own = desc->category_bits ? desc->category_bits : 1u,
+             wants = desc->mask_bits ? desc->mask_bits : ~(uint64_t)0;
 
     if (group != 0 && group == desc->group_index) return group > 0;
     return (wants & category) != 0 && (mask & own) != 0;

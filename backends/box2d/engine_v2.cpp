@@ -8,7 +8,8 @@
 
 #include <box2d/box2d.h>
 
-namespace {
+namespace
+{
 
 b2AABB aabb_of(const tahr__b2_box &box)
 {
@@ -185,8 +186,8 @@ struct world_question {
         told.flags = fixture->IsSensor() ? static_cast<uint32_t>(TAHR_BODY_SENSOR) : 0u;
         if (desc->shape) desc->shape(desc->user, &told);
         if (told.hidden) return;
-        piece.owner = {told.body, told.flags, told.surface, told.walkable_rule, filter.categoryBits, 0,
-                       told.walkable_angle};
+        piece.owner = {told.body,           told.flags, told.surface,       told.walkable_rule,
+                       filter.categoryBits, 0,          told.walkable_angle};
         piece.feature = ordinal_of(fixture) << 16 | static_cast<uint32_t>(child);
         piece.is_box = 0;
         piece.ghosts = TAHR__B2_NO_GHOST;
@@ -222,5 +223,5 @@ tahr_status world_motion(const tahr_box2d_desc *desc, uint32_t id, tahr_body_mot
 
 } // namespace
 
-extern "C" const tahr__b2_engine tahr__b2_engine_2 = {"2.4",     tree_open,   tree_close, tree_add,    tree_move,
-                                                      tree_ask,  world_check, world_ask,  world_motion};
+extern "C" const tahr__b2_engine tahr__b2_engine_2 = {"2.4",    tree_open,   tree_close, tree_add,    tree_move,
+                                                      tree_ask, world_check, world_ask,  world_motion};

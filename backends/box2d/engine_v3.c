@@ -182,7 +182,8 @@ static bool take_shape(b2ShapeId shape, void *context)
                                    .walkable_rule = told.walkable_rule,
                                    .walkable_angle = told.walkable_angle,
                                    .mask = (uint32_t)(filter.categoryBits | filter.categoryBits >> 32)};
-    piece.feature = (uint32_t)(shape.index1 - 1) << 3; /* room for the faces of a polygon, of which Box2D has at most 8 */
+    piece.feature = (uint32_t)(shape.index1 - 1)
+                    << 3; /* room for the faces of a polygon, of which Box2D has at most 8 */
     piece.is_box = 0;
     piece.ghosts = TAHR__B2_NO_GHOST;
     if (set_shape(q, b2Body_GetTransform(body), shape, &piece)) q->search->take(q->search->user, &piece);

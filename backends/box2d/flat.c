@@ -165,7 +165,8 @@ static void keep_pair(pair *best, tahr__vec2 on_shape, tahr__vec2 on_piece, int 
 
 static void nearest_pair(const tahr__flat_shape *shape, tahr__vec2 centre, const tahr__flat *piece, pair *best)
 {
-    int edges = piece->count > 2 ? piece->count : piece->count - 1, sides = side_count(shape) > 2 ? 4 : shape->count - 1;
+    int edges = piece->count > 2 ? piece->count : piece->count - 1,
+        sides = side_count(shape) > 2 ? 4 : shape->count - 1;
     double t;
 
     *best = (pair){.square = INFINITY};
@@ -226,7 +227,8 @@ static void crossing(const tahr__flat_shape *shape, tahr__vec2 centre, const tah
     tahr__vec2 foot = centre;
 
     best_face(shape, centre, piece, piece->one_sided ? 1 : tahr__flat_face_count(piece), closed, &best);
-    if (piece->count != 2 || piece->lone) best_side(shape, centre, piece, &best);
+    /* A closed face closes the sides of the shape that look the same way. */
+    if (!closed && (piece->count != 2 || piece->lone)) best_side(shape, centre, piece, &best);
     if (!(best.separation > -INFINITY)) best.separation = 0; /* two points, or no way out is open */
     near->distance = best.separation < 0 ? best.separation : 0;
     near->normal = best.normal;

@@ -129,8 +129,7 @@ static void visit(void *user, tahr__b2_piece *piece)
 
     p->context->narrow_tests++;
     if (!enter(&piece->flat, p->motion, &e) || !(e.fraction <= 1) || f_dot(e.normal, p->motion) >= 0) return;
-    if (piece->owner.flags & TAHR_BODY_ONE_WAY &&
-        -f_dot(e.normal, p->motion) < TAHR__ONE_WAY_TOP * p->motion_length) {
+    if (piece->owner.flags & TAHR_BODY_ONE_WAY && -f_dot(e.normal, p->motion) < TAHR__ONE_WAY_TOP * p->motion_length) {
         return;
     }
     near.normal = e.normal;
@@ -149,8 +148,7 @@ static void visit(void *user, tahr__b2_piece *piece)
     s->found = 1;
 }
 
-tahr_status tahr__b2_ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit,
-                         uint32_t *count)
+tahr_status tahr__b2_ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
 {
     tahr__b2_probe probe = {.scene = self,
                             .context = context,

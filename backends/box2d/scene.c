@@ -174,8 +174,7 @@ tahr_status tahr__b2_scene_open(tahr__b2_scene *scene, const tahr_host *host, co
     *scene = (tahr__b2_scene){.host = host};
     status = tahr__options_read(host, desc->options, &scene->desc, sizeof scene->desc);
     if (status >= 0) status = choose(scene);
-    if (status >= 0)
-        status = scene->desc.world2 || scene->desc.world3 ? attach(scene, desc) : open_bodies(scene, desc);
+    if (status >= 0) status = scene->desc.world2 || scene->desc.world3 ? attach(scene, desc) : open_bodies(scene, desc);
     if (status < 0) tahr__b2_scene_close(scene);
     return status;
 }

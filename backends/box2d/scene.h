@@ -17,8 +17,8 @@ typedef struct tahr__b2_body {
     uint32_t type, first, count; /* its items */
     uint32_t vertex_count;
     tahr_vec3 position;
-    tahr__vec2 turn; /* cosine and sine */
-    double radius;   /* circles, capsules */
+    tahr__vec2 turn;      /* cosine and sine */
+    double radius;        /* circles, capsules */
     tahr__vec2 *vertices; /* local; the ends of the axis of a capsule */
     size_t bytes;         /* of vertices */
 } tahr__b2_body;

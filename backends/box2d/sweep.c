@@ -15,6 +15,8 @@ typedef struct search {
     const tahr__b2_probe *probe;
     uint32_t flags;
     uint32_t sensor_count, lost;
+    int edged, sinks; /* of one-way bodies: an edge was kept; the foot sinks into one */
+    int sinks_first;  /* what was found out before */
     int found;
     tahr_hit best; /* blocking */
     tahr_hit sensors[MAX_SENSORS];
@@ -111,12 +113,35 @@ typedef struct meeting {
     tahr__flat_near near;
 } meeting;
 
-static int is_there(const search *s, const meeting *m)
+/* Does the edge of a one-way body hold what comes down on it? */
+static int edge_holds(const search *s, const meeting *m)
 {
     const tahr__b2_probe *p = s->probe;
+    double reach = 0;
 
-    if (!(m->piece->owner.flags & TAHR_BODY_ONE_WAY)) return 1;
-    return tahr__one_way_blocks(tahr__b2_lift(p->up, 0), tahr__b2_lift(m->near.normal, 0), m->start, p->margin, s->flags);
+    for (int i = 0; i < p->shape.count; i++)
+        reach = d_max(reach, f_dot(p->up, p->shape.corner[i]));
+    return tahr__one_way_edge_holds(tahr__b2_lift(p->up, 0), tahr__b2_lift(p->motion, 0),
+                                    -(reach + p->shape.radius) - f_dot(m->near.point, p->up), p->margin,
+                                    s->sinks_first);
+}
+
+/* Is a one-way body there, where it is met? Others always are. */
+static int is_there(search *s, const meeting *m, tahr__vec2 face)
+{
+    const tahr__b2_probe *p = s->probe;
+    tahr_vec3 up = tahr__b2_lift(p->up, 0), normal = tahr__b2_lift(m->near.normal, 0);
+    int edge, asks = (s->flags & TAHR_SWEEP_DROP) || (m->fraction == 0 && m->start < 0);
+
+    if ((m->piece->owner.flags & (TAHR_BODY_ONE_WAY | TAHR_BODY_SENSOR)) != TAHR_BODY_ONE_WAY) return 1;
+    if (s->flags & TAHR_SWEEP_WHOLE) return 1;
+    edge = tahr__one_way_edge(normal, tahr__b2_lift(face, 0));
+    if (tahr__one_way_blocks(up, normal, m->start, p->margin, s->flags) && (!edge || edge_holds(s, m))) {
+        s->edged |= edge;
+        return f_dot(p->motion, m->near.normal) < -TAHR__B2_PARALLEL * p->motion_length;
+    }
+    s->sinks |= asks && tahr__one_way_sinks(up, normal, m->start, p->margin, m->near.crosses);
+    return 0;
 }
 
 static void write_hit(search *s, const meeting *m, tahr__vec2 face)
@@ -151,8 +176,8 @@ static int report(search *s, meeting *m)
 
     if (!tahr__b2_in_front(m->piece, &m->near)) return 0;
     tahr__b2_leave(s->probe, m->piece, &m->near);
-    if (!must_report(s, m->piece, &m->near) || !is_there(s, m)) return 0;
     face = tahr__b2_face(m->piece, &m->near, direction);
+    if (!is_there(s, m, face) || !must_report(s, m->piece, &m->near)) return 0;
     if (!(m->piece->owner.flags & TAHR_BODY_SENSOR) && !m->near.crosses &&
         tahr__b2_is_seam(s->probe, m->piece, &m->near, direction, &face)) {
         return 1;
@@ -252,6 +277,14 @@ static uint32_t write_hits(search *s, tahr_hit *hits, uint32_t capacity, int *lo
     return count;
 }
 
+static void run(search *s, int sinks)
+{
+    s->sensor_count = s->lost = 0;
+    s->edged = s->sinks = s->found = 0;
+    s->sinks_first = sinks;
+    tahr__b2_each(s->probe, visit, s);
+}
+
 tahr_status tahr__b2_sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
                            uint32_t capacity, uint32_t *count)
 {
@@ -273,13 +306,12 @@ tahr_status tahr__b2_sweep(void *self, tahr_query_context *context, const tahr_s
     *count = 0;
     s.probe = &probe;
     s.flags = query->flags;
-    s.sensor_count = s.lost = 0;
-    s.found = 0;
     probe.motion_length = f_length(probe.motion);
     status = tahr__b2_probe_shape(&probe, &query->shape, query->up);
     if (status >= 0) status = tahr__b2_probe_check(&probe, query->motion);
     if (status < 0) return status;
-    tahr__b2_each(&probe, visit, &s);
+    run(&s, 0);
+    if (s.edged && s.sinks) run(&s, 1); /* which edges hold was not known before all had been asked */
     *count = write_hits(&s, hits, capacity, &lost);
     return lost || (s.lost && capacity > 1) ? TAHR_TRUNCATED : TAHR_OK;
 }

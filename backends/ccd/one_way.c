@@ -36,7 +36,7 @@ int tahr__ccd_one_way_blocks(const tahr__ccd_probe *probe, const tahr__ccd_piece
     int drops = (probe->flags & TAHR_SWEEP_DROP) != 0;
 
     out->edge = out->sinks = 0;
-    if (!tahr__ccd_is_one_way(piece->body)) return 1;
+    if (!tahr__ccd_is_one_way(piece->body) || probe->flags & TAHR_SWEEP_WHOLE) return 1;
     start = began(probe, piece, near, fraction);
     out->edge = tahr__one_way_edge(near->normal, face);
     if (tahr__one_way_blocks(probe->up, near->normal, start, margin, probe->flags) &&

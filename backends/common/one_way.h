@@ -19,7 +19,8 @@
 /* distance: signed, where the question begins; normal: the contact normal; flags, margin: those of a sweep. */
 static inline int tahr__one_way_blocks(tahr_vec3 up, tahr_vec3 normal, double distance, double margin, uint32_t flags)
 {
-    int dropped = (flags & TAHR_SWEEP_DROP) && distance <= 2 * margin;
+    int dropped = (flags & TAHR_SWEEP_PASS) || ((flags & TAHR_SWEEP_DROP) && distance <= 2 * margin);
+    if (flags & TAHR_SWEEP_WHOLE) return 1;
     return distance >= -TAHR__ONE_WAY_ROUNDING * margin && v_dot(up, normal) >= TAHR__ONE_WAY_TOP && !dropped;
 }
 

@@ -276,7 +276,8 @@ static int judge_one_way(const flight *f, const tahr__contact_normals *normals, 
 /* What a contact of this surface amounts to. at_start: found without moving. */
 static int judge(const flight *f, const tahr__contact_normals *normals, int at_start, tahr__found *out)
 {
-    if (f->prim->kind & TAHR__ONE_WAY) return judge_one_way(f, normals, at_start, out);
+    int one_way = (f->prim->kind & TAHR__ONE_WAY) && !(f->query->flags & TAHR_SWEEP_WHOLE);
+    if (one_way) return judge_one_way(f, normals, at_start, out);
     if (at_start) {
         if (blocks_at_start(f, normals, out)) return TAHR__BLOCKED;
         out->gap = f->probe.gap;

@@ -11,6 +11,10 @@
 static const tahr_native_desc native_float = {.struct_size = sizeof native_float, .precision = TAHR_NATIVE_FLOAT};
 static const tahr_native_desc native_double = {.struct_size = sizeof native_double, .precision = TAHR_NATIVE_DOUBLE};
 
+#ifdef TAHR_HAVE_BOX2D_2
+static const tahr_box2d_desc box2d_2 = {.struct_size = sizeof box2d_2, .engine = TAHR_BOX2D_2};
+#endif
+
 /* Allowed penetrations: 1 mm, and 5 mm for the boolean test of libccd, whose answers are bisected. */
 static const struct backend_choice choices[] = {
     {"native", "plain C, float geometry local to a grid cell", tahr_backend_v1_native, &native_float, 0.001},
@@ -20,6 +24,12 @@ static const struct backend_choice choices[] = {
 #endif
 #ifdef TAHR_HAVE_FCL
     {"fcl", "FCL finds candidates, the core distance decides", tahr_backend_v1_fcl, NULL, 0.005},
+#endif
+#ifdef TAHR_HAVE_BOX2D /* levels of two dimensions only */
+    {"box2d", "Box2D, the newest there is, in a plane", tahr_backend_v1_box2d, NULL, 0.001},
+#endif
+#ifdef TAHR_HAVE_BOX2D_2
+    {"box2d-2", "Box2D 2.4", tahr_backend_v1_box2d, &box2d_2, 0.001},
 #endif
 };
 

@@ -282,25 +282,9 @@ int checker_crosses(struct checker *checker, tahr_vec3 from, tahr_vec3 to)
 {
     int crosses = nearest(checker, from, to, 0, HUGE_VAL, 0) <= 0;
     for (size_t i = 0; i < checker->level->mover_count && !crosses; i++) {
-        crosses = crosses_mover(&checker->moving[i], from, to);
+        crosses = !checker->level->movers[i].one_way && crosses_mover(&checker->moving[i], from, to);
     }
     return crosses;
-}
-
-static double nearest_mover(const struct checker *checker, tahr_vec3 p, tahr_vec3 q, double radius)
-{
-    double best = CHECK_REACH;
-    for (size_t i = 0; i < checker->level->mover_count; i++) {
-        const struct level_mover *mover = &checker->level->movers[i];
-        double far = vec_length(mover->half_extents) + vec_length(vec_sub(q, p)) + radius + CHECK_REACH;
-        if (vec_length(vec_sub(p, checker->moving[i].now.position)) > far) {
-            continue;
-        }
-        for (int k = 0; k < LEVEL_BOX_CORNERS; k += 3) {
-            best = least(best, triangle_distance(p, q, &checker->moving[i].corners[k]) - radius);
-        }
-    }
-    return best;
 }
 
 /* The capsule that stands for a shape: the ends of its axis. Returns its radius. */
@@ -314,6 +298,66 @@ static double axis_of(const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up,
     return radius;
 }
 
+/* Which side of a line in the plane a place is on: above it is positive; how far, times its length. */
+static double side_of(tahr_vec3 p, tahr_vec3 a, tahr_vec3 b)
+{
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+/* Seen from what may itself move by `shift`: the foot went through from above, and the shape did not overlap it. Who
+ * walks off an end goes round it: only what is above and then below the inside counts. */
+static int sinks_through(const tahr_shape *before, tahr_vec3 from, tahr_vec3 foot, const tahr_vec3 thin[2],
+                         tahr_vec3 shift)
+{
+    const tahr_vec3 up = {0, 1, 0};
+    tahr_vec3 ends[2], foot_before = vec_add(vec_sub(from, vec_scale(up, before->half_height)), shift);
+    double left = least(foot_before.x, foot.x), right = most(foot_before.x, foot.x);
+    double radius = axis_of(before, vec_add(from, shift), up, ends);
+    return left >= thin[0].x && right <= thin[1].x && side_of(foot_before, thin[0], thin[1]) >= 0 &&
+           side_of(foot, thin[0], thin[1]) < 0 && segment_distance(ends[0], ends[1], thin[0], thin[1]) >= radius;
+}
+
+int checker_sinks(struct checker *checker, const tahr_shape *before, tahr_vec3 from, const tahr_shape *now,
+                  tahr_vec3 to)
+{
+    const struct level *level = checker->level;
+    const tahr_vec3 foot = {to.x, to.y - now->half_height, to.z}, still = {0, 0, 0};
+    for (size_t i = 0; i < level->thin_count; i++) {
+        const tahr_vec3 thin[2] = {level->thins[i].a, level->thins[i].b};
+        if (sinks_through(before, from, foot, thin, still)) {
+            return 1;
+        }
+    }
+    for (size_t i = 0; i < level->mover_count; i++) {
+        tahr_vec3 half = level->movers[i].half_extents, middle = checker->moving[i].now.position;
+        const tahr_vec3 top[2] = {{middle.x - half.x, middle.y + half.y, 0}, {middle.x + half.x, middle.y + half.y, 0}};
+        tahr_vec3 shift = vec_sub(middle, checker->moving[i].before.position);
+        if (level->movers[i].one_way && sinks_through(before, from, foot, top, shift)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static double nearest_mover(const struct checker *checker, tahr_vec3 p, tahr_vec3 q, double radius)
+{
+    double best = CHECK_REACH;
+    for (size_t i = 0; i < checker->level->mover_count; i++) {
+        const struct level_mover *mover = &checker->level->movers[i];
+        if (mover->one_way) {
+            continue;
+        }
+        double far = vec_length(mover->half_extents) + vec_length(vec_sub(q, p)) + radius + CHECK_REACH;
+        if (vec_length(vec_sub(p, checker->moving[i].now.position)) > far) {
+            continue;
+        }
+        for (int k = 0; k < LEVEL_BOX_CORNERS; k += 3) {
+            best = least(best, triangle_distance(p, q, &checker->moving[i].corners[k]) - radius);
+        }
+    }
+    return best;
+}
+
 double checker_mover_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up)
 {
     tahr_vec3 ends[2];
@@ -321,10 +365,38 @@ double checker_mover_clearance(struct checker *checker, const tahr_shape *shape,
     return nearest_mover(checker, ends[0], ends[1], radius);
 }
 
+/* Distance of the outline of an upright rectangle in the plane to everything; 0 if something crosses it. */
+static double outline_clearance(struct checker *checker, tahr_vec3 middle, double half_x, double half_y)
+{
+    double best = CHECK_REACH;
+    for (int i = 0; i < 4; i++) {
+        double x = i == 0 || i == 3 ? -half_x : half_x, next_x = i < 2 ? half_x : -half_x;
+        double y = i < 2 ? -half_y : half_y, next_y = i == 0 || i == 3 ? -half_y : half_y;
+        tahr_vec3 p = {middle.x + x, middle.y + y, middle.z}, q = {middle.x + next_x, middle.y + next_y, middle.z};
+        best = least(best, nearest(checker, p, q, CHECK_REACH, CHECK_REACH, 0));
+        best = least(best, nearest_mover(checker, p, q, 0));
+    }
+    return best;
+}
+
+/* Of a box in two dimensions: how far its true outline is from everything, and if it is crossed, whether one smaller by
+ * CHECK_BOX_DEPTH is crossed too. */
+static double box_clearance(struct checker *checker, const tahr_shape *box, tahr_vec3 position)
+{
+    double clearance = outline_clearance(checker, position, box->half_x, box->half_height);
+    double inner_x = box->half_x - CHECK_BOX_DEPTH, inner_y = box->half_height - CHECK_BOX_DEPTH;
+    if (clearance <= 0 && inner_x > 0 && inner_y > 0 && outline_clearance(checker, position, inner_x, inner_y) <= 0) {
+        return -CHECK_BOX_DEPTH;
+    }
+    return clearance;
+}
+
 double checker_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up)
 {
     tahr_vec3 ends[2];
     double radius = axis_of(shape, position, up, ends);
     double still = nearest(checker, ends[0], ends[1], radius + CHECK_REACH, CHECK_REACH, radius);
-    return least(still, nearest_mover(checker, ends[0], ends[1], radius));
+    double best = least(still, nearest_mover(checker, ends[0], ends[1], radius));
+    int box = checker->level->side != NULL && shape->type == TAHR_SHAPE_BOX;
+    return box ? least(best, box_clearance(checker, shape, position)) : best;
 }

@@ -8,6 +8,8 @@
 
 /* Distances beyond this are not told apart, m. */
 #define CHECK_REACH 0.05
+/* m; more than any backend is allowed. */
+#define CHECK_BOX_DEPTH 0.006
 
 struct checker;
 
@@ -22,8 +24,15 @@ void checker_time(struct checker *checker, double before, double now);
  * a mover as seen from it. */
 int checker_crosses(struct checker *checker, tahr_vec3 from, tahr_vec3 to);
 
+/* 1 if a shape that lay above a surface that blocks from above, or above a mover that does, has its foot below it
+ * now. */
+int checker_sinks(struct checker *checker, const tahr_shape *before, tahr_vec3 from, const tahr_shape *now,
+                  tahr_vec3 to);
+
 /* Signed distance from a capsule or sphere to the nearest surface, at most CHECK_REACH. Negative: an overlap, and how
- * far the shape's axis would have to be moved away from that surface. Boxes are taken as their inner capsule. */
+ * far the shape's axis would have to be moved away from that surface. Boxes are taken as their inner capsule; on levels of
+ * two dimensions their outline is looked at too, and an overlap of its corners counts as CHECK_BOX_DEPTH if it is at
+ * least that deep. */
 double checker_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up);
 
 /* The same to the nearest mover alone. */

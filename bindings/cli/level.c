@@ -4,6 +4,7 @@
 #include "level.h"
 
 #include "say.h"
+#include "side.h"
 #include "vec.h"
 #include "wander.h"
 
@@ -12,7 +13,7 @@
 static void include_point(struct level *level, tahr_vec3 p, double reach)
 {
     tahr_bounds *b = &level->bounds;
-    if (level->triangle_count + level->round_count == 0) {
+    if (level->triangle_count + level->round_count + level->thin_count == 0) {
         b->min = (tahr_vec3){p.x - reach, p.y - reach, p.z - reach};
         b->max = (tahr_vec3){p.x + reach, p.y + reach, p.z + reach};
     }
@@ -33,7 +34,7 @@ static void add_triangle(struct level *level, tahr_vec3 a, tahr_vec3 b, tahr_vec
     level->triangle_count++;
 }
 
-static tahr_body_desc *add_body(struct level *level, uint32_t type)
+tahr_body_desc *level_add_body(struct level *level, uint32_t type)
 {
     level->bodies = memory_grow(level->bodies, &level->body_capacity, level->body_count + 1, sizeof *level->bodies);
     tahr_body_desc *body = &level->bodies[level->body_count++];
@@ -44,7 +45,7 @@ static tahr_body_desc *add_body(struct level *level, uint32_t type)
 void level_add_mesh(struct level *level, double *vertices, uint32_t vertex_count, uint32_t *indices,
                     uint32_t triangle_count)
 {
-    tahr_body_desc *body = add_body(level, TAHR_BODY_MESH);
+    tahr_body_desc *body = level_add_body(level, TAHR_BODY_MESH);
     body->flags = TAHR_BODY_TWO_SIDED;
     body->vertices = vertices;
     body->indices = indices;
@@ -79,7 +80,7 @@ void level_box_corners(const tahr_pose *pose, tahr_vec3 half_extents, tahr_vec3 
 void level_add_box(struct level *level, tahr_vec3 center, tahr_vec3 half_extents, tahr_quat orientation)
 {
     tahr_vec3 corners[LEVEL_BOX_CORNERS];
-    tahr_body_desc *body = add_body(level, TAHR_BODY_BOX);
+    tahr_body_desc *body = level_add_body(level, TAHR_BODY_BOX);
     body->pose = (tahr_pose){center, orientation};
     body->half_extents = half_extents;
     level_box_corners(&body->pose, half_extents, corners);
@@ -96,7 +97,7 @@ void level_add_belt(struct level *level, tahr_vec3 center, tahr_vec3 half_extent
 
 void level_add_pool(struct level *level, tahr_vec3 center, tahr_vec3 half_extents)
 {
-    tahr_body_desc *body = add_body(level, TAHR_BODY_BOX);
+    tahr_body_desc *body = level_add_body(level, TAHR_BODY_BOX);
     body->flags = TAHR_BODY_FLUID;
     body->pose.position = center;
     body->half_extents = half_extents;
@@ -106,8 +107,8 @@ void level_add_pool(struct level *level, tahr_vec3 center, tahr_vec3 half_extent
 
 void level_add_mover(struct level *level, const struct level_mover *mover)
 {
-    tahr_body_desc *body = add_body(level, TAHR_BODY_BOX);
-    body->flags = TAHR_BODY_MOVABLE;
+    tahr_body_desc *body = level_add_body(level, TAHR_BODY_BOX);
+    body->flags = TAHR_BODY_MOVABLE | (mover->one_way ? (uint32_t)TAHR_BODY_ONE_WAY : 0u);
     body->pose = level_mover_pose(mover, 0);
     body->half_extents = mover->half_extents;
     level->movers = memory_grow(level->movers, &level->mover_capacity, level->mover_count + 1, sizeof *level->movers);
@@ -143,7 +144,7 @@ tahr_pose level_mover_pose(const struct level_mover *mover, double time)
     return pose;
 }
 
-static void add_round(struct level *level, tahr_vec3 a, tahr_vec3 b, double radius)
+void level_add_round(struct level *level, tahr_vec3 a, tahr_vec3 b, double radius)
 {
     include_point(level, a, radius);
     include_point(level, b, radius);
@@ -153,20 +154,43 @@ static void add_round(struct level *level, tahr_vec3 a, tahr_vec3 b, double radi
 
 void level_add_capsule(struct level *level, tahr_vec3 center, double radius, double half_height)
 {
-    tahr_body_desc *body = add_body(level, TAHR_BODY_CAPSULE);
+    tahr_body_desc *body = level_add_body(level, TAHR_BODY_CAPSULE);
     tahr_vec3 half_axis = {0, 0, half_height - radius};
     body->pose.position = center;
     body->radius = radius;
     body->half_height = half_height;
-    add_round(level, vec_sub(center, half_axis), vec_add(center, half_axis), radius);
+    level_add_round(level, vec_sub(center, half_axis), vec_add(center, half_axis), radius);
 }
 
 void level_add_sphere(struct level *level, tahr_vec3 center, double radius)
 {
-    tahr_body_desc *body = add_body(level, TAHR_BODY_SPHERE);
+    tahr_body_desc *body = level_add_body(level, TAHR_BODY_SPHERE);
     body->pose.position = center;
     body->radius = radius;
-    add_round(level, center, center, radius);
+    level_add_round(level, center, center, radius);
+}
+
+void level_add_wall(struct level *level, tahr_vec3 a, tahr_vec3 b)
+{
+    /* As thick as a cell of the checker's grid: the nearest point to anything in the plane is in the plane. */
+    const tahr_vec3 aside = {0, 0, 0.25};
+    tahr_vec3 near_a = vec_add(a, aside), near_b = vec_add(b, aside), far_a = vec_sub(a, aside),
+              far_b = vec_sub(b, aside);
+    add_triangle(level, far_a, far_b, near_b);
+    add_triangle(level, far_a, near_b, near_a);
+}
+
+void level_add_thin(struct level *level, tahr_vec3 a, tahr_vec3 b)
+{
+    include_point(level, a, 0);
+    include_point(level, b, 0);
+    level->thins = memory_grow(level->thins, &level->thin_capacity, level->thin_count + 1, sizeof *level->thins);
+    level->thins[level->thin_count++] = (struct level_thin){a, b};
+}
+
+double level_height(const struct level *level, tahr_vec3 place)
+{
+    return level->side != NULL ? place.y : place.z;
 }
 
 void level_close(struct level *level)
@@ -180,6 +204,11 @@ void level_close(struct level *level)
     free(level->rounds);
     free(level->movers);
     free(level->pools);
+    free(level->thins);
     free(level->name);
+    if (level->side != NULL) {
+        side_free(level->side);
+        free(level->side);
+    }
     *level = (struct level){0};
 }

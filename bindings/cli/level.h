@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * level.h: a level as the shell holds it: bodies for the world, and the same geometry for the checker and the plot. Z
- * up. */
+ * up; of two dimensions Y up. */
 #ifndef TAHR_CLI_LEVEL_H
 #define TAHR_CLI_LEVEL_H
 
@@ -20,6 +20,12 @@ struct level_mover {
     double period;                  /* s there and back, with the pauses */
     double pause;                   /* s */
     double turns;                   /* per second, counter-clockwise seen from above */
+    int one_way;
+};
+
+/* A surface that blocks from above only: its ends, from left to right. */
+struct level_thin {
+    tahr_vec3 a, b;
 };
 
 /* A box of water. */
@@ -48,6 +54,9 @@ struct level {
     const struct level_label *labels; /* static memory */
     size_t label_count;
     tahr_bounds bounds;
+    struct side *side; /* NULL, or what was drawn: a level of two dimensions, x and y, Y up */
+    struct level_thin *thins;
+    size_t thin_count, thin_capacity;
 };
 
 /* Reads a file with Assimp, triangulates it, turns Y up to Z up if up_axis is 'y', welds equal vertices. One two-sided
@@ -66,6 +75,16 @@ void level_add_mesh(struct level *level, double *vertices, uint32_t vertex_count
 void level_add_box(struct level *level, tahr_vec3 center, tahr_vec3 half_extents, tahr_quat orientation);
 void level_add_capsule(struct level *level, tahr_vec3 center, double radius, double half_height);
 void level_add_sphere(struct level *level, tahr_vec3 center, double radius);
+
+tahr_body_desc *level_add_body(struct level *level, uint32_t type);
+
+/* For the checker alone, of two dimensions: a wall between two places, a circle, a surface that blocks from above. */
+void level_add_wall(struct level *level, tahr_vec3 a, tahr_vec3 b);
+void level_add_round(struct level *level, tahr_vec3 a, tahr_vec3 b, double radius);
+void level_add_thin(struct level *level, tahr_vec3 a, tahr_vec3 b);
+
+/* Height of a place above the origin. */
+double level_height(const struct level *level, tahr_vec3 place);
 
 /* body of *mover is filled in. */
 void level_add_mover(struct level *level, const struct level_mover *mover);

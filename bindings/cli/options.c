@@ -12,6 +12,8 @@
 #include <string.h>
 #include <tahr/config.h>
 
+#define TOUR_SECONDS 65 /* it waits for a shuttle and a lift on the way */
+
 enum {
     OPTION_LEVEL = 256,
     OPTION_UP,
@@ -26,6 +28,11 @@ enum {
     OPTION_PLOT,
     OPTION_CHECK,
     OPTION_JSON,
+    OPTION_2D,
+    OPTION_TOUR,
+    OPTION_PIXELS,
+    OPTION_TILES,
+    OPTION_SHAPE,
     OPTION_HELP
 };
 
@@ -42,6 +49,11 @@ static const struct option known[] = {{"level", required_argument, NULL, OPTION_
                                       {"plot", required_argument, NULL, OPTION_PLOT},
                                       {"check", required_argument, NULL, OPTION_CHECK},
                                       {"json", no_argument, NULL, OPTION_JSON},
+                                      {"2d", no_argument, NULL, OPTION_2D},
+                                      {"tour", no_argument, NULL, OPTION_TOUR},
+                                      {"pixels-per-metre", required_argument, NULL, OPTION_PIXELS},
+                                      {"tiles", required_argument, NULL, OPTION_TILES},
+                                      {"shape", required_argument, NULL, OPTION_SHAPE},
                                       {"help", no_argument, NULL, OPTION_HELP},
                                       {NULL, 0, NULL, 0}};
 
@@ -51,33 +63,44 @@ void options_help(void)
           "\n"
           "Drives characters through a level and reports how they fared.\n"
           "\n"
-          "  --level FILE       OBJ, glTF or what else Assimp reads; without it the bundled playground\n"
+          "  --level FILE       OBJ, glTF or what else Assimp reads; without it the bundled playground.\n"
+          "                     With --2d: a map of Tiled (.tmj); without it the bundled side-scroller\n"
+          "  --2d               two dimensions, seen from the side: x to the right, y up\n"
           "  --up y|z           which axis of the file points up (y); shown and written is always Z up: (x, -z, y)\n"
           "  --characters N     1 to 100000 wandering characters (16)\n"
-          "  --seconds S        simulated time (10)\n"
+          "  --seconds S        simulated time (10; 65 with --tour)\n"
           "  --rate HZ          steps per second, 1 to 100000 (60)\n"
           "  --seed K           of spawn points and headings (1)\n"
-          "  --preset NAME      settings of the characters: precise, unreal, platformer (precise)\n"
+          "  --preset NAME      settings of the characters: precise, unreal, platformer (precise;\n"
+          "                     with --2d platformer)\n"
+          "  --shape NAME       of the characters: capsule, box (flat feet), sphere (capsule)\n"
           "  --backend NAME     collision engine, one of",
           stdout);
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
         printf("%s %s", i ? "," : "", backend_choice_at(i)->name);
     }
-    fputs(" (native)\n"
-          "  --route FILE       one character with timed inputs instead of wandering, as JSON:\n"
-          "                     {\"start\": [x, y, z], \"inputs\": [{\"time\": 0, \"move\": [1, 0, 0], \"jump\": "
-          "true}, ...]}\n"
-          "                     or the list alone. An entry holds until the next one; what it does not name is off.\n"
-          "                     move: direction, length 0 to 1; jump, crouch; facing: direction; start: centre of the\n"
-          "                     capsule; once, when the entry begins: launch: velocity to add; mode: its name\n"
-          "  --csv FILE         one row per character and step\n"
-          "  --plot FILE        .svg or .png: the level from above with the paths, and the heights below\n"
-          "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling (from 5 Hz up)\n"
-          "                     and overlaps\n"
-          "  --json             the summary as one JSON object\n"
-          "\n"
-          "Exit code: 0 all well, 1 a check failed or the run could not go on, 2 wrong usage.\n",
-          stdout);
+    fputs(
+        " (native)\n"
+        "  --route FILE       one character with timed inputs instead of wandering, as JSON:\n"
+        "                     {\"start\": [x, y, z], \"inputs\": [{\"time\": 0, \"move\": [1, 0, 0], \"jump\": "
+        "true}, ...]}\n"
+        "                     or the list alone. An entry holds until the next one; what it does not name is off.\n"
+        "                     move: direction, length 0 to 1; jump, crouch; facing: direction; start: centre of the\n"
+        "                     capsule; once, when the entry begins: launch: velocity to add; mode: its name.\n"
+        "                     drop: through the platform stood on. Instead of time: after: seconds since the entry\n"
+        "                     before began; at_x, at_y: when the centre passes there. With --2d z may be left out\n"
+        "  --tour             with --2d and no --level: the bundled route through everything in the bundled level\n"
+        "  --pixels-per-metre P  of a --2d level (its property pixels_per_metre, or one tile's height)\n"
+        "  --tiles MODE       of a --2d level: joined: neighbouring tiles become one outline; separate: one body each\n"
+        "                     (joined)\n"
+        "  --csv FILE         one row per character and step\n"
+        "  --plot FILE        .svg or .png: the level from above with the paths, and the heights below\n"
+        "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling (from 5 Hz up)\n"
+        "                     and overlaps\n"
+        "  --json             the summary as one JSON object\n"
+        "\n"
+        "Exit code: 0 all well, 1 a check failed or the run could not go on, 2 wrong usage.\n",
+        stdout);
 }
 
 static int bad_value(const char *option, const char *value, const char *wanted)
@@ -143,6 +166,25 @@ static int read_backend(const char *text, const struct backend_choice **choice)
     return bad_value("backend", text, wanted);
 }
 
+static int read_shape(const char *text, uint32_t *shape)
+{
+    static const char *const names[] = {
+        [TAHR_SHAPE_SPHERE] = "sphere", [TAHR_SHAPE_CAPSULE] = "capsule", [TAHR_SHAPE_BOX] = "box"};
+    for (uint32_t i = TAHR_SHAPE_SPHERE; i <= TAHR_SHAPE_BOX; i++) {
+        if (strcmp(names[i], text) == 0) {
+            *shape = i;
+            return 0;
+        }
+    }
+    return bad_value("shape", text, "expected capsule, box or sphere");
+}
+
+static int read_tiles(const char *text, int *separate)
+{
+    *separate = strcmp(text, "separate") == 0;
+    return *separate || strcmp(text, "joined") == 0 ? 0 : bad_value("tiles", text, "expected joined or separate");
+}
+
 static int read_check(const char *text, enum check_mode *mode)
 {
     static const char *const names[] = {[CHECK_OFF] = "off", [CHECK_SAMPLED] = "sampled", [CHECK_ALL] = "all"};
@@ -184,6 +226,11 @@ static int read_option(struct options *o, int option, const char *value)
     case OPTION_CSV: o->csv = value; return 0;
     case OPTION_PLOT: o->plot = value; return 0;
     case OPTION_CHECK: return read_check(value, &o->check);
+    case OPTION_2D: o->side = 1; return 0;
+    case OPTION_TOUR: o->tour = 1; return 0;
+    case OPTION_PIXELS: return read_number("pixels-per-metre", value, 1e-3, 1e6, &o->pixels_per_metre);
+    case OPTION_TILES: return read_tiles(value, &o->separate_tiles);
+    case OPTION_SHAPE: return read_shape(value, &o->shape);
     default: o->json = 1; return 0;
     }
 }
@@ -202,15 +249,51 @@ static int complain_unknown(const char *argument, int option)
     return -1;
 }
 
-/* What single options cannot see. */
-static int check_together(struct options *o, int characters_given, int up_given)
+/* What belongs to two dimensions, and what does not. */
+static int check_side(struct options *o, const char given[OPTION_HELP + 1])
 {
+    static const struct {
+        int option;
+        const char *name;
+    } only[] = {{OPTION_TOUR, "tour"}, {OPTION_PIXELS, "pixels-per-metre"}, {OPTION_TILES, "tiles"}};
+    for (size_t i = 0; i < sizeof only / sizeof *only && !o->side; i++) {
+        if (given[only[i].option]) {
+            say_error("--%s: only with --2d", only[i].name);
+            return -1;
+        }
+    }
+    if (!o->side && (o->backend->get()->capabilities & TAHR_CAP_PLANAR)) {
+        say_error("--backend %s: has two dimensions; expected --2d with it", o->backend->name);
+        return -1;
+    }
+    if (o->side && given[OPTION_UP]) {
+        say_error("--up %c: not with --2d, where y is up", o->up);
+        return -1;
+    }
+    if (o->tour && (o->level != NULL || o->route != NULL)) {
+        say_error("--tour: is a route through the bundled level; expected neither --level nor --route with it");
+        return -1;
+    }
+    o->seconds = o->tour && !given[OPTION_SECONDS] ? TOUR_SECONDS : o->seconds;
+    if (o->side && !given[OPTION_PRESET]) {
+        o->preset = TAHR_PRESET_PLATFORMER;
+    }
+    return 0;
+}
+
+/* What single options cannot see. */
+static int check_together(struct options *o, const char given[OPTION_HELP + 1])
+{
+    const int characters_given = given[OPTION_CHARACTERS], up_given = given[OPTION_UP];
     size_t length = o->plot != NULL ? strlen(o->plot) : 0;
     if (o->plot != NULL &&
         (length < 5 || (strcmp(o->plot + length - 4, ".svg") != 0 && strcmp(o->plot + length - 4, ".png") != 0))) {
         return bad_value("plot", o->plot, "expected a name that ends in .svg or .png");
     }
-    if (o->route != NULL && characters_given && o->characters != 1) {
+    if (check_side(o, given) != 0) {
+        return -1;
+    }
+    if ((o->route != NULL || o->tour) && characters_given && o->characters != 1) {
         say_error("--characters %u: a --route drives one character", o->characters);
         return -1;
     }
@@ -227,13 +310,14 @@ static int check_together(struct options *o, int characters_given, int up_given)
                   o->seconds * o->rate);
         return -1;
     }
-    o->characters = o->route != NULL ? 1 : o->characters;
+    o->characters = o->route != NULL || o->tour ? 1 : o->characters;
     return 0;
 }
 
 int options_parse(struct options *options, int argc, char **argv)
 {
-    int characters_given = 0, up_given = 0, option;
+    char given[OPTION_HELP + 1] = {0}; /* by option */
+    int option;
     *options = (struct options){.up = 'y',
                                 .characters = 16,
                                 .seconds = 10,
@@ -254,12 +338,11 @@ int options_parse(struct options *options, int argc, char **argv)
         if (read_option(options, option, optarg) != 0) {
             return -1;
         }
-        characters_given |= option == OPTION_CHARACTERS;
-        up_given |= option == OPTION_UP;
+        given[option] = 1;
     }
     if (optind < argc) {
         say_error("unexpected argument '%s'; a level is given with --level FILE", argv[optind]);
         return -1;
     }
-    return check_together(options, characters_given, up_given);
+    return check_together(options, given);
 }

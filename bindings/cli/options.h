@@ -8,7 +8,7 @@
 enum check_mode { CHECK_OFF, CHECK_SAMPLED, CHECK_ALL };
 
 struct options {
-    const char *level; /* NULL: the bundled playground */
+    const char *level; /* NULL: the bundled one */
     char up;           /* 'y' or 'z' */
     uint32_t characters;
     double seconds;
@@ -21,6 +21,11 @@ struct options {
     const char *plot;
     enum check_mode check;
     int json;
+    int side;                /* 1: two dimensions, seen from the side */
+    int tour;                /* 1: the bundled route through the bundled level of two dimensions */
+    double pixels_per_metre; /* 0: as the map says */
+    int separate_tiles;
+    uint32_t shape; /* TAHR_SHAPE_*, or 0: that of the preset */
 };
 
 /* 0: go on; 1: help was asked for and shown; -1: wrong usage, said so. */

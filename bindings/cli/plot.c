@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * plot.c: a picture of a run: the level from above with the paths on it, and the heights below. */
+ * plot.c: a picture of a run: the level from above or from the side with the paths on it, and the heights below. */
 #include "plot.h"
 
 #include "axes.h"
+#include "picture.h"
 #include "relief.h"
 #include "say.h"
 #include "vec.h"
@@ -24,183 +25,15 @@
 #define PROFILE_GAP 62.0
 #define MARGIN_BOTTOM 52.0
 #define MIN_MAP_WIDTH 620.0
+#define MAX_SIDE_SCALE 48.0 /* per m, of a level from the side */
 
 #define RELIEF_PIXELS 2.0 /* per point */
 #define PNG_PIXELS 2.0    /* per point */
 #define MAX_PATHS 256     /* more are a carpet */
-#define MAX_MARKS_DRAWN 20000
-
-struct picture {
-    const struct plot *plot;
-    cairo_t *cairo;
-    struct axes map, profile;
-    double width, height;
-    uint32_t path_count; /* drawn */
-};
-
-/* One colour per mode; they stay apart on the light ground of the map, also for most colour-blind people. */
-static const struct mode_style {
-    double colour[3];
-    int dashed;
-} styles[TAHR_MODE_CUSTOM + 1] = {
-    [TAHR_MODE_NONE] = {{0.45, 0.45, 0.45}, 0},    [TAHR_MODE_WALKING] = {{0.12, 0.37, 0.75}, 0},
-    [TAHR_MODE_FALLING] = {{0.84, 0.33, 0.00}, 1}, [TAHR_MODE_SWIMMING] = {{0.00, 0.58, 0.55}, 0},
-    [TAHR_MODE_FLYING] = {{0.60, 0.22, 0.58}, 0},  [TAHR_MODE_HANGING] = {{0.75, 0.08, 0.24}, 0},
-    [TAHR_MODE_CUSTOM] = {{0.42, 0.35, 0.04}, 0},
-};
-
-enum { SHAPE_UP, SHAPE_DOWN, SHAPE_DOT, SHAPE_SQUARE, SHAPE_CROSS, SHAPE_RING };
-
-/* Later kinds are drawn over earlier ones. */
-static const struct kind {
-    uint32_t type;
-    int shape;
-    double size; /* points */
-    double colour[3];
-    const char *name;
-} kinds[] = {
-    {TAHR_EVENT_STEPPED_UP, SHAPE_DOT, 1.7, {0.10, 0.12, 0.16}, "step up"},
-    {TAHR_EVENT_LANDED, SHAPE_DOWN, 3.4, {1, 1, 1}, "landing"},
-    {TAHR_EVENT_JUMPED, SHAPE_UP, 3.9, {1, 0.85, 0.2}, "jump"},
-    {TAHR_EVENT_WALL_JUMPED, SHAPE_UP, 4.4, {0.95, 0.45, 0.1}, "wall jump"},
-    {TAHR_EVENT_GRABBED, SHAPE_SQUARE, 3.6, {0.75, 0.08, 0.24}, "hangs on an edge"},
-    {TAHR_EVENT_BASE, SHAPE_SQUARE, 3.0, {0.35, 0.75, 0.35}, "another base"},
-    {TAHR_EVENT_SHAPE, SHAPE_DOT, 2.6, {0.62, 0.62, 0.70}, "another height"},
-    {TAHR_EVENT_LAUNCHED, SHAPE_UP, 4.6, {0.60, 0.22, 0.58}, "launched"},
-    {TAHR_EVENT_CRUSHED, SHAPE_CROSS, 4, {0.4, 0.0, 0.4}, "crushed"},
-    {TRACE_FELL_OUT, SHAPE_CROSS, 5, {0.8, 0.05, 0.1}, "fell out"},
-    {TRACE_STUCK, SHAPE_RING, 6, {0.8, 0.05, 0.1}, "stuck for good"},
-    {TRACE_TUNNEL, SHAPE_RING, 9, {0.9, 0, 0.6}, "tunnelled"},
-};
-
-#define KIND_COUNT (sizeof kinds / sizeof *kinds)
-
-static void draw_symbol(cairo_t *cairo, const struct kind *kind, double x, double y, double size)
-{
-    double up = kind->shape == SHAPE_UP ? -1 : 1;
-    cairo_set_line_width(cairo, kind->shape == SHAPE_CROSS || kind->shape == SHAPE_RING ? 1.8 : 0.8);
-    cairo_new_path(cairo);
-    if (kind->shape == SHAPE_CROSS) {
-        cairo_move_to(cairo, x - size, y - size);
-        cairo_line_to(cairo, x + size, y + size);
-        cairo_move_to(cairo, x + size, y - size);
-        cairo_line_to(cairo, x - size, y + size);
-    } else if (kind->shape == SHAPE_UP || kind->shape == SHAPE_DOWN) {
-        cairo_move_to(cairo, x, y + up * size);
-        cairo_line_to(cairo, x - size, y - up * size * 0.7);
-        cairo_line_to(cairo, x + size, y - up * size * 0.7);
-        cairo_close_path(cairo);
-    } else if (kind->shape == SHAPE_SQUARE) {
-        cairo_rectangle(cairo, x - size * 0.85, y - size * 0.85, size * 1.7, size * 1.7);
-    } else {
-        cairo_arc(cairo, x, y, size, 0, 6.283185307179586);
-    }
-    cairo_set_source_rgb(cairo, kind->colour[0], kind->colour[1], kind->colour[2]);
-    if (kind->shape == SHAPE_CROSS || kind->shape == SHAPE_RING) {
-        cairo_stroke(cairo);
-        return;
-    }
-    cairo_fill_preserve(cairo);
-    cairo_set_source_rgb(cairo, 0.1, 0.12, 0.16);
-    cairo_stroke(cairo);
-}
-
-static void set_path_style(const struct picture *picture, uint32_t mode)
-{
-    static const double dashes[2] = {3.5, 2.5};
-    int crowded = picture->path_count > 40;
-    const struct mode_style *style = &styles[mode <= TAHR_MODE_CUSTOM ? mode : TAHR_MODE_NONE];
-    cairo_set_source_rgba(picture->cairo, style->colour[0], style->colour[1], style->colour[2], crowded ? 0.6 : 0.9);
-    cairo_set_line_width(picture->cairo, crowded ? 0.8 : 1.4);
-    cairo_set_dash(picture->cairo, dashes, style->dashed ? 2 : 0, 0);
-}
-
-/* One path in one of the two diagrams. Points closer than half a point of the picture are left out. */
-static void draw_path(const struct picture *picture, const struct axes *axes, uint32_t character)
-{
-    const struct trace_path *path = &picture->plot->trace->paths[character];
-    double last_x = 0, last_y = 0;
-    uint32_t mode = TAHR_MODE_NONE;
-    for (size_t i = 0; i < path->count; i++) {
-        const struct trace_point *p = &path->points[i];
-        int map = axes == &picture->map;
-        double x = axes_x(axes, (double)(map ? p->x : p->time));
-        double y = axes_y(axes, map ? (double)p->y : (double)p->z);
-        uint32_t own = p->mode == TAHR_MODE_NONE ? mode : p->mode;
-        if (mode == TAHR_MODE_NONE) {
-            cairo_move_to(picture->cairo, x, y);
-            last_x = x;
-            last_y = y;
-        } else if (own != mode || p->mode == TAHR_MODE_NONE || i + 1 == path->count ||
-                   fabs(x - last_x) + fabs(y - last_y) > 0.5) {
-            cairo_line_to(picture->cairo, x, y);
-            last_x = x;
-            last_y = y;
-        }
-        if ((own != mode && mode != TAHR_MODE_NONE) || p->mode == TAHR_MODE_NONE || i + 1 == path->count) {
-            set_path_style(picture, mode == TAHR_MODE_NONE ? own : mode);
-            cairo_stroke(picture->cairo);
-            cairo_move_to(picture->cairo, x, y);
-        }
-        mode = p->mode;
-    }
-    cairo_new_path(picture->cairo);
-    cairo_set_dash(picture->cairo, NULL, 0, 0);
-}
-
-static void draw_marks(const struct picture *picture, const struct axes *axes)
-{
-    const struct trace *trace = picture->plot->trace;
-    double factor = picture->path_count > 24 ? 0.6 : 1;
-    size_t drawn = 0;
-    for (size_t k = 0; k < KIND_COUNT; k++) {
-        for (size_t i = 0; i < trace->mark_count && drawn < MAX_MARKS_DRAWN; i++) {
-            const struct trace_mark *mark = &trace->marks[i];
-            if (mark->type != kinds[k].type || mark->character >= picture->path_count) {
-                continue;
-            }
-            int map = axes == &picture->map;
-            draw_symbol(picture->cairo, &kinds[k], axes_x(axes, (double)(map ? mark->x : mark->time)),
-                        axes_y(axes, map ? (double)mark->y : (double)mark->z), kinds[k].size * factor);
-            drawn++;
-        }
-    }
-}
-
-/* Where a character began. */
-static void draw_start(const struct picture *picture, const struct axes *axes, uint32_t character)
-{
-    const struct trace_path *path = &picture->plot->trace->paths[character];
-    if (path->count > 0 && axes == &picture->map) {
-        set_path_style(picture, TAHR_MODE_WALKING);
-        cairo_arc(picture->cairo, axes_x(axes, (double)path->points[0].x), axes_y(axes, (double)path->points[0].y),
-                  picture->path_count > 40 ? 2 : 4, 0, 6.283185307179586);
-        cairo_fill_preserve(picture->cairo);
-        cairo_set_source_rgb(picture->cairo, 1, 1, 1);
-        cairo_set_line_width(picture->cairo, 1);
-        cairo_stroke(picture->cairo);
-    }
-}
-
-static void draw_data(const struct picture *picture, const struct axes *axes)
-{
-    cairo_save(picture->cairo);
-    cairo_rectangle(picture->cairo, axes->left, axes->top, axes->width, axes->height);
-    cairo_clip(picture->cairo);
-    cairo_set_line_join(picture->cairo, CAIRO_LINE_JOIN_ROUND);
-    for (uint32_t i = 0; i < picture->path_count; i++) {
-        draw_path(picture, axes, i);
-    }
-    draw_marks(picture, axes);
-    for (uint32_t i = 0; i < picture->path_count; i++) {
-        draw_start(picture, axes, i);
-    }
-    cairo_restore(picture->cairo);
-}
 
 static void draw_relief(const struct picture *picture)
 {
-    const struct axes *map = &picture->map;
+    const struct axes *map = &picture->maps[0];
     struct relief relief = {.width = (int)ceil(map->width * RELIEF_PIXELS),
                             .height = (int)ceil(map->height * RELIEF_PIXELS),
                             .scale = map->width * RELIEF_PIXELS / (map->x1 - map->x0),
@@ -224,10 +57,11 @@ static void draw_relief(const struct picture *picture)
 /* A box from above; where it is drawn twice, the second time is the other end of its way. */
 static void trace_box(const struct picture *picture, const tahr_pose *pose, tahr_vec3 half)
 {
+    const struct axes *map = &picture->maps[0];
     static const double signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     for (int i = 0; i < 4; i++) {
         tahr_vec3 p = vec_turn(pose->orientation, (tahr_vec3){signs[i][0] * half.x, signs[i][1] * half.y, 0});
-        double x = axes_x(&picture->map, pose->position.x + p.x), y = axes_y(&picture->map, pose->position.y + p.y);
+        double x = axes_x(map, pose->position.x + p.x), y = axes_y(map, pose->position.y + p.y);
         i == 0 ? cairo_move_to(picture->cairo, x, y) : cairo_line_to(picture->cairo, x, y);
     }
     cairo_close_path(picture->cairo);
@@ -262,30 +96,40 @@ static void draw_rides(const struct picture *picture)
     }
 }
 
-static void draw_map(const struct picture *picture)
+static void draw_labels(const struct picture *picture, const struct axes *map)
 {
     const struct level *level = picture->plot->level;
-    draw_relief(picture);
-    draw_rides(picture);
-    axes_grid(&picture->map);
-    draw_data(picture, &picture->map);
     for (size_t i = 0; i < level->label_count; i++) {
         const struct level_label *label = &level->labels[i];
-        text_on_map(picture->cairo, axes_x(&picture->map, label->x), axes_y(&picture->map, label->y), 10, label->text);
+        text_on_map(picture->cairo, axes_x(map, label->x), axes_y(map, label->y), 10, label->text);
     }
-    axes_frame(&picture->map);
+}
+
+static void draw_map(const struct picture *picture, const struct axes *map)
+{
+    if (picture->plot->level->side != NULL) {
+        picture_side(picture, map);
+        picture_data(picture, map);
+    } else {
+        draw_relief(picture);
+        draw_rides(picture);
+        axes_grid(map);
+        picture_data(picture, map);
+        draw_labels(picture, map);
+    }
+    axes_frame(map);
 }
 
 static void draw_profile(const struct picture *picture)
 {
     axes_grid(&picture->profile);
-    draw_data(picture, &picture->profile);
+    picture_data(picture, &picture->profile);
     axes_frame(&picture->profile);
 }
 
 static double legend_line(const struct picture *picture, double x, double y, uint32_t mode, const char *text)
 {
-    set_path_style(picture, mode);
+    picture_style(picture, mode);
     cairo_set_line_width(picture->cairo, 1.6);
     cairo_move_to(picture->cairo, x, y - 4);
     cairo_rel_line_to(picture->cairo, 26, 0);
@@ -296,7 +140,7 @@ static double legend_line(const struct picture *picture, double x, double y, uin
     return y + 20;
 }
 
-static double legend_patch(const struct picture *picture, double x, double y, const double colour[3], const char *text)
+double picture_patch(const struct picture *picture, double x, double y, const double colour[3], const char *text)
 {
     cairo_rectangle(picture->cairo, x + 4, y - 11, 18, 12);
     cairo_set_source_rgb(picture->cairo, colour[0], colour[1], colour[2]);
@@ -330,37 +174,45 @@ static int has_mode(const struct trace *trace, uint32_t mode)
     return 0;
 }
 
-static void draw_legend(const struct picture *picture)
+static double relief_legend(const struct picture *picture, double x, double y)
 {
     static const double low[3] = {0.85, 0.89, 0.93}, high[3] = {0.99, 0.93, 0.80}, steep[3] = {0.50, 0.52, 0.55},
                         water[3] = {0.66, 0.81, 0.89}, moving[3] = {0.70, 0.86, 0.70};
-    double x = picture->map.left + picture->map.width + 18, y = picture->map.top + 12;
     char text[80];
+    y = picture_patch(picture, x, y, low, "walkable, low");
+    y = picture_patch(picture, x, y, high, "walkable, high");
+    snprintf(text, sizeof text, "steeper than %.0f\302\260", picture->plot->walkable_angle * 57.29577951308232);
+    y = picture_patch(picture, x, y, steep, text);
+    if (picture->plot->level->pool_count > 0) {
+        y = picture_patch(picture, x, y, water, "water");
+    }
+    if (picture->plot->level->mover_count > 0) {
+        y = picture_patch(picture, x, y, moving, "moving (dashed: to)");
+    }
+    return y;
+}
+
+static void draw_legend(const struct picture *picture)
+{
+    double x = picture->maps[0].left + picture->maps[0].width + 18, y = picture->maps[0].top + 12;
+    char text[80];
+    size_t index = 0;
     for (uint32_t mode = TAHR_MODE_WALKING; mode <= TAHR_MODE_CUSTOM; mode++) {
         if (mode <= TAHR_MODE_FALLING || has_mode(picture->plot->trace, mode)) {
             y = legend_line(picture, x, y, mode, tahr_mode_name(mode));
         }
     }
-    for (size_t k = 0; k < KIND_COUNT; k++) {
-        size_t count = count_marks(picture->plot->trace, kinds[k].type);
+    for (const struct kind *kind = picture_kind(0); kind != NULL; kind = picture_kind(++index)) {
+        size_t count = count_marks(picture->plot->trace, kind->type);
         if (count > 0) {
-            draw_symbol(picture->cairo, &kinds[k], x + 13, y - 4, kinds[k].size);
-            snprintf(text, sizeof text, "%s (%zu)", kinds[k].name, count);
+            picture_symbol(picture->cairo, kind, x + 13, y - 4, kind->size);
+            snprintf(text, sizeof text, "%s (%zu)", kind->name, count);
             cairo_set_source_rgb(picture->cairo, 0.16, 0.18, 0.22);
             text_at(picture->cairo, x + 34, y, 12, 0, text);
             y += 20;
         }
     }
-    y = legend_patch(picture, x, y + 8, low, "walkable, low");
-    y = legend_patch(picture, x, y, high, "walkable, high");
-    snprintf(text, sizeof text, "steeper than %.0f\302\260", picture->plot->walkable_angle * 57.29577951308232);
-    y = legend_patch(picture, x, y, steep, text);
-    if (picture->plot->level->pool_count > 0) {
-        y = legend_patch(picture, x, y, water, "water");
-    }
-    if (picture->plot->level->mover_count > 0) {
-        y = legend_patch(picture, x, y, moving, "moving (dashed: to)");
-    }
+    y = picture->plot->level->side != NULL ? picture_side_legend(picture, x, y + 8) : relief_legend(picture, x, y + 8);
     if (picture->path_count < picture->plot->trace->character_count) {
         snprintf(text, sizeof text, "first %u of %u drawn", picture->path_count, picture->plot->trace->character_count);
         text_at(picture->cairo, x, y + 8, 11, 0, text);
@@ -374,12 +226,18 @@ static void draw_picture(const struct picture *picture)
     cairo_paint(cairo);
     cairo_set_source_rgb(cairo, 0.1, 0.12, 0.16);
     cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_BOLD);
-    text_at(cairo, picture->map.left, 32, 18, 0, picture->plot->caption);
+    text_at(cairo, MARGIN_LEFT, 32, 18, 0, picture->plot->caption);
     cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-    text_at(cairo, picture->map.left, 54, 12, 0,
-            "The level from above with the way of every character from its dot on, coloured by mode;"
-            " below, the height of the feet over time.");
-    draw_map(picture);
+    text_at(
+        cairo, MARGIN_LEFT, 54, 12, 0,
+        picture->plot->level->side != NULL
+            ? "The level from the side with the way of the feet of every character from its dot on, coloured by mode;"
+              " below, their height over time."
+            : "The level from above with the way of every character from its dot on, coloured by mode;"
+              " below, the height of the feet over time.");
+    for (size_t i = 0; i < picture->strip_count; i++) {
+        draw_map(picture, &picture->maps[i]);
+    }
     draw_profile(picture);
     draw_legend(picture);
 }
@@ -387,10 +245,11 @@ static void draw_picture(const struct picture *picture)
 /* Heights of the feet; what falls out of the level is cut off below it. */
 static void profile_range(const struct plot *plot, double *low, double *high)
 {
-    double floor_z = plot->level->bounds.min.z - 1, bottom = HUGE_VAL, top = -HUGE_VAL;
+    double floor_z = level_height(plot->level, plot->level->bounds.min) - 1, bottom = HUGE_VAL, top = -HUGE_VAL;
     for (uint32_t c = 0; c < plot->trace->character_count; c++) {
         for (size_t i = 0; i < plot->trace->paths[c].count; i++) {
-            double z = (double)plot->trace->paths[c].points[i].z;
+            const struct trace_point *p = &plot->trace->paths[c].points[i];
+            double z = (double)(plot->level->side != NULL ? p->y : p->z);
             bottom = least(bottom, most(z, floor_z));
             top = most(top, z);
         }
@@ -403,33 +262,74 @@ static void profile_range(const struct plot *plot, double *low, double *high)
     *high = middle + half;
 }
 
-static void lay_out(struct picture *picture)
+/* The map from above, as large as it fits. Returns its scale. */
+static void lay_out_relief(struct picture *picture)
 {
-    const struct plot *plot = picture->plot;
-    const tahr_bounds *b = &plot->level->bounds;
+    const tahr_bounds *b = &picture->plot->level->bounds;
     double pad = 0.02 * most(b->max.x - b->min.x, b->max.y - b->min.y) + 0.1;
     double span_x = b->max.x - b->min.x + 2 * pad, span_y = b->max.y - b->min.y + 2 * pad;
     double scale = least(MAP_WIDTH / span_x, MAP_HEIGHT / span_y);
     double width = most(span_x * scale, MIN_MAP_WIDTH), extra = (width / scale - span_x) / 2;
-    picture->map = (struct axes){.left = MARGIN_LEFT,
-                                 .top = MARGIN_TOP,
-                                 .width = width,
-                                 .height = span_y * scale,
-                                 .x0 = b->min.x - pad - extra,
-                                 .x1 = b->max.x + pad + extra,
-                                 .y0 = b->min.y - pad,
-                                 .y1 = b->max.y + pad,
-                                 .x_name = "x in m",
-                                 .y_name = "y in m"};
-    picture->profile = picture->map;
-    picture->profile.top += picture->map.height + PROFILE_GAP;
+    picture->strip_count = 1;
+    picture->maps[0] = (struct axes){.left = MARGIN_LEFT,
+                                     .top = MARGIN_TOP,
+                                     .width = width,
+                                     .height = span_y * scale,
+                                     .x0 = b->min.x - pad - extra,
+                                     .x1 = b->max.x + pad + extra,
+                                     .y0 = b->min.y - pad,
+                                     .y1 = b->max.y + pad,
+                                     .x_name = "x in m",
+                                     .y_name = "y in m"};
+}
+
+/* The view from the side, in as many strips as make it largest. */
+static void lay_out_side(struct picture *picture)
+{
+    const tahr_bounds *b = &picture->plot->level->bounds;
+    const double pad = 1, span_x = b->max.x - b->min.x + 2 * pad, span_y = b->max.y - b->min.y + 2 * pad;
+    double best = 0;
+    for (size_t n = 1; n <= MAX_STRIPS; n++) {
+        double room = MAP_HEIGHT - (double)(n - 1) * PROFILE_GAP;
+        double scale = least(least(MAP_WIDTH * (double)n / span_x, room / ((double)n * span_y)), MAX_SIDE_SCALE);
+        if (scale > best * 1.02) { /* strips that bring nothing only cut the level */
+            best = scale;
+            picture->strip_count = n;
+        }
+    }
+    double part = most(span_x / (double)picture->strip_count, MIN_MAP_WIDTH / best);
+    for (size_t i = 0; i < picture->strip_count; i++) {
+        double x0 = b->min.x - pad + (double)i * part;
+        picture->maps[i] = (struct axes){.left = MARGIN_LEFT,
+                                         .top = MARGIN_TOP + (double)i * (span_y * best + PROFILE_GAP),
+                                         .width = part * best,
+                                         .height = span_y * best,
+                                         .x0 = x0,
+                                         .x1 = x0 + part,
+                                         .y0 = b->min.y - pad,
+                                         .y1 = b->max.y + pad,
+                                         .x_name = "x in m",
+                                         .y_name = "y in m"};
+    }
+}
+
+static void lay_out(struct picture *picture)
+{
+    const struct plot *plot = picture->plot;
+    if (plot->level->side != NULL) {
+        lay_out_side(picture);
+    } else {
+        lay_out_relief(picture);
+    }
+    picture->profile = picture->maps[picture->strip_count - 1];
+    picture->profile.top += picture->profile.height + PROFILE_GAP;
     picture->profile.height = PROFILE_HEIGHT;
     picture->profile.x0 = 0;
     picture->profile.x1 = plot->seconds;
     picture->profile.x_name = "time in s";
     picture->profile.y_name = "height in m";
     profile_range(plot, &picture->profile.y0, &picture->profile.y1);
-    picture->width = MARGIN_LEFT + width + LEGEND_WIDTH;
+    picture->width = MARGIN_LEFT + picture->profile.width + LEGEND_WIDTH;
     picture->height = picture->profile.top + PROFILE_HEIGHT + MARGIN_BOTTOM;
     picture->path_count = plot->trace->character_count < MAX_PATHS ? plot->trace->character_count : MAX_PATHS;
 }
@@ -443,7 +343,10 @@ int plot_write(const struct plot *plot)
                                    : cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)(picture.width * PNG_PIXELS),
                                                                 (int)(picture.height * PNG_PIXELS));
     picture.cairo = cairo_create(surface);
-    picture.map.cairo = picture.profile.cairo = picture.cairo;
+    picture.profile.cairo = picture.cairo;
+    for (size_t i = 0; i < picture.strip_count; i++) {
+        picture.maps[i].cairo = picture.cairo;
+    }
     if (!svg) {
         cairo_scale(picture.cairo, PNG_PIXELS, PNG_PIXELS);
     }

@@ -37,6 +37,9 @@ static int could_move(tahr_world *world, const tahr_config *config, const tahr_s
         tahr_hit hit;
         uint32_t count = 0;
         query.motion = vec_scale(unit_vector((double)i / DIRECTIONS), FREE_STEP);
+        if (fabs(vec_dot(query.motion, state->up)) > 1e-9) {
+            continue; /* of two dimensions only left and right are directions to go */
+        }
         if (tahr_world_sweep(world, &query, &hit, 1, &count) == TAHR_OK && count == 0) {
             return 1;
         }

@@ -2,68 +2,21 @@
  * run.c: characters walk through a level and are watched. */
 #include "run.h"
 
-#include "check.h"
 #include "csv.h"
+#include "moment.h"
 #include "outputs.h"
 #include "plot.h"
-#include "progress.h"
-#include "route.h"
 #include "say.h"
+#include "side.h"
 #include "spawn.h"
 #include "summary.h"
 #include "vec.h"
-#include "wander.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
-#define WANDER_SPEED 5.0    /* m/s, by the definition of wandering */
-#define FALL_OUT_DEPTH 10.0 /* m below the lowest vertex */
-#define STRAIGHT_DT 0.21  /* s; the way of a longer step bends round corners that a line between its ends would cross */
-#define SAMPLE_PERIOD 16  /* steps, of --check sampled */
-#define EVENT_CAPACITY 64 /* per step; more are counted as lost by the library */
-
-struct character {
-    tahr_state state;
-    tahr_mover *mover;
-    tahr_vec3 spawn;
-    struct wander wander;
-    struct progress progress;
-};
-
-struct run {
-    const struct options *options;
-    struct level level;
-    tahr_world *world;
-    tahr_config config;
-    struct character *characters;
-    tahr_body_pose *poses; /* of the level's movers */
-    struct route route;
-    struct checker *checker; /* NULL: off */
-    struct trace trace;
-    FILE *csv; /* or NULL */
-    uint64_t step_count;
-    double dt;
-    struct result result;
-};
-
-/* One step of one character, for everything that looks at it. */
-struct moment {
-    uint64_t step;
-    uint32_t index;
-    double time; /* s, at the start of the step */
-    tahr_vec3 before;
-    tahr_input input;
-    int heading_is_new;
-    tahr_report report;
-    tahr_event events[EVENT_CAPACITY];
-};
-
-static void place_character(struct run *run, struct character *character, double time)
-{
-    tahr_state_init(&character->state, &run->config, &character->spawn);
-    progress_start(&character->progress, &character->state, time);
-}
+#define WANDER_SPEED 5.0 /* m/s, by the definition of wandering */
 
 static int open_world(struct run *run)
 {
@@ -94,6 +47,8 @@ static int create_characters(struct run *run)
     run->characters = memory_new(o->characters, sizeof *run->characters);
     if (run->route.has_start) {
         places[0] = run->route.start;
+    } else if (o->characters == 1 && run->level.side != NULL && run->level.side->has_start) {
+        places[0] = side_start(run->level.side, &run->config);
     } else {
         failed = spawn_find(run->world, &run->level, &run->config, o->seed, places, o->characters);
     }
@@ -102,7 +57,8 @@ static int create_characters(struct run *run)
         character->spawn = places[i];
         wander_start(&character->wander, o->seed, i);
         character->wander.crouches = o->level == NULL;
-        place_character(run, character, 0);
+        character->wander.side = o->side;
+        moment_place(run, character, 0);
         tahr_status status = tahr_mover_create(run->world, &run->config, &character->mover);
         if (status < 0) {
             say_error("cannot create character %u on backend '%s': %s", i, o->backend->name,
@@ -114,6 +70,52 @@ static int create_characters(struct run *run)
     return failed;
 }
 
+static int load_side(struct run *run)
+{
+    const struct options *o = run->options;
+    const struct side_options options = {.pixels_per_metre = o->pixels_per_metre, .separate = o->separate_tiles};
+    struct side side;
+    if (side_load(&side, o->level, &options) != 0) {
+        return -1;
+    }
+    const char *base = o->level != NULL ? strrchr(o->level, '/') : NULL;
+    side_build(&run->level, &side,
+               base != NULL       ? base + 1
+               : o->level != NULL ? o->level
+                                  : "side-scroller",
+               (o->backend->get()->capabilities & TAHR_CAP_PLANAR) != 0);
+    return 0;
+}
+
+static int load_level(struct run *run)
+{
+    const struct options *o = run->options;
+    if (o->side) {
+        return load_side(run);
+    }
+    if (o->level == NULL) {
+        level_playground(&run->level);
+        return 0;
+    }
+    return level_load(&run->level, o->level, o->up);
+}
+
+static void set_config(struct run *run)
+{
+    const struct options *o = run->options;
+    tahr_config *config = &run->config;
+    tahr_config_init(config, sizeof *config, o->preset);
+    config->max_speed = WANDER_SPEED;
+    if (o->side) {
+        side_config(config);
+    } else if (o->level == NULL) {
+        playground_feel(config);
+    }
+    if (o->shape != 0) {
+        config->shape = side_shape(o->shape, &config->shape);
+    }
+}
+
 static int open_run(struct run *run)
 {
     const struct options *o = run->options;
@@ -121,20 +123,17 @@ static int open_run(struct run *run)
     if (output_probe("csv", o->csv) != 0 || output_probe("plot", o->plot) != 0) {
         return -1;
     }
-    if (o->route != NULL && route_load(&run->route, o->route) != 0) {
+    if (o->route != NULL && route_load(&run->route, o->route, o->side) != 0) {
         return -1;
     }
-    if (o->level == NULL) {
-        level_playground(&run->level);
-    } else if (level_load(&run->level, o->level, o->up) != 0) {
+    if (o->tour) {
+        route_tour(&run->route);
+    }
+    if (load_level(run) != 0) {
         return -1;
     }
     run->result.load_seconds = (double)(clock_ns() - before) * 1e-9;
-    tahr_config_init(&run->config, sizeof run->config, o->preset);
-    run->config.max_speed = WANDER_SPEED;
-    if (o->level == NULL) {
-        playground_feel(&run->config);
-    }
+    set_config(run);
     run->poses = memory_new(run->level.mover_count, sizeof *run->poses);
     if (open_world(run) != 0 || create_characters(run) != 0) {
         return -1;
@@ -172,124 +171,6 @@ static void close_run(struct run *run)
     level_close(&run->level);
 }
 
-static void add_finding(struct run *run, const struct moment *m, const char *what, tahr_vec3 position)
-{
-    struct result *r = &run->result;
-    if (r->finding_count < MAX_FINDINGS) {
-        r->findings[r->finding_count++] = (struct finding){what, m->index, m->step, m->time, position};
-    }
-}
-
-/* Where the foot is of a character whose centre is there. */
-static tahr_vec3 foot_of(tahr_vec3 centre, const tahr_state *state)
-{
-    centre.z -= state->half_height;
-    return centre;
-}
-
-static void count_events(struct run *run, const struct moment *m, const tahr_state *state)
-{
-    struct result *r = &run->result;
-    for (uint32_t i = 0; i < m->report.event_count; i++) {
-        const tahr_event *event = &m->events[i];
-        r->events[event->type < EVENT_TYPES ? event->type : 0]++;
-        if (run->options->plot != NULL) {
-            trace_mark(&run->trace, m->index, event->type, m->time + event->time, foot_of(event->position, state));
-        }
-    }
-}
-
-static void count_report(struct run *run, const struct moment *m, const tahr_state *state)
-{
-    struct result *r = &run->result;
-    const tahr_report *report = &m->report;
-    uint32_t queries = report->sweeps + report->contact_queries + report->rays + report->fluid_queries;
-    r->steps++;
-    r->sweeps += report->sweeps;
-    r->contact_queries += report->contact_queries;
-    r->rays += report->rays;
-    r->triangle_tests += report->triangle_tests;
-    r->gathers += report->gathers;
-    r->escapes += report->escapes;
-    r->most_queries = queries > r->most_queries ? queries : r->most_queries;
-    r->modes[state->mode < MODES ? state->mode : TAHR_MODE_NONE]++;
-    r->unknown += (report->flags & TAHR_REPORT_UNKNOWN) != 0;
-    if (report->flags & TAHR_REPORT_QUERY_CAP) {
-        r->query_caps++;
-        add_finding(run, m, "query cap", m->before);
-    }
-    r->time_lost += report->time_lost;
-    count_events(run, m, state);
-}
-
-/* The independent look at one step. */
-static void check_step(struct run *run, const struct moment *m, const tahr_state *state)
-{
-    struct result *r = &run->result;
-    if (run->checker == NULL || (run->options->check == CHECK_SAMPLED && (m->step + m->index) % SAMPLE_PERIOD != 0)) {
-        return;
-    }
-    r->checked++;
-    if (run->dt <= STRAIGHT_DT && checker_crosses(run->checker, m->before, state->position)) {
-        r->tunnels++;
-        add_finding(run, m, "tunnelled", m->before);
-        trace_mark(&run->trace, m->index, TRACE_TUNNEL, m->time, foot_of(state->position, state));
-    }
-    const tahr_shape shape = shape_now(&run->config, state);
-    double clearance = checker_clearance(run->checker, &shape, state->position, state->up);
-    if (m->report.flags & TAHR_REPORT_CRUSHED) { /* there was no room, which only a mover can bring about */
-        r->crushed++;
-        if (checker_mover_clearance(run->checker, &shape, state->position, state->up) >= CHECK_REACH) {
-            r->crushed_alone++;
-            add_finding(run, m, "crushed by nothing that moves", state->position);
-        }
-        return;
-    }
-    r->least_clearance = least(r->least_clearance, clearance);
-    if (-clearance > run->options->backend->penetration_allowed) {
-        add_finding(run, m, "penetration", state->position);
-    }
-    r->deepest = most(r->deepest, -clearance);
-}
-
-/* Puts characters that left the level, or whose state is no state any more, back to where they started. */
-static void bring_back(struct run *run, const struct moment *m, struct character *character)
-{
-    const tahr_state *state = &character->state;
-    int bad = !vec_finite(state->position) || !vec_finite(state->velocity);
-    int fell = !bad && state->position.z < run->level.bounds.min.z - FALL_OUT_DEPTH;
-    if (bad) {
-        add_finding(run, m, "bad state", m->before);
-    }
-    if (bad || fell) {
-        run->result.bad_states += (uint64_t)bad;
-        run->result.fell_out += (uint64_t)fell;
-        trace_mark(&run->trace, m->index, TRACE_FELL_OUT, m->time, foot_of(m->before, state));
-        trace_break(&run->trace, m->index);
-        place_character(run, character, m->time + run->dt);
-    }
-}
-
-static void watch_step(struct run *run, const struct moment *m, struct character *character)
-{
-    const tahr_state *state = &character->state;
-    const double end = (double)(m->step + 1) * run->dt;
-    count_report(run, m, state);
-    check_step(run, m, state);
-    if (run->options->plot != NULL) {
-        trace_point(&run->trace, m->index, m->step, end, state);
-    }
-    if (run->csv != NULL) {
-        csv_write(run->csv, &(struct csv_row){m->step, end, m->index, state, &m->report});
-    }
-    if (progress_watch(&character->progress, run->world, &run->config, state, &m->input, m->heading_is_new, end)) {
-        run->result.stuck++;
-        add_finding(run, m, "stuck", state->position);
-        trace_mark(&run->trace, m->index, TRACE_STUCK, end, foot_of(state->position, state));
-    }
-    bring_back(run, m, character);
-}
-
 /* Everything that moves by itself goes first: characters see it where it is at the end of the step. */
 static int move_bodies(struct run *run, double begin)
 {
@@ -316,12 +197,14 @@ static int step_character(struct run *run, struct moment *m)
     struct character *character = &run->characters[m->index];
     m->input = (tahr_input){.struct_size = sizeof m->input};
     m->report = (tahr_report){.struct_size = sizeof m->report, .events = m->events, .event_capacity = EVENT_CAPACITY};
-    m->heading_is_new = run->route.count > 0 ? route_input(&run->route, m->time, &m->input)
+    m->heading_is_new = run->route.count > 0 ? route_input(&run->route, m->time, character->state.position, &m->input)
                                              : wander_input(&character->wander, m->time, &m->input);
     if (run->route.count == 0 && character->state.mode == TAHR_MODE_HANGING && m->heading_is_new) {
         m->input.jump = 1; /* who hangs on an edge and wants to go elsewhere climbs, or jumps off */
     }
     m->before = character->state.position;
+    m->flags_before = character->state.flags;
+    m->shape_before = shape_now(&run->config, &character->state);
     uint64_t before = clock_ns();
     tahr_status status = tahr_mover_step(character->mover, &m->input, run->dt, &character->state, &m->report);
     uint64_t ns = clock_ns() - before, clock = (uint64_t)run->result.clock_cost;
@@ -331,7 +214,7 @@ static int step_character(struct run *run, struct moment *m)
                   m->before.y, m->before.z, tahr_status_message(status));
         return -1;
     }
-    watch_step(run, m, character);
+    moment_watch(run, m, character);
     return 0;
 }
 

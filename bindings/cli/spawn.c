@@ -22,22 +22,35 @@ static double cosine_of(double angle)
     return unit_vector(angle / 6.283185307179586).x;
 }
 
-/* Whether the shape fits above a hit with a skin of air on all sides; *place is its centre. */
-static int fits(tahr_world *world, const tahr_config *config, const tahr_hit *hit, double ground_z, tahr_vec3 *place)
+/* The coordinate that is the height of a place. */
+static double *height_of(const struct level *level, tahr_vec3 *place)
+{
+    return level->side != NULL ? &place->y : &place->z;
+}
+
+/* Whether the shape fits above a hit with a skin of air on all sides. *place is where the ray met the ground, and then
+ * the centre of the shape. */
+static int fits(tahr_world *world, const struct level *level, const tahr_config *config, const tahr_hit *hit,
+                tahr_vec3 *place)
 {
     const tahr_shape *shape = &config->shape;
+    tahr_state state;
     tahr_contact contact;
     uint32_t count = 0;
-    double clearance = config->skin * config->floor_target;
-    /* The lower cap touches a slope beside its lowest point: lift it by the slant. */
-    place->z = ground_z + (shape->radius + clearance) / hit->normal.z - shape->radius + shape->half_height;
+    double clearance = config->skin * config->floor_target, slant = level_height(level, hit->normal);
+    double half_width = shape->type == TAHR_SHAPE_BOX ? shape->half_x : 0;
+    /* The lower cap touches a slope beside its lowest point: lift it by the slant. Of a box a corner touches it. */
+    *height_of(level, place) += (shape->radius + clearance) / slant - shape->radius + shape->half_height;
+    *height_of(level, place) += half_width * sqrt(most(1 - slant * slant, 0)) / slant;
+    tahr_state_init(&state, config, place);
     tahr_contact_query query = {.shape = *shape,
                                 .position = *place,
-                                .up = {0, 0, 1},
-                                .orientation = {0, 0, 0, 1},
+                                .up = state.up,
+                                .orientation = state.orientation,
                                 .margin = config->skin,
                                 .mask = config->mask,
-                                .ignore_body = TAHR_NO_BODY};
+                                .ignore_body = TAHR_NO_BODY,
+                                .flags = level->side != NULL ? (uint32_t)TAHR_CONTACTS_SOLID : 0u};
     tahr_status status = tahr_world_contacts(world, &query, &contact, 1, &count);
     return status == TAHR_OK && count == 0;
 }
@@ -55,7 +68,7 @@ static int looks_up(const struct level *level, const tahr_hit *hit)
         const double *v = body->vertices + 3 * (size_t)body->indices[3 * (size_t)hit->feature + (size_t)k];
         p[k] = (tahr_vec3){v[0], v[1], v[2]};
     }
-    return vec_cross(vec_sub(p[1], p[0]), vec_sub(p[2], p[0])).z > 0;
+    return level_height(level, vec_cross(vec_sub(p[1], p[0]), vec_sub(p[2], p[0]))) > 0;
 }
 
 /* The places of one column, from above: those on faces that look up, or if there are none, the others. Returns their
@@ -63,14 +76,16 @@ static int looks_up(const struct level *level, const tahr_hit *hit)
 static int search_column(tahr_world *world, const struct level *level, const tahr_config *config, tahr_vec3 *places,
                          tahr_vec3 at)
 {
-    const double lowest = level->bounds.min.z - 1, limit = cosine_of(config->walkable_angle);
+    tahr_vec3 low = level->bounds.min, high = level->bounds.max;
+    const double lowest = *height_of(level, &low) - 1, limit = cosine_of(config->walkable_angle);
+    double *height = height_of(level, &at);
     int found = 0, proper = 0; /* found: on faces of the better kind so far */
-    at.z = level->bounds.max.z + 1;
-    for (int layer = 0; layer < MAX_LAYERS && at.z > lowest; layer++) {
-        tahr_ray ray = {
-            .origin = at, .motion = {0, 0, lowest - at.z}, .mask = config->mask, .ignore_body = TAHR_NO_BODY};
+    *height = *height_of(level, &high) + 1;
+    for (int layer = 0; layer<MAX_LAYERS && * height> lowest; layer++) {
+        tahr_ray ray = {.origin = at, .mask = config->mask, .ignore_body = TAHR_NO_BODY};
         tahr_hit hit = {0};
         uint32_t count = 0;
+        *height_of(level, &ray.motion) = lowest - *height;
         tahr_status status = tahr_world_ray(world, &ray, &hit, &count);
         if (status < 0) {
             say_error("cannot look for spawn points: %s", tahr_status_message(status));
@@ -79,15 +94,15 @@ static int search_column(tahr_world *world, const struct level *level, const tah
         if (count == 0 || !hit.blocking) {
             break;
         }
-        double ground_z = at.z + ray.motion.z * hit.fraction;
+        *height += *height_of(level, &ray.motion) * hit.fraction;
         tahr_vec3 place = at;
         int up = looks_up(level, &hit);
-        if (hit.normal.z >= limit && up >= proper && fits(world, config, &hit, ground_z, &place)) {
+        if (*height_of(level, &hit.normal) >= limit && up >= proper && fits(world, level, config, &hit, &place)) {
             found = up > proper ? 0 : found;
             proper = up;
             places[found++] = place;
         }
-        at.z = ground_z - LAYER_STEP;
+        *height -= LAYER_STEP;
     }
     return found;
 }

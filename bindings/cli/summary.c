@@ -3,6 +3,7 @@
 #include "summary.h"
 
 #include "check.h"
+#include "side.h"
 
 #include <inttypes.h>
 #include <jansson.h>
@@ -57,6 +58,32 @@ static void words_findings(const struct result *r)
     }
 }
 
+/* Watched places, in the order in which they were come to. */
+static void words_places(const struct level *level)
+{
+    size_t known = 0, reached = 0;
+    for (size_t i = 0; i < level->side->count; i++) {
+        const struct side_piece *piece = &level->side->pieces[i];
+        if (side_is_place(piece)) {
+            known++;
+            reached += piece->reached >= 0;
+            if (piece->kind == SIDE_GOAL && piece->reached >= 0) {
+                printf("  goal       reached after %.3g s\n", piece->reached);
+            }
+        }
+    }
+    if (known > 0) {
+        printf("  places     %zu of %zu come to%s", reached, known, reached < known ? "; never:" : "");
+        for (size_t i = 0; i < level->side->count; i++) {
+            const struct side_piece *piece = &level->side->pieces[i];
+            if (side_is_place(piece) && piece->reached < 0) {
+                printf(" %s", piece->name != NULL && *piece->name ? piece->name : "?");
+            }
+        }
+        putchar('\n');
+    }
+}
+
 void summary_words(const struct options *o, const struct level *level, const struct result *r)
 {
     printf("%s: %u character%s, %g s at %g Hz, backend %s, preset %s\n", level->name, o->characters,
@@ -76,6 +103,9 @@ void summary_words(const struct options *o, const struct level *level, const str
            100 * per_step(r, r->modes[TAHR_MODE_WALKING]), r->events[TAHR_EVENT_STEPPED_UP],
            r->events[TAHR_EVENT_STEPPED_DOWN], r->events[TAHR_EVENT_JUMPED], r->events[TAHR_EVENT_LANDED]);
     printf("  trouble    %" PRIu64 " fell out of the level, %" PRIu64 " stuck for good\n", r->fell_out, r->stuck);
+    if (level->side != NULL) {
+        words_places(level);
+    }
     words_oddities(r);
     words_check(o, r);
     words_findings(r);
@@ -180,6 +210,20 @@ static void put_counts(json_t *object, const struct result *r)
     json_object_set_new(object, "events", events);
 }
 
+/* When every watched place was first come to, s; null: never. */
+static void put_places(json_t *object, const struct level *level)
+{
+    json_t *places = json_object();
+    for (size_t i = 0; i < level->side->count; i++) {
+        const struct side_piece *piece = &level->side->pieces[i];
+        if (side_is_place(piece)) {
+            const char *name = piece->name != NULL && *piece->name ? piece->name : "?";
+            json_object_set_new(places, name, piece->reached >= 0 ? json_real(piece->reached) : json_null());
+        }
+    }
+    json_object_set_new(object, "places", places);
+}
+
 static void put_findings(json_t *object, const struct result *r)
 {
     json_t *list = json_array();
@@ -205,6 +249,9 @@ void summary_json(const struct options *options, const struct level *level, cons
     put_cost(object, result);
     put_behaviour(object, result);
     put_counts(object, result);
+    if (level->side != NULL) {
+        put_places(object, level);
+    }
     put_findings(object, result);
     json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
     putchar('\n');

@@ -3,6 +3,7 @@
 #include "trace.h"
 
 #include "say.h"
+#include "vec.h"
 
 #include <stdlib.h>
 
@@ -25,9 +26,9 @@ static void add_point(struct trace_path *path, struct trace_point point)
 void trace_point(struct trace *trace, uint32_t character, uint64_t step, double time, const tahr_state *state)
 {
     if (step % trace->stride == 0) {
+        tahr_vec3 foot = vec_sub(state->position, vec_scale(state->up, state->half_height));
         add_point(&trace->paths[character],
-                  (struct trace_point){(float)state->position.x, (float)state->position.y,
-                                       (float)(state->position.z - state->half_height), (float)time, state->mode});
+                  (struct trace_point){(float)foot.x, (float)foot.y, (float)foot.z, (float)time, state->mode});
     }
 }
 

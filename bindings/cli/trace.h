@@ -11,8 +11,8 @@ struct trace_point {
     uint32_t mode;
 };
 
-/* What an event of the plot is; TRACE_FELL_OUT and TRACE_TUNNEL are found by the shell itself. */
-enum { TRACE_FELL_OUT = 1000, TRACE_TUNNEL = 1001, TRACE_STUCK = 1002 };
+/* What an event of the plot is; these are found by the shell itself. DROPPED: left the ground through it. */
+enum { TRACE_FELL_OUT = 1000, TRACE_TUNNEL = 1001, TRACE_STUCK = 1002, TRACE_DROPPED = 1003 };
 
 struct trace_mark {
     float x, y, z, time;

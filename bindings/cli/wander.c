@@ -8,6 +8,14 @@
 #define HEADING_MAX 2.0
 #define JUMP_CHANCE 0.05
 
+/* In two dimensions, where every way on may lead over something: how often a heading rests, jumps, drops, and how long
+ * a jump is held at most, s. */
+#define REST_CHANCE 0.1
+#define SIDE_JUMP_CHANCE 0.6
+#define DROP_CHANCE 0.2
+#define HOLD_MAX 0.4
+#define DROP_TIME 0.1 /* s */
+
 /* Where there is something to crawl through. */
 #define CROUCH_CHANCE 0.15
 
@@ -73,9 +81,38 @@ void wander_start(struct wander *wander, uint64_t seed, uint32_t character)
     pcg_start(&wander->random, seed, character);
 }
 
+static void side_heading(struct wander *wander)
+{
+    double way = pcg_unit(&wander->random), jump = pcg_unit(&wander->random), hold = pcg_unit(&wander->random);
+    double begin = wander->next_change;
+    wander->heading = (tahr_vec3){way < REST_CHANCE ? 0 : way < (1 + REST_CHANCE) / 2 ? -1 : 1, 0, 0};
+    wander->jump_until = jump < SIDE_JUMP_CHANCE ? begin + HOLD_MAX * hold : begin - 1;
+    wander->drop_until =
+        jump >= SIDE_JUMP_CHANCE && jump < SIDE_JUMP_CHANCE + DROP_CHANCE ? begin + DROP_TIME : begin - 1;
+}
+
+static int side_input(struct wander *wander, double time, tahr_input *input)
+{
+    int changed = 0;
+    while (time >= wander->next_change) {
+        side_heading(wander);
+        wander->next_change += HEADING_MIN + (HEADING_MAX - HEADING_MIN) * pcg_unit(&wander->random);
+        wander->crouch = wander->crouches && pcg_unit(&wander->random) < CROUCH_CHANCE;
+        changed = 1;
+    }
+    input->jump = time < wander->jump_until;
+    input->flags |= time < wander->drop_until ? (uint32_t)TAHR_INPUT_DROP : 0u;
+    input->move = wander->heading;
+    input->crouch = wander->crouch;
+    return changed;
+}
+
 int wander_input(struct wander *wander, double time, tahr_input *input)
 {
     int changed = 0;
+    if (wander->side) {
+        return side_input(wander, time, input);
+    }
     input->jump = 0;
     while (time >= wander->next_change) {
         wander->heading = unit_vector(pcg_unit(&wander->random));

@@ -16,6 +16,8 @@ struct wander {
     tahr_vec3 heading;
     int crouches; /* 1: may go crouched for the time of a heading */
     uint32_t crouch;
+    int side; /* 1: two dimensions: left, right or nowhere, with jumps of any height, and down through platforms */
+    double jump_until, drop_until;
 };
 
 void pcg_start(struct pcg *random, uint64_t seed, uint64_t stream);

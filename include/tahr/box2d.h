@@ -15,11 +15,11 @@ enum { TAHR_BOX2D_NEWEST = 0, TAHR_BOX2D_2 = 2, TAHR_BOX2D_3 = 3 };
 
 /* What Tahr knows of a fixture (2.4) or a shape (3) of an attached world. */
 typedef struct tahr_box2d_shape {
-    const void *shape;    /* the b2Fixture of 2.4, a b2ShapeId of 3; valid during the call */
-    uint32_t body;        /* its body's id, see tahr_box2d_desc */
-    uint32_t flags;       /* TAHR_BODY_SENSOR as Box2D says; ONE_WAY and TWO_SIDED may be added */
-    uint32_t surface;     /* handed back in hits and contacts; of 3 the low half of its user material, else 0 */
-    uint32_t hidden;      /* 1: not there for characters */
+    const void *shape;      /* the b2Fixture of 2.4, a b2ShapeId of 3; valid during the call */
+    uint32_t body;          /* its body's id, see tahr_box2d_desc */
+    uint32_t flags;         /* TAHR_BODY_SENSOR as Box2D says; ONE_WAY and TWO_SIDED may be added */
+    uint32_t surface;       /* handed back in hits and contacts; of 3 the low half of its user material, else 0 */
+    uint32_t hidden;        /* 1: not there for characters */
     uint32_t walkable_rule; /* TAHR_WALKABLE_DEFAULT */
     uint32_t reserved;
     double walkable_angle; /* rad */

@@ -59,8 +59,16 @@ typedef struct tahr_shape {
 /* Sweep flags. LEAVE_OVERLAP: a surface that is overlapped at the start blocks only a motion that goes deeper in.
  * ONLY_BODY: the other way round: nothing is there but ignore_body (asked only of bodies that tahr_world_move moves).
  * SENSORS: only sensors are there, and nothing blocks; a motion of zero asks what the shape is inside of.
- * DROP: a one-way body that is within two margins at the start is not there (see TAHR_BODY_ONE_WAY). */
-enum { TAHR_SWEEP_LEAVE_OVERLAP = 1, TAHR_SWEEP_ONLY_BODY = 2, TAHR_SWEEP_SENSORS = 4, TAHR_SWEEP_DROP = 8 };
+ * DROP: a one-way body that is within two margins at the start is not there (see TAHR_BODY_ONE_WAY).
+ * WHOLE: one-way bodies block from all sides, as any other. PASS: none of them is there. */
+enum {
+    TAHR_SWEEP_LEAVE_OVERLAP = 1,
+    TAHR_SWEEP_ONLY_BODY = 2,
+    TAHR_SWEEP_SENSORS = 4,
+    TAHR_SWEEP_DROP = 8,
+    TAHR_SWEEP_WHOLE = 16,
+    TAHR_SWEEP_PASS = 32
+};
 
 /* "How far can this shape go along this motion before the distance to something falls to margin?"
  * The margin is a distance between surfaces along their normal (metres, >= 0), not extra motion. With d0 the signed

@@ -11,6 +11,7 @@ export LSAN_OPTIONS
 fail() {
     echo "FAILED: $*"
     failures=$((failures + 1))
+    : >"$work/failed" # a pipe's end is another shell, whose variables are lost
 }
 
 # Runs tahr; leaves its output in $work/out and $work/err and its exit code in $code.
@@ -44,7 +45,16 @@ is_json() {
     fi
 }
 
+# The backends of this build, one a line; solid: those of three dimensions, plane: those that run --2d on chains too.
+backends() {
+    "$TAHR" info --json | awk -v wanted="$1" '
+        /^      "name": / { name = $2; gsub(/[",]/, "", name); planar = 0 }
+        /"planar"/ { planar = 1 }
+        /^    }/ { if (name != "" && (wanted == "all" || planar == (wanted == "plane"))) print name; name = "" }'
+}
+
 finish() {
+    [ ! -e "$work/failed" ] || failures=$((failures + 1))
     [ "$failures" = 0 ] && echo "ok: $(basename "$0")"
     exit "$((failures > 0))"
 }

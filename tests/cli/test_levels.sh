@@ -5,7 +5,7 @@
 . "$(dirname "$0")/support.sh"
 
 levels=${LEVELS:-$here/../../../shared/levels}
-"$TAHR" info --json | sed -n 's/^      "name": "\(.*\)",*$/\1/p' >"$work/backends"
+backends solid >"$work/backends"
 [ -s "$work/backends" ] || fail "no backends listed"
 
 # walk NAME OPTIONS...: with every backend

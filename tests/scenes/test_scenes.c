@@ -29,8 +29,9 @@ static void run_scene(scene *s, int variant, const filter *only, tally *total)
     char failures[64][300];
     int failed = 0;
     printf("%-28s", s->name);
-    for (int b = 0; b < SCENE_BACKEND_COUNT; b++) {
-        const scene_backend *backend = &SCENE_BACKENDS[b];
+    int spatial = SCENE_BACKEND_COUNT, all = spatial + (s->planar ? SCENE_PLANAR_BACKEND_COUNT : 0);
+    for (int b = 0; b < all; b++) {
+        const scene_backend *backend = b < spatial ? &SCENE_BACKENDS[b] : &SCENE_PLANAR_BACKENDS[b - spatial];
         if (only->backend && strcmp(only->backend, backend->name) != 0) {
             continue;
         }

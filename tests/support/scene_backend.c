@@ -4,6 +4,9 @@
 
 #include <stdio.h>
 
+#ifdef TAHR_HAVE_BOX2D
+#include <tahr/box2d.h>
+#endif
 #ifdef TAHR_HAVE_CCD
 #include <tahr/ccd.h>
 #endif
@@ -16,16 +19,28 @@
  * Their slides are judged at 1e-2 of their way (2 mm for the 0.2 m or so into a gutter), who pushes into a corner at
  * 1e-6 m. */
 const scene_backend SCENE_BACKENDS[] = {
-    {"native", tahr_backend_v1_native, 1, TAHR_NATIVE_FLOAT, 1.0, 1e-5, 2e-6, 2e-6, 1e-3, 0, 0},
-    {"native-double", tahr_backend_v1_native, 1, TAHR_NATIVE_DOUBLE, 1.0, 1e-5, 1e-9, 0, 1e-3, 0, 0},
+    {"native", tahr_backend_v1_native, 1, TAHR_NATIVE_FLOAT, 1.0, 1e-5, 2e-6, 2e-6, 1e-3, 0, 0, 0},
+    {"native-double", tahr_backend_v1_native, 1, TAHR_NATIVE_DOUBLE, 1.0, 1e-5, 1e-9, 0, 1e-3, 0, 0, 0},
 #ifdef TAHR_HAVE_CCD
-    {"ccd", tahr_backend_v1_ccd, 0, 0, 1.0, 1e-5, 1e-4, 0, 5e-3, 2e-3, 1e-6},
+    {"ccd", tahr_backend_v1_ccd, 0, 0, 1.0, 1e-5, 1e-4, 0, 5e-3, 2e-3, 1e-6, 0},
 #endif
 #ifdef TAHR_HAVE_FCL
     {"fcl", tahr_backend_v1_fcl, 0, 0, 1.0, 1e-5, 1e-4, 0, 5e-3, 2e-3, 1e-6},
 #endif
 };
 const int SCENE_BACKEND_COUNT = (int)(sizeof SCENE_BACKENDS / sizeof SCENE_BACKENDS[0]);
+
+/* Gaps of box2d are within 1e-9 m, on either engine. Its precision is the engine. */
+const scene_backend SCENE_PLANAR_BACKENDS[] = {
+#ifdef TAHR_HAVE_BOX2D
+    {"box2d", tahr_backend_v1_box2d, 0, TAHR_BOX2D_NEWEST, 1.0, 1e-5, 1e-9, 0, 1e-3, 0, 0, 1},
+#ifdef TAHR_HAVE_BOX2D_2
+    {"box2d-2", tahr_backend_v1_box2d, 0, TAHR_BOX2D_2, 1.0, 1e-5, 1e-9, 0, 1e-3, 0, 0, 1},
+#endif
+#endif
+    {.name = NULL},
+};
+const int SCENE_PLANAR_BACKEND_COUNT = (int)(sizeof SCENE_PLANAR_BACKENDS / sizeof SCENE_PLANAR_BACKENDS[0]) - 1;
 
 static void complain(void *user, int32_t level, const char *message)
 {
@@ -40,6 +55,9 @@ tahr_status scene_backend_open(const scene_backend *backend, const tahr_body_des
 {
     tahr_log log = {NULL, complain};
     tahr_native_desc native = {.struct_size = sizeof native};
+#ifdef TAHR_HAVE_BOX2D
+    tahr_box2d_desc box2d = {.struct_size = sizeof box2d, .engine = backend->precision};
+#endif
     tahr_world_desc desc;
     tahr_world_desc_init(&desc, sizeof desc);
     if (options) {
@@ -51,5 +69,8 @@ tahr_status scene_backend_open(const scene_backend *backend, const tahr_body_des
     desc.body_count = count;
     desc.log = &log;
     desc.options = backend->native ? &native : NULL;
+#ifdef TAHR_HAVE_BOX2D
+    desc.options = backend->planar ? (const void *)&box2d : desc.options;
+#endif
     return tahr_world_open(backend->get(), &desc, world);
 }

@@ -18,13 +18,18 @@ typedef struct scene_backend {
     double penetration; /* m, deepest allowed while wandering */
     double drift;       /* m, off the exact path after sliding to rest between surfaces */
     double push;        /* m, who pushes and gets nowhere may move; 0: not by one bit, as always without input */
+    int planar;         /* a world of two dimensions: only scenes that say so */
 } scene_backend;
 
 enum { SCENE_MAX_BACKENDS = 4 };
 
-/* The backends of this build. */
+/* The backends of this build, those of three dimensions. */
 extern const scene_backend SCENE_BACKENDS[];
 extern const int SCENE_BACKEND_COUNT;
+
+/* Those of two. One more than the count, so that there may be none. */
+extern const scene_backend SCENE_PLANAR_BACKENDS[];
+extern const int SCENE_PLANAR_BACKEND_COUNT;
 
 /* Opens bodies on a backend. options, for native backends only, may be NULL; its precision is overwritten. */
 tahr_status scene_backend_open(const scene_backend *backend, const tahr_body_desc *bodies, uint32_t count,

@@ -104,6 +104,36 @@ static int make_mesh(scene *s, json_t *item, const char *kind, scene_mesh *mesh)
     return 1;
 }
 
+/* m, half the width that a chain gets where worlds have three dimensions. */
+static const double HALF_WIDTH = 5;
+
+/* "chain": the line through "points" [x, y], its front on the right hand; "loop": back to the first. A chain for planar
+ * backends, and a ribbon that faces the same way for the others. */
+static int read_chain(scene *s, json_t *item, tahr_body_desc *body)
+{
+    int count, loop = json_is_true(json_object_get(item, "loop"));
+    double(*points)[2] = pairs(s, json_object_get(item, "points"), &count);
+    scene_mesh *ribbon = &s->meshes[s->body_count], *line = &s->lines[s->body_count];
+    tahr_body_desc *flat = &s->flat[s->body_count];
+    for (int i = 0; i < count; i++) {
+        scene_mesh_vertex(line, points[i][0], points[i][1], 0);
+        scene_mesh_vertex(ribbon, points[i][0], points[i][1], -HALF_WIDTH);
+        scene_mesh_vertex(ribbon, points[i][0], points[i][1], HALF_WIDTH);
+    }
+    for (int i = 0; i + 1 - loop < count; i++) {
+        uint32_t a = 2 * (uint32_t)i, b = 2 * (uint32_t)((i + 1) % count);
+        scene_mesh_triangle(ribbon, a, b, b + 1);
+        scene_mesh_triangle(ribbon, a, b + 1, a + 1);
+    }
+    free(points);
+    scene_level_body(ribbon, body);
+    tahr_body_desc_init(flat, sizeof *flat, TAHR_BODY_CHAIN);
+    flat->vertices = line->vertices;
+    flat->vertex_count = line->vertex_count;
+    flat->flags = loop ? (uint32_t)TAHR_BODY_LOOP : 0u;
+    return !s->error[0] && !ribbon->failed && !line->failed;
+}
+
 static int read_shape(scene *s, json_t *item, tahr_body_desc *body)
 {
     const char *kind = json_string_value(json_object_get(item, "is"));
@@ -118,6 +148,9 @@ static int read_shape(scene *s, json_t *item, tahr_body_desc *body)
         body->radius = number(s, item, "radius", NAN);
         body->half_height = kind[0] == 'c' ? number(s, item, "half_height", NAN) : 0;
         return !s->error[0];
+    }
+    if (strcmp(kind, "chain") == 0) {
+        return read_chain(s, item, body);
     }
     if (!make_mesh(s, item, kind, mesh)) {
         return bad(s, "no such kind of body", kind);
@@ -161,6 +194,7 @@ static void read_flags(json_t *item, tahr_body_desc *body)
     body->flags |= json_is_true(json_object_get(item, "fluid")) ? (uint32_t)TAHR_BODY_FLUID : 0u;
     body->flags |= json_is_true(json_object_get(item, "no_base")) ? (uint32_t)TAHR_BODY_NO_BASE : 0u;
     body->flags |= json_is_true(json_object_get(item, "no_step")) ? (uint32_t)TAHR_BODY_NO_STEP : 0u;
+    body->flags |= json_is_true(json_object_get(item, "one_way")) ? (uint32_t)TAHR_BODY_ONE_WAY : 0u;
     body->flags |= json_is_true(json_object_get(item, "character")) ? (uint32_t)TAHR_BODY_CHARACTER : 0u;
 }
 

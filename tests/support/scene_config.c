@@ -148,16 +148,19 @@ int scene_config_read(scene *s)
 {
     json_t *value, *config = json_object_get(s->root, "config");
     const char *name, *field = NULL, *preset = json_string_value(json_object_get(config, "preset"));
-    int unreal = preset && strcmp(preset, "unreal") == 0;
-    if (preset && !unreal && strcmp(preset, "precise") != 0) {
-        return bad(s, "no such preset", preset);
+    int32_t id = TAHR_PRESET_PRECISE;
+    while (preset && strcmp(tahr_preset_name(id), preset) != 0) {
+        if (strcmp(tahr_preset_name(++id), "?") == 0) {
+            return bad(s, "no such preset", preset);
+        }
     }
-    tahr_config_init(&s->config, sizeof s->config, unreal ? TAHR_PRESET_UNREAL : TAHR_PRESET_PRECISE);
+    tahr_config_init(&s->config, sizeof s->config, id);
     json_object_foreach(config, name, value)
     {
         int known =
             strcmp(name, "preset") == 0 || (strcmp(name, "shape") == 0   ? read_shape(s, value)
                                             : strcmp(name, "plane") == 0 ? scene_vec3(s, value, &s->config.plane)
+                                            : strcmp(name, "gravity") == 0 ? scene_vec3(s, value, &s->config.gravity)
                                                                          : read_field(s, name, value));
         if (!known) {
             return 0;

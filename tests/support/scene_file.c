@@ -139,6 +139,7 @@ static int read_start(scene *s)
     json_t *start = json_object_get(s->root, "start"), *settle = json_object_get(start, "settle");
     json_t *velocity = json_object_get(start, "velocity");
     s->settle = !json_is_false(settle);
+    s->planar = json_is_true(json_object_get(s->root, "planar"));
     s->may_be_crushed = json_string_value(json_object_get(s->root, "allow")) != NULL &&
                         strcmp(json_string_value(json_object_get(s->root, "allow")), "crushed") == 0;
     return scene_vec3(s, json_object_get(start, "position"), &s->position) &&
@@ -148,7 +149,7 @@ static int read_start(scene *s)
 
 static int known_keys(scene *s)
 {
-    static const char *const KEYS = " about vary let config bodies start inputs duration rates expect allow ";
+    static const char *const KEYS = " about vary let config bodies start inputs duration rates expect allow planar ";
     const char *name;
     json_t *value;
     json_object_foreach(s->root, name, value)
@@ -178,6 +179,7 @@ void scene_free(scene *s)
 {
     for (uint32_t i = 0; i < s->body_count; i++) {
         scene_mesh_free(&s->meshes[i]);
+        scene_mesh_free(&s->lines[i]);
     }
     json_decref(s->root);
     memset(s, 0, sizeof *s);

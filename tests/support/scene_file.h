@@ -33,10 +33,13 @@ typedef struct scene {
     tahr_config config;
     tahr_body_desc bodies[SCENE_MAX_BODIES];
     scene_mesh meshes[SCENE_MAX_BODIES];
+    tahr_body_desc flat[SCENE_MAX_BODIES]; /* a chain, as planar backends take it; type 0: bodies[] does for all */
+    scene_mesh lines[SCENE_MAX_BODIES];    /* its vertices */
     scene_path paths[SCENE_MAX_BODIES];
     uint32_t body_count;
     tahr_vec3 position, velocity;
     int settle;         /* stand still first until the floor is found */
+    int planar;         /* may run on planar backends */
     int may_be_crushed; /* "allow": "crushed" */
     double duration;
     scene_input inputs[SCENE_MAX_INPUTS];

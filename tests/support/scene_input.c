@@ -43,6 +43,7 @@ static void read_switches(json_t *item, tahr_input *input)
         uint32_t flag;
     } switches[] = {{"launch_level", TAHR_INPUT_LAUNCH_LEVEL},
                     {"launch_up", TAHR_INPUT_LAUNCH_UP},
+                    {"drop", TAHR_INPUT_DROP},
                     {"drive_add", TAHR_INPUT_DRIVE_ADD},
                     {"drive_level", TAHR_INPUT_DRIVE_LEVEL}};
     for (size_t i = 0; i < sizeof switches / sizeof switches[0]; i++) {

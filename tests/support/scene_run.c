@@ -84,13 +84,16 @@ static double clearance(runner *run)
     shape.radius = run->state.radius;
     shape.half_height = run->state.half_height;
     double nearest = 2 * c->skin;
+    /* In the air one-way bodies are passed at any distance. */
+    uint32_t flags = run->state.mode == TAHR_MODE_WALKING ? 0 : TAHR_CONTACTS_DROP;
     tahr_contact_query query = {.shape = shape,
                                 .position = run->state.position,
                                 .up = run->state.up,
                                 .orientation = run->state.orientation,
                                 .margin = 2 * c->skin,
                                 .mask = c->mask,
-                                .ignore_body = TAHR_NO_BODY};
+                                .ignore_body = TAHR_NO_BODY,
+                                .flags = flags};
     if (tahr_world_contacts(run->world, &query, contacts, CONTACTS, &count) < 0) {
         return -1e9;
     }
@@ -218,6 +221,15 @@ static tahr_status open_scene(runner *run, const scene_backend *backend)
     tahr_body_desc bodies[SCENE_MAX_BODIES];
     for (uint32_t i = 0; i < s->body_count; i++) {
         bodies[i] = s->bodies[i];
+        if (backend->planar && s->flat[i].type) { /* what both say alike comes from the one that was read */
+            const tahr_body_desc *line = &s->flat[i];
+            bodies[i].type = line->type;
+            bodies[i].flags |= line->flags;
+            bodies[i].vertices = line->vertices;
+            bodies[i].vertex_count = line->vertex_count;
+            bodies[i].indices = NULL;
+            bodies[i].triangle_count = 0;
+        }
         bodies[i].pose = scene_motion_pose_in(run->scene, i, 0, run->frame);
     }
     return scene_backend_open(backend, bodies, s->body_count, NULL, &run->world);

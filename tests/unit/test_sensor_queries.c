@@ -86,7 +86,7 @@ static void a_sweep_for_sensors_goes_through_walls(void **unused)
         q.position.x = 2.5; /* 0.15 m from two of them */
         assert_int_equal(tahr_world_sweep(s.r.world, &q, hits, 8, &count), TAHR_OK);
         assert_int_equal(count, 0);
-        q.flags = TAHR_SWEEP_SENSORS << 1;
+        q.flags = TAHR_SWEEP_PASS << 1;
         assert_int_equal(tahr_world_sweep(s.r.world, &q, hits, 8, &count), TAHR_E_ARGUMENT);
         sensor_close(&s);
     }

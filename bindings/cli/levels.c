@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: MIT
+ * levels.c: the files that the shell brings along; the build compiles them in. */
+#include "levels.h"
+
+#include "say.h"
+
+#include <stdio.h>
+#include <string.h>
+
+extern const unsigned char level_side_tmj[], level_side_png[], level_tour_json[];
+extern const unsigned long level_side_tmj_size, level_side_png_size, level_tour_json_size;
+
+static const struct {
+    const char *name, *about;
+    const unsigned char *bytes;
+    const unsigned long *size;
+} levels[] = {
+    [LEVEL_SIDE] = {"side.tmj", "the level of `tahr run --2d`, to be opened with Tiled", level_side_tmj,
+                    &level_side_tmj_size},
+    [LEVEL_TILES] = {"side.png", "how its tiles look there", level_side_png, &level_side_png_size},
+    [LEVEL_TOUR] = {"tour.json", "the route of `tahr run --2d --tour` through it", level_tour_json,
+                    &level_tour_json_size},
+};
+
+const char *level_text(int level)
+{
+    return (const char *)levels[level].bytes;
+}
+
+int level_command(int argc, char **argv)
+{
+    const size_t count = sizeof levels / sizeof *levels;
+    if (argc < 2) {
+        puts("usage: tahr level NAME >FILE\n");
+        for (size_t i = 0; i < count; i++) {
+            printf("  %-12s %s\n", levels[i].name, levels[i].about);
+        }
+        return EXIT_GOOD;
+    }
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(levels[i].name, argv[1]) == 0) {
+            fwrite(levels[i].bytes, 1, *levels[i].size, stdout);
+            return EXIT_GOOD;
+        }
+    }
+    say_error("level '%s': expected side.tmj, side.png or tour.json", argv[1]);
+    return EXIT_USAGE;
+}
