@@ -44,8 +44,8 @@ if(NOT "${TAHR_BACKEND_BOX2D}" STREQUAL "OFF")
         list(APPEND box2d_links ${box2d_3})
         list(APPEND box2d_defines TAHR_BOX2D_HAS_3)
         list(APPEND box2d_sources backends/box2d/engine_v3.c)
-        # The queries of a world got an origin between releases that all call themselves 3.2.0; CastMover is the one whose
-        # number of arguments changed. Only compiled: the library itself may not be built yet.
+        # The queries of a world got an origin between releases that all call themselves 3.2.0; CastMover is the one
+        # whose number of arguments changed. Only compiled: the library itself may not be built yet.
         include(CheckCSourceCompiles)
         set(kept_type ${CMAKE_TRY_COMPILE_TARGET_TYPE})
         set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

@@ -77,7 +77,7 @@ for folder in tests/*/; do
     cli) pattern='"((\.\./)?support/|\.\./\.\./bindings/cli/)?[a-z0-9_]+\.h"' ;;
     *) pattern='"((\.\./)?support/)?[a-z0-9_]+\.h"' ;;
     esac
-    check "tests/$name" "tests/$name" "<(tahr/)?[a-z0-9_/]+\\.h>|$pattern"
+    check "tests/$name" "tests/$name" "<(tahr/)?[a-z0-9_/]+\\.h>|<[a-z_]+>|$pattern"
 done
 
 unresolved=$(

@@ -52,8 +52,8 @@ typedef void (*tahr__b2_found_fn)(void *user, uint32_t item);
 typedef struct tahr__b2_engine {
     const char *version;
 
-    /* A tree of boxes, each with a number. open: NULL without memory; add: the proxy, negative without memory; move: the
-     * new proxy. */
+    /* A tree of boxes, each with a number. open: NULL without memory; add: the proxy, negative without memory; move:
+     * the new proxy. */
     void *(*tree_open)(void);
     void (*tree_close)(void *tree);
     int32_t (*tree_add)(void *tree, const tahr__b2_box *box, uint32_t item);

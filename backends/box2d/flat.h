@@ -65,8 +65,8 @@ static inline tahr__vec2 f_right(tahr__vec2 a)
 
 enum { TAHR__FLAT_CORNERS = 256 };
 
-/* A convex ring, counter-clockwise, grown by radius. One corner: a point; two: a segment, whose faces are 0, on the right
- * of who goes from corner 0 to corner 1, and 1, the other side. Face i lies between the corners i and i + 1. */
+/* A convex ring, counter-clockwise, grown by radius. One corner: a point; two: a segment, whose faces are 0, on the
+ * right of who goes from corner 0 to corner 1, and 1, the other side. Face i lies between the corners i and i + 1. */
 typedef struct tahr__flat {
     int count;
     int one_sided; /* a segment: only face 0 is there */

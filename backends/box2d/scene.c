@@ -4,8 +4,8 @@
 
 #include "../common/options.h"
 
-/* Box2D's trees hold floats, and version 3 none beyond 1e5 m: boxes end here (m from the middle of the scene). Boxes that
- * are cut off still meet each other, only less is told apart by the tree. */
+/* Box2D's trees hold floats, and version 3 none beyond 1e5 m: boxes end here (m from the middle of the scene). Boxes
+ * that are cut off still meet each other, only less is told apart by the tree. */
 #define TREE_END 9e4
 /* Boxes in the tree are larger by this (m): floats are 0.008 m apart at TREE_END. */
 #define TREE_SLACK 0.02

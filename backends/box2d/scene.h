@@ -90,9 +90,9 @@ void tahr__b2_each(const tahr__b2_probe *probe, tahr__b2_take_fn take, void *use
 /* Likewise within reach of a point relative to the start. */
 void tahr__b2_each_at(const tahr__b2_probe *probe, tahr__vec2 point, double reach, tahr__b2_take_fn take, void *user);
 
-/* seam.c: what neighbours at the same place have to say about a contact. Returns 1 if it is not to be felt: it lies on a
- * seam, and a neighbour that leads from there toward the shape is nearer. Of segments that meet there the face along
- * direction, if more than *face is. */
+/* seam.c: what neighbours at the same place have to say about a contact. Returns 1 if it is not to be felt: it lies
+ * on a seam, and a neighbour that leads from there toward the shape is nearer. Of segments that meet there the face
+ * along direction, if more than *face is. */
 int tahr__b2_is_seam(const tahr__b2_probe *probe, const tahr__b2_piece *piece, const tahr__flat_near *near,
                      tahr__vec2 direction, tahr__vec2 *face);
 /* The way out of what is overlapped, past the faces that a neighbour closes. */

@@ -3,8 +3,8 @@
  * casts and distances know nothing of this. */
 #include "scene.h"
 
-/* Surfaces this close (m) to a corner hold it: Box2D's floats are 1.5e-5 m apart at 128 m. Far below every skin, and for
- * very small characters this part of their size. */
+/* Surfaces this close (m) to a corner hold it: Box2D's floats are 1.5e-5 m apart at 128 m. Far below every skin, and
+ * for very small characters this part of their size. */
 #define WELD 2e-5
 #define WELD_PART 1e-3
 /* Slope at which a neighbour leads toward the shape: a float's rounding. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * sweep.c: the sweep slot: for each piece that Box2D finds the first fraction by tangents of the convex distance, then who
- * comes first. */
+ * sweep.c: the sweep slot: for each piece that Box2D finds the first fraction by tangents of the convex distance,
+ * then who comes first. */
 #include "../common/one_way.h"
 #include "scene.h"
 

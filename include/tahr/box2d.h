@@ -36,9 +36,10 @@ typedef uint32_t (*tahr_box2d_body_fn)(void *user, const void *body);
  *
  * With world2 or world3 Tahr attaches to a world of yours instead of building one; then desc.bodies must be empty. The
  * world stays yours: Tahr reads it and never changes it, and it must live until tahr_world_close (a world destroyed
- * before that is a crash). Step it, and create, move and destroy bodies in it, while no step or query of Tahr runs; call
- * tahr_world_touch afterwards, so that who stands still looks again. Characters are carried by kinematic and dynamic
- * bodies as their positions and velocities say; TAHR_EVENT_PUSHED tells which dynamic body to push, and how hard.
+ * before that is a crash, and your error). Step it, and create, move and destroy bodies in it, while no step or query
+ * of Tahr runs; call tahr_world_touch afterwards, so that who stands still looks again. Characters are carried by
+ * kinematic and dynamic bodies as their positions and velocities say; TAHR_EVENT_PUSHED tells which dynamic body to
+ * push, and how hard.
  *
  * Ids of bodies in an attached world. 3: (index1 - 1) | (generation & 0xFFF) << 20 of the b2BodyId, for up to 1 048 575
  * bodies. 2.4: what body_id returns, or without it the low 32 bits of b2BodyUserData.pointer: number your bodies from

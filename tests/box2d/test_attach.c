@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_attach.c: Tahr in a Box2D world of the user's, of both versions: filters, sensors, geometry without Box2D's skin,
- * seams, bodies that Box2D moves, and what is refused. */
+ * test_attach.c: Tahr in a Box2D world of the user's, of both versions: filters, sensors, geometry without Box2D's
+ * skin, seams, bodies that Box2D moves, and what is refused. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * yard.h: a Box2D world of the test's own, in either version, behind one set of functions: bodies of one shape, named by
- * the ids that Tahr will give them. */
+ * yard.h: a Box2D world of the test's own, in either version, behind one set of functions: bodies of one shape, named
+ * by the ids that Tahr will give them. */
 #ifndef TAHR_TEST_YARD_H
 #define TAHR_TEST_YARD_H
 

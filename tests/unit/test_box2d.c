@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_box2d.c: the contract of the box2d backend on both engines: closed forms at every gap, grazing, corners, sides of
- * chains, order, sensors, one-way bodies, placing, fluids, and what it refuses. How exact it is at random,
+ * test_box2d.c: the contract of the box2d backend on both engines: closed forms at every gap, grazing, corners, sides
+ * of chains, order, sensors, one-way bodies, placing, fluids, and what it refuses. How exact it is at random,
  * test_box2d_truth.c says; seams, test_box2d_seams.c. */
 #include <math.h>
 #include <setjmp.h>
@@ -139,8 +139,8 @@ static void grazing_motion_stops_where_the_gap_is_the_margin(void **unused)
     }
 }
 
-/* A circle that passes below the top corner of a block is stopped at sqrt((r + m)^2 - h^2) before it; the surface normal
- * is that of the face that the motion runs into. */
+/* A circle that passes below the top corner of a block is stopped at sqrt((r + m)^2 - h^2) before it; the surface
+ * normal is that of the face that the motion runs into. */
 static void corners_are_round_for_round_shapes(void **unused)
 {
     (void)unused;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_box2d_native.c: the same level as boxes of space on the native backend and as boxes of a plane on Box2D: every step
- * of a random walk begins from one state and must end in one place. */
+ * test_box2d_native.c: the same level as boxes of space on the native backend and as boxes of a plane on Box2D:
+ * every step of a random walk begins from one state and must end in one place. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -40,8 +40,9 @@ static tahr_body_desc *put(double x, double y, double half_width, double half_he
     return b;
 }
 
-/* A pit between two walls: a floor, stairs, slopes of 20 and 35 degrees up and down, a low ceiling, a pillar, a ledge, a
- * boulder and a conveyor. Nothing is flush with anything else: native feels seams between bodies, box2d does not. */
+/* A pit between two walls: a floor, stairs, slopes of 20 and 35 degrees up and down, a low ceiling, a pillar, a
+ * ledge, a boulder and a conveyor. Nothing is flush with anything else: native feels seams between
+ * bodies, box2d does not. */
 static void furnish(void)
 {
     body_count = 0;
@@ -117,7 +118,7 @@ static void walk(uint32_t engine, uint32_t shape, uint64_t seed)
         assert_near(r.state.position.z, 0, 0);
     }
     assert_true(walked > STEPS / 3);
-    /* Who stands on a corner that just holds stands or slips: there a rounding may tip a step, in both the right way. */
+    /* Who stands on a corner that just holds stands or slips: a rounding may tip a step, and both are right. */
     assert_true(different <= STEPS / 1000);
     tahr_mover_destroy(other);
     tahr_world_close(native);

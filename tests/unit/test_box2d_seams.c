@@ -171,9 +171,9 @@ static tahr_body_desc body_of(const obstacle *o, double (*ramp)[3])
     return b;
 }
 
-/* A wall behind the seams, and a slope of angle a that begins at one, are met where they are: a steep one at its margin,
- * where its foot is s = (r + m - (r + g) cos a) / sin a before the centre; a gentle one, which the centre's foot on it
- * reaches when it is within the margin already, at s = (r + g) tan a, though its corner was at the margin before. */
+/* A wall behind the seams, and a slope of angle a that begins at one, are met where they are: a steep one at its
+ * margin, where its foot is s = (r + m - (r + g) cos a) / sin a before the centre; a gentle one, which the centre's foot
+ * on it reaches when it is within the margin already, at s = (r + g) tan a, though its corner was at the margin before. */
 static void what_lies_behind_a_seam_is_met(void **unused)
 {
     const double r = 0.35, margin = 0.01, steep = atan(0.5), near_margin = 0.01 - 1e-7;
@@ -209,8 +209,8 @@ static void what_lies_behind_a_seam_is_met(void **unused)
     }
 }
 
-/* Steps of a few micrometres between tiles are rounding, not walls; with the floor held at exactly one skin every second
- * one of them reaches into it. */
+/* Steps of a few micrometres between tiles are rounding, not walls; with the floor held at exactly one skin every
+ * second one of them reaches into it. */
 static void steps_of_rounding_are_no_walls(void **unused)
 {
     const uint32_t shapes[] = {TAHR_SHAPE_CAPSULE, TAHR_SHAPE_SPHERE, TAHR_SHAPE_BOX};
