@@ -69,7 +69,7 @@ static void each_press_passes_exactly_one_layer(void **unused)
     static const double APART[] = {0.3, 1, 3};
     for (int world = 0; world < LAYERS_WORLDS; world++) {
         for (int k = 0; k < LAYER_KINDS * 3 * 2; k++) {
-            for (int i = 0; i < RIG_RATES; i += world < 2 ? 1 : 2) {
+            for (int i = world < 2 ? 0 : k % 3; i < RIG_RATES; i += world < 2 ? 1 : 3) {
                 static layers l;
                 rig r;
                 double apart = APART[k % 3], dt = 1 / rig_rates[i];
