@@ -21,6 +21,7 @@ tahr__ccd_verdict tahr__ccd_advance(const tahr__ccd_probe *probe, const tahr__cc
 
     for (int i = 0; i < MAX_TANGENTS; i++) {
         tahr__ccd_measure(probe, piece, v_scale(probe->motion, t), near);
+        probe->context->narrow_iterations++;
         double gap = near->distance - probe->margin, speed = -v_dot(probe->motion, near->normal);
         *fraction = t;
         if (gap <= ARRIVED && gap >= -ARRIVED) return TAHR__CCD_HIT;
@@ -65,6 +66,7 @@ static double approach(const tahr__ccd_probe *probe, const tahr__ccd_piece *piec
     for (int i = 0; i < MAX_APPROACHES && safe <= limit; i++) {
         tahr__ccd_near near;
         tahr__ccd_measure(probe, piece, v_scale(probe->motion, safe), &near);
+        probe->context->narrow_iterations++;
         double gap = near.distance - probe->margin, speed = -v_dot(probe->motion, near.normal);
         if (gap <= BRACKET) break;
         if (!(speed > 0)) return 2;

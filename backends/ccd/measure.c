@@ -6,6 +6,8 @@
 
 /* Nearer than this the direction between the nearest points is rounding: the way out is taken instead. */
 #define TOUCHING 1e-10
+/* The air between two that have left each other, so that there is a nearest point. */
+#define LEFT 1e-6
 /* Of the faces of hulls so many are looked at for the shortest way out. */
 enum { GUESSED_FACES = 32, GUESSES = 2 * GUESSED_FACES + 16 };
 
@@ -161,6 +163,20 @@ static uint32_t part_of(const tahr__ccd_piece *piece, const tahr__gap *gap)
     return w[b] < TAHR__CCD_SAME_DIRECTION ? TAHR__CORNER + a : TAHR__EDGE + a;
 }
 
+/* Where the shape touches a piece that it has just left along normal, by depth: of two flat faces, some point that both
+ * hold. */
+static tahr_vec3 point_left(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre, double depth,
+                            tahr_vec3 normal)
+{
+    tahr__convex a = probe->shape, b;
+    tahr__gap gap;
+
+    a.centre = v_add(v_mad(a.centre, normal, depth + LEFT), centre);
+    tahr__ccd_convex(probe, piece, &b);
+    tahr__convex_distance(&a, &b, normal, &gap);
+    return gap.on_b;
+}
+
 static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
                            tahr__ccd_near *near)
 {
@@ -170,7 +186,6 @@ static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *
     a.centre = v_add(a.centre, centre);
     tahr__ccd_convex(probe, piece, &b);
     tahr__convex_distance(&a, &b, v_make(0, 0, 0), &gap);
-    probe->context->narrow_iterations += gap.iterations;
     near->reserved = 0;
     near->part = TAHR__FACE;
     if (gap.lower > 0 && gap.distance > TOUCHING) {
@@ -180,7 +195,7 @@ static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *
         if (piece->body->type == TAHR_BODY_MESH) near->part = part_of(piece, &gap);
     } else {
         near->distance = -convex_depth(probe, piece, &a, &b, &near->normal);
-        near->point = v_mad(tahr__convex_support(&a, v_scale(near->normal, -1), NULL), near->normal, -near->distance);
+        near->point = point_left(probe, piece, centre, -near->distance, near->normal);
     }
     near->distance -= probe->radius + piece->radius;
     near->point = v_mad(near->point, near->normal, piece->radius);
@@ -202,9 +217,9 @@ static void measure_core(const tahr__ccd_probe *probe, const tahr__ccd_piece *pi
     depth = core_depth(probe, piece, centre, w.distance, &way_out);
     near->normal = depth >= 0 ? way_out : w.normal;
     near->distance = (depth >= 0 ? -depth : w.distance) - probe->radius - piece->radius;
-    if (depth >= 0) near->part = TAHR__FACE;
-    if (depth >= 0 && piece->body->type == TAHR_BODY_BOX) {
-        near->point = v_mad(centre, near->normal, depth - tahr__core_extent(&probe->core, near->normal));
+    if (depth >= 0) {
+        near->part = TAHR__FACE;
+        near->point = point_left(probe, piece, centre, depth, near->normal);
     }
     near->point = v_mad(near->point, near->normal, piece->radius);
 }
