@@ -279,11 +279,12 @@ void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_ve
         simplex before = s;
         s.v[s.count++] = next;
         nearest n = solve(&s);
-        if (s.holds || !(n.square > 0)) {
+        /* A plane that passes between them is proof; a thin simplex is none that they overlap. */
+        if ((s.holds || !(n.square > 0)) && !(gap->lower > 0)) {
             gap->distance = gap->lower = 0;
             return;
         }
-        if (!(n.square < square)) {
+        if (s.holds || !(n.square < square)) {
             s = before;
             break;
         }

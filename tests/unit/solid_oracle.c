@@ -190,18 +190,25 @@ static tahr_vec3 some_way_from(tahr_vec3 n, double step, oracle_random *dice)
 
 solid_real solid_least_way(const solid *a, tahr_vec3 motion, const solid *b, solid_real enough, oracle_random *dice)
 {
-    tahr_vec3 best = {0, 0, 1};
-    solid_real least = 1e30L;
-    for (int i = 0; i < 60; i++) {
+    return solid_least_way_near(a, motion, b, (tahr_vec3){0, 0, 0}, enough, dice);
+}
+
+/* The extents meet in ridges, along which only few directions lead on: the more are tried the finer it is looked. */
+solid_real solid_least_way_near(const solid *a, tahr_vec3 motion, const solid *b, tahr_vec3 best, solid_real enough,
+                                oracle_random *dice)
+{
+    int known = best.x != 0 || best.y != 0 || best.z != 0;
+    solid_real least = known ? solid_way(a, motion, b, best) : 1e30L;
+    for (int i = 0; i < 60 && !known; i++) {
         tahr_vec3 n = some_way_from((tahr_vec3){0, 0, 0}, 1, dice);
         solid_real way = solid_way(a, motion, b, n);
         if (!(way < least)) continue;
         least = way;
         best = n;
     }
-    for (double step = 0.5; step > 1e-8 && least > enough;) {
+    for (double step = known ? 1e-3 : 0.5; step > 1e-9 && least > enough;) {
         int better = 0;
-        for (int i = 0; i < 12; i++) {
+        for (int i = 0; i < 24 && !(better && i > 8); i++) {
             tahr_vec3 n = some_way_from(best, step, dice);
             solid_real way = solid_way(a, motion, b, n);
             if (!(way < least)) continue;
@@ -209,7 +216,7 @@ solid_real solid_least_way(const solid *a, tahr_vec3 motion, const solid *b, sol
             best = n;
             better = 1;
         }
-        if (!better) step *= 0.6;
+        if (!better) step *= 0.75;
     }
     return least;
 }

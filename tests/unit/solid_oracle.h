@@ -42,5 +42,8 @@ solid_real solid_point_distance(const solid *s, tahr_vec3 p);
 solid_real solid_way(const solid *a, tahr_vec3 motion, const solid *b, tahr_vec3 n);
 /* The least way over many directions, by trial: ends early at one below enough. */
 solid_real solid_least_way(const solid *a, tahr_vec3 motion, const solid *b, solid_real enough, oracle_random *dice);
+/* The same from a direction that is known to be good. */
+solid_real solid_least_way_near(const solid *a, tahr_vec3 motion, const solid *b, tahr_vec3 best, solid_real enough,
+                                oracle_random *dice);
 
 #endif

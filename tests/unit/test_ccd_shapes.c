@@ -201,7 +201,8 @@ static void judge_hit(pair *p, const tahr_sweep *q, const tahr_hit *hit, tally *
     solid_real reach = solid_point_distance(&p->character, hit->point) + solid_point_distance(&p->body, hit->point);
     t->hits++;
     if (gap < margin - LATE * scale) /* the normal is good to a few millionths; is there a better one? */
-        gap = -solid_least_way(&p->character, (tahr_vec3){0, 0, 0}, &p->body, LATE * scale - margin, &dice);
+        gap = -solid_least_way_near(&p->character, (tahr_vec3){0, 0, 0}, &p->body, hit->normal, LATE * scale - margin,
+                                    &dice);
     t->late += gap < margin - LATE * scale;
     t->early += reach > margin + EARLY * scale || (hit->fraction > 0 && margin > q->margin + EARLY * scale);
     t->worst_late = fmaxl(t->worst_late, (margin - gap) / scale);
