@@ -188,11 +188,15 @@ static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *
     tahr__convex_distance(&a, &b, v_make(0, 0, 0), &gap);
     near->reserved = 0;
     near->part = TAHR__FACE;
-    if (gap.lower > 0 && gap.distance > TOUCHING) {
-        near->distance = gap.lower;
+    if (gap.distance > TOUCHING) {
+        near->distance = d_max(gap.lower, 0);
         near->normal = gap.normal;
         near->point = gap.on_b;
         if (piece->body->type == TAHR_BODY_MESH) near->part = part_of(piece, &gap);
+    } else if (gap.lower > -TOUCHING) { /* the plane between them is as good as a contact */
+        near->distance = gap.lower;
+        near->normal = gap.normal;
+        near->point = point_left(probe, piece, centre, -gap.lower, near->normal);
     } else {
         near->distance = -convex_depth(probe, piece, &a, &b, &near->normal);
         near->point = point_left(probe, piece, centre, -near->distance, near->normal);

@@ -137,12 +137,13 @@ int tahr__ccd_face(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, t
                    tahr__ccd_near *near, tahr_vec3 *face);
 uint32_t tahr__ccd_feature(const tahr__ccd_piece *piece, const tahr__ccd_near *near);
 
-/* impact.c: the first fraction in [*fraction, limit] at which the shape comes within its margin of a piece. */
+/* impact.c: the first fraction in [*fraction, limit] at which the shape comes within its margin of a piece. *fraction is
+ * 0 or the root of the tangent at *near. */
 typedef enum tahr__ccd_verdict { TAHR__CCD_FREE, TAHR__CCD_HIT, TAHR__CCD_UNKNOWN } tahr__ccd_verdict;
 
 tahr__ccd_verdict tahr__ccd_impact(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double limit,
                                    double *fraction, tahr__ccd_near *near);
-/* From a fraction known to be free, by tangents of the convex distance; never late. */
+/* The same by tangents of the convex distance alone; never late. */
 tahr__ccd_verdict tahr__ccd_advance(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double limit,
                                     double *fraction, tahr__ccd_near *near);
 

@@ -281,7 +281,7 @@ void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_ve
         nearest n = solve(&s);
         /* A plane that passes between them is proof; a thin simplex is none that they overlap. */
         if ((s.holds || !(n.square > 0)) && !(gap->lower > 0)) {
-            gap->distance = gap->lower = 0;
+            gap->distance = 0;
             return;
         }
         if (s.holds || !(n.square < square)) {
@@ -293,6 +293,4 @@ void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_ve
         v = n.point;
     }
     write_witness(&s, b, gap);
-    /* No plane was found to pass between them: nearer than rounding tells. */
-    if (!(gap->lower > 0)) gap->lower = 0;
 }

@@ -41,9 +41,10 @@ static inline double tahr__convex_extent(const tahr__convex *c, tahr_vec3 n)
 
 typedef struct tahr__gap {
     double distance;  /* between the witness points: not less than the true distance; 0: they overlap */
-    double lower;     /* not more than the true distance: the gap between the planes across normal; 0: they overlap */
-    tahr_vec3 normal; /* unit, from b to a; of a pair that overlaps not set */
-    tahr_vec3 on_a, on_b;
+    double lower;     /* the gap between the planes across normal, the largest that was found: not more than the true
+                       * distance; negative where no plane was found that passes between them */
+    tahr_vec3 normal; /* unit, from b to a */
+    tahr_vec3 on_a, on_b; /* not set where the distance is 0 */
     double weight[3];    /* of the first three points of b, if it has so many: where on_b lies between them */
     uint32_t iterations; /* support points asked for */
     uint32_t given_up;   /* 1: the cap on iterations ended it; lower and distance hold all the same */
