@@ -47,14 +47,17 @@ static int touches_rim(const tahr__step *step, const tahr_hit *hit, vec3 centre,
 }
 
 /* The character's shape with a part `kept` of its straight part, `inset` thinner. [out] shrink: m by which both ends
- * are shorter; 0 of what has no straight part (cone, ellipsoid) and of a hull. */
+ * are shorter: of an ellipsoid, which has no straight part, always the first part of it all, for its sides rise by less
+ * than its end; of a cone and a hull 0. */
 static tahr__foot probe_of(const tahr__step *step, double kept, double inset, double *shrink)
 {
     tahr_shape s = step->limits->shape;
     /* A line, for what it finds, and a shape for a backend. */
     const double least = max_of(0.01 * step->config->edge_tolerance, TAHR__THINNEST);
     if (s.type > TAHR_SHAPE_BOX) {
-        *shrink = s.type == TAHR_SHAPE_CYLINDER ? (1 - kept) * s.half_height : 0;
+        *shrink = s.type == TAHR_SHAPE_CYLINDER    ? (1 - kept) * s.half_height
+                  : s.type == TAHR_SHAPE_ELLIPSOID ? (1 - FIRST) * s.half_height
+                                                   : 0;
         s.half_height -= *shrink;
         if (inset > 0) {
             tahr__thin_shape(&s, inset, 0, step->world->backend->capabilities);

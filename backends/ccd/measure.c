@@ -165,16 +165,14 @@ static uint32_t part_of(const tahr__ccd_piece *piece, const tahr__gap *gap)
 
 /* Where the shape touches a piece that it has just left along normal, by depth: of two flat faces, some point that both
  * hold. */
-static tahr_vec3 point_left(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre, double depth,
-                            tahr_vec3 normal)
+static void leave_along(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre, double depth,
+                        tahr_vec3 normal, tahr__gap *gap)
 {
     tahr__convex a = probe->shape, b;
-    tahr__gap gap;
 
     a.centre = v_add(v_mad(a.centre, normal, depth + LEFT), centre);
     tahr__ccd_convex(probe, piece, &b);
-    tahr__convex_distance(&a, &b, normal, &gap);
-    return gap.on_b;
+    tahr__convex_distance(&a, &b, normal, gap);
 }
 
 static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
@@ -196,10 +194,13 @@ static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *
     } else if (gap.lower > -TOUCHING) { /* the plane between them is as good as a contact */
         near->distance = gap.lower;
         near->normal = gap.normal;
-        near->point = point_left(probe, piece, centre, -gap.lower, near->normal);
+        leave_along(probe, piece, centre, -near->distance, near->normal, &gap);
+        near->point = gap.on_b;
+        if (piece->body->type == TAHR_BODY_MESH) near->part = part_of(piece, &gap);
     } else {
         near->distance = -convex_depth(probe, piece, &a, &b, &near->normal);
-        near->point = point_left(probe, piece, centre, -near->distance, near->normal);
+        leave_along(probe, piece, centre, -near->distance, near->normal, &gap);
+        near->point = gap.on_b;
     }
     near->distance -= probe->radius + piece->radius;
     near->point = v_mad(near->point, near->normal, piece->radius);
@@ -211,6 +212,7 @@ static void measure_core(const tahr__ccd_probe *probe, const tahr__ccd_piece *pi
                          tahr__ccd_near *near)
 {
     tahr__witness w = {0};
+    tahr__gap gap;
     tahr_vec3 way_out;
     double depth;
 
@@ -223,7 +225,8 @@ static void measure_core(const tahr__ccd_probe *probe, const tahr__ccd_piece *pi
     near->distance = (depth >= 0 ? -depth : w.distance) - probe->radius - piece->radius;
     if (depth >= 0) {
         near->part = TAHR__FACE;
-        near->point = point_left(probe, piece, centre, depth, near->normal);
+        leave_along(probe, piece, centre, depth, near->normal, &gap);
+        near->point = gap.on_b;
     }
     near->point = v_mad(near->point, near->normal, piece->radius);
 }
