@@ -293,9 +293,235 @@ static void sweeps_of_every_pair_are_where_extents_and_points_say(void **state)
     expect_none_wrong(&t);
 }
 
+/* Sizes of a millionth of a metre to ten kilometres: everything grows with it, the allowance too. */
+static void sweeps_are_as_exact_for_the_smallest_and_the_largest(void **state)
+{
+    static const double scales[] = {4e-5, 1e-3, 30, 5e3};
+    (void)state;
+    dice.state = 9;
+    for (size_t i = 0; i < sizeof scales / sizeof scales[0]; i++) {
+        tally t = {0};
+        every_pair(scales[i], 1, &t);
+        assert_true(t.hits > 200);
+        expect_none_wrong(&t);
+    }
+}
+
+static tahr_hit ask(tahr_world *world, const tahr_sweep *q, uint32_t *count)
+{
+    tahr_hit hit = {0};
+    *count = 0;
+    assert_int_equal(tahr_world_sweep(world, q, &hit, 1, count), TAHR_OK);
+    return hit;
+}
+
+/* Where a graze makes the time uncertain the gap is not; 1e-9 of the size for each of the two. */
+static int alike(const tahr_sweep *q, const tahr_hit *a, const tahr_hit *b)
+{
+    double slope = fabs(dot(q->motion, a->normal)) + fabs(dot(q->motion, b->normal));
+    if (a->start_overlap || b->start_overlap) return a->start_overlap && b->start_overlap && a->depth == b->depth;
+    return fabs(a->fraction - b->fraction) * slope <= 4e-9 || fabs(a->fraction - b->fraction) < 1e-9;
+}
+
+static void all_settings_answer_alike(void **state)
+{
+    static const tahr_ccd_desc settings[] = {
+        {sizeof(tahr_ccd_desc), TAHR_CCD_SWEEP_ADVANCE, 0, 0, {0}},
+        {sizeof(tahr_ccd_desc), TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_GJK, 0, {0}},
+        {sizeof(tahr_ccd_desc), TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_MPR, 0, {0}},
+        {sizeof(tahr_ccd_desc), TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_GJK, 3, {0}},
+        {sizeof(tahr_ccd_desc), TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_MPR, 3, {0}},
+    };
+    enum { COUNT = sizeof settings / sizeof settings[0] };
+    tahr_world *worlds[COUNT];
+    int hits = 0, differ[COUNT] = {0};
+    pair p = {.scale = 1};
+    (void)state;
+    for (uint32_t i = 0; i < SHAPES * BODIES * 2; i++) {
+        for (int k = 0; k < COUNT; k++) {
+            dice.state = 1000 + i;
+            open_pair(&p, 1 + i % SHAPES, body_types[i / SHAPES % BODIES], &settings[k]);
+            worlds[k] = p.world;
+        }
+        for (int n = 0; n < SWEEPS; n++) {
+            tahr_sweep q = random_sweep(&p);
+            uint32_t found, other;
+            tahr_hit a = ask(worlds[0], &q, &found), b;
+            hits += (int)found;
+            for (int k = 1; k < COUNT; k++) {
+                b = ask(worlds[k], &q, &other);
+                differ[k] += found != other || (found && !alike(&q, &a, &b));
+            }
+        }
+        for (int k = 0; k < COUNT; k++)
+            tahr_world_close(worlds[k]);
+    }
+    assert_true(hits > 800);
+    for (int k = 1; k < COUNT; k++)
+        assert_int_equal(differ[k], 0);
+}
+
+static void settings_out_of_range_are_refused(void **state)
+{
+    const tahr_ccd_desc good = {.struct_size = sizeof good};
+    tahr_ccd_desc bad[6] = {good, good, good, good, good, good};
+    const tahr_status status[6] = {TAHR_E_ARGUMENT, TAHR_E_ARGUMENT,    TAHR_E_ARGUMENT,
+                                   TAHR_E_ARGUMENT, TAHR_E_STRUCT_SIZE, TAHR_OK};
+    (void)state;
+    bad[0].sweep = 3;
+    bad[1].boolean = 3;
+    bad[2].max_iterations = 10001;
+    bad[3].reserved[2] = 1;
+    bad[4].struct_size = 4;
+    for (int i = 0; i < 6; i++) {
+        tahr_world *world = NULL;
+        tahr_world_desc desc;
+        tahr_world_desc_init(&desc, sizeof desc);
+        desc.options = &bad[i];
+        assert_int_equal(tahr_world_open(tahr_backend_v1_ccd(), &desc, &world), status[i]);
+        assert_true((world != NULL) == (status[i] == TAHR_OK));
+        tahr_world_close(world);
+    }
+}
+
+/* --- What must not happen on odd input --- */
+
+static void hulls_without_a_volume_are_refused(void **state)
+{
+    static const double flat[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0.5, 0.5, 0};
+    static const double line[] = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4};
+    static const double point[15] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+    static const double wild[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, NAN, 1, 1, 1};
+    static const double far[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1e300, 1, 1, 1};
+    const double *const vertices[] = {flat, line, point, wild, far};
+    (void)state;
+    for (size_t i = 0; i < sizeof vertices / sizeof vertices[0]; i++) {
+        tahr_world *world = NULL;
+        tahr_world_desc desc;
+        tahr_body_desc body;
+        tahr_body_desc_init(&body, sizeof body, TAHR_BODY_HULL);
+        body.vertices = vertices[i];
+        body.vertex_count = 5;
+        tahr_world_desc_init(&desc, sizeof desc);
+        desc.bodies = &body;
+        desc.body_count = 1;
+        assert_int_equal(tahr_world_open(tahr_backend_v1_ccd(), &desc, &world), TAHR_E_GEOMETRY);
+        assert_null(world);
+    }
+}
+
+/* Straight down from h above a body at the origin whose top is level at `top`, at gaps of 0 and an ulp to either side,
+ * near the origin and a thousand kilometres from it. */
+static void exact_touching_is_decided_by_direction(void **state)
+{
+    const tahr_vec3 places[] = {{0, 0, 0}, {1e6, -1e6, 0}};
+    static const uint32_t flat[] = {TAHR_BODY_CYLINDER, TAHR_BODY_BOX};
+    (void)state;
+    for (int i = 0; i < 2 * 2 * 3 * 3; i++) {
+        static const uint32_t shapes[3] = {TAHR_SHAPE_CYLINDER, TAHR_SHAPE_CONE, TAHR_SHAPE_ELLIPSOID};
+        tahr_vec3 at = places[i % 2];
+        uint32_t shape = shapes[i / 12], count;
+        int wide = shape == TAHR_SHAPE_ELLIPSOID;
+        tahr_body_desc body;
+        tahr_world_desc desc;
+        tahr_world *world = NULL;
+        tahr_body_desc_init(&body, sizeof body, flat[i / 2 % 2]);
+        body.pose.position = at;
+        body.radius = 1;
+        body.half_height = 0.5;
+        body.half_extents = (tahr_vec3){1, 1, 0.5};
+        tahr_world_desc_init(&desc, sizeof desc);
+        desc.bodies = &body;
+        desc.body_count = 1;
+        assert_int_equal(tahr_world_open(tahr_backend_v1_ccd(), &desc, &world), TAHR_OK);
+        tahr_sweep q = {.shape = {shape, 0, wide ? 0 : 0.25, 0.5, wide ? 0.25 : 0, wide ? 0.25 : 0},
+                        .up = {0, 0, 1},
+                        .orientation = {0, 0, 0, 1},
+                        .mask = 0xFFFFFFFFu,
+                        .ignore_body = TAHR_NO_BODY};
+        q.position = (tahr_vec3){at.x + 0.125, at.y, at.z + 1 + (i / 4 % 3 - 1) * 2.220446049250313e-16};
+        q.motion = (tahr_vec3){0, 0, -1};
+        tahr_hit hit = ask(world, &q, &count);
+        assert_true(count == 1 && hit.fraction < 1e-9 && hit.normal.z > 1 - 1e-9 && hit.depth < 1e-9);
+        q.motion = (tahr_vec3){0, 0, 1};
+        hit = ask(world, &q, &count);
+        assert_true(count == 0 || (hit.start_overlap && hit.depth < 1e-9));
+        q.position.z += 1e-6; /* a micrometre of air: parallel motion is free */
+        q.motion = (tahr_vec3){0.5, 0.25, 0};
+        ask(world, &q, &count);
+        assert_int_equal(count, 0);
+        tahr_world_close(world);
+    }
+}
+
+/* Centres, axes and all the same: there is a way out, and it is one. */
+static void concentric_shapes_leave_each_other(void **state)
+{
+    pair p = {.scale = 1};
+    (void)state;
+    dice.state = 12;
+    for (uint32_t i = 0; i < SHAPES * BODIES; i++) {
+        uint32_t count;
+        open_pair(&p, 1 + i % SHAPES, body_types[i / SHAPES], NULL);
+        tahr_sweep q = random_sweep(&p);
+        q.position = (tahr_vec3){(double)p.body.at.x, (double)p.body.at.y, (double)p.body.at.z};
+        tahr_hit hit = ask(p.world, &q, &count);
+        if (body_types[i / SHAPES] != TAHR_BODY_MESH) { /* whose centre is no point of it */
+            assert_true(count == 1 && hit.start_overlap && hit.depth > 0);
+            solid_place(&p.character, q.position, q.orientation);
+            solid_real way = solid_way(&p.character, (tahr_vec3){0, 0, 0}, &p.body, hit.normal);
+            assert_true(fabsl(way - hit.depth) < 1e-9L);
+        }
+        tahr_world_close(p.world);
+    }
+}
+
+/* A triangle of a hundred metres by a hair, and one as thin as a mesh keeps. */
+static void slivers_are_met_where_they_are(void **state)
+{
+    static const double widths[] = {1e-3, 1e-6, 2e-8};
+    static const uint32_t indices[] = {0, 1, 2};
+    (void)state;
+    for (int i = 0; i < 3 * 2; i++) {
+        const double vertices[] = {-50, 0, 0, 50, 0, 0, 0, widths[i % 3], 0};
+        tahr_body_desc body;
+        tahr_world_desc desc;
+        tahr_world *world = NULL;
+        uint32_t count;
+        tahr_body_desc_init(&body, sizeof body, TAHR_BODY_MESH);
+        body.vertices = vertices;
+        body.indices = indices;
+        body.vertex_count = 3;
+        body.triangle_count = 1;
+        body.flags = TAHR_BODY_TWO_SIDED;
+        tahr_world_desc_init(&desc, sizeof desc);
+        desc.bodies = &body;
+        desc.body_count = 1;
+        assert_int_equal(tahr_world_open(tahr_backend_v1_ccd(), &desc, &world), TAHR_OK);
+        tahr_sweep q = {.shape = {i < 3 ? TAHR_SHAPE_CYLINDER : TAHR_SHAPE_CONE, 0, 0.25, 0.5, 0, 0},
+                        .position = {3, 0, 1.51},
+                        .up = {0, 0, 1},
+                        .orientation = {0, 0, 0, 1},
+                        .motion = {0, 0, -2},
+                        .margin = 0.01,
+                        .mask = 0xFFFFFFFFu,
+                        .ignore_body = TAHR_NO_BODY};
+        tahr_hit hit = ask(world, &q, &count);
+        assert_true(count == 1 && hit.blocking && fabs(hit.fraction - 0.5) < 1e-8 && hit.normal.z > 1 - 1e-9);
+        tahr_world_close(world);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sweeps_are_as_exact_for_the_smallest_and_the_largest),
+        cmocka_unit_test(all_settings_answer_alike),
+        cmocka_unit_test(settings_out_of_range_are_refused),
+        cmocka_unit_test(hulls_without_a_volume_are_refused),
+        cmocka_unit_test(exact_touching_is_decided_by_direction),
+        cmocka_unit_test(concentric_shapes_leave_each_other),
+        cmocka_unit_test(slivers_are_met_where_they_are),
         cmocka_unit_test(sweeps_of_every_pair_are_where_extents_and_points_say),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
