@@ -175,22 +175,33 @@ static void leave_along(const tahr__ccd_probe *probe, const tahr__ccd_piece *pie
     tahr__convex_distance(&a, &b, normal, gap);
 }
 
+/* A triangle most often faces the shape. */
+static tahr_vec3 likely_normal(const tahr__ccd_piece *piece, tahr_vec3 centre)
+{
+    if (piece->body->type != TAHR_BODY_MESH) return v_make(0, 0, 0);
+    tahr_vec3 n = tahr__ccd_triangle_normal(piece->corner);
+    return v_dot(n, v_sub(centre, piece->corner[0])) < 0 ? v_scale(n, -1) : n;
+}
+
 static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
                            tahr__ccd_near *near)
 {
     tahr__convex a = probe->shape, b;
     tahr__gap gap;
 
+    /* What the whole motion does not lead to is not measured to the end. */
+    const tahr__clearance enough = {probe->motion, probe->radius + piece->radius + probe->margin};
+
     a.centre = v_add(a.centre, centre);
     tahr__ccd_convex(probe, piece, &b);
-    tahr__convex_distance(&a, &b, v_make(0, 0, 0), &gap);
+    tahr__convex_clear(&a, &b, likely_normal(piece, a.centre), &enough, &gap);
     near->reserved = 0;
     near->part = TAHR__FACE;
-    if (gap.distance > TOUCHING) {
+    if (gap.clear || gap.distance > TOUCHING) {
         near->distance = d_max(gap.lower, 0);
         near->normal = gap.normal;
         near->point = gap.on_b;
-        if (piece->body->type == TAHR_BODY_MESH) near->part = part_of(piece, &gap);
+        if (piece->body->type == TAHR_BODY_MESH && !gap.clear) near->part = part_of(piece, &gap);
     } else if (gap.lower > -TOUCHING) { /* the plane between them is as good as a contact */
         near->distance = gap.lower;
         near->normal = gap.normal;

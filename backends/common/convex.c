@@ -7,6 +7,8 @@
  * are looked at; and the iteration ends when nothing is gained, with the last certificate. */
 #include "convex.h"
 
+#include <stddef.h>
+
 enum { MAX_ITERATIONS = 128 };
 
 /* The two ends of the bracket differ by this when it is done (m, with shapes of 1 m), or by the rounding of the largest
@@ -254,7 +256,18 @@ static void write_witness(const simplex *s, const tahr__convex *b, tahr__gap *ga
     }
 }
 
+static int is_clear(const tahr__clearance *enough, const tahr__gap *gap)
+{
+    return enough && gap->lower - enough->reach > d_max(0, -v_dot(enough->motion, gap->normal));
+}
+
 void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, tahr__gap *gap)
+{
+    tahr__convex_clear(a, b, first, NULL, gap);
+}
+
+void tahr__convex_clear(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, const tahr__clearance *enough,
+                        tahr__gap *gap)
 {
     simplex s = {.count = 0};
     double square = 1e300, largest = 0;
@@ -269,6 +282,8 @@ void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_ve
         if (lower > gap->lower) {
             gap->lower = lower;
             gap->normal = v_scale(v, 1.0 / length);
+            gap->clear = is_clear(enough, gap) != 0;
+            if (gap->clear) return;
         }
         if (is_known(&s, next.w)) break;
         if (gap->distance > 0 && gap->distance - gap->lower <= ENOUGH + ROUNDING * sqrt(largest)) break;

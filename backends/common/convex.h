@@ -48,11 +48,24 @@ typedef struct tahr__gap {
     double weight[3];    /* of the first three points of b, if it has so many: where on_b lies between them */
     uint32_t iterations; /* support points asked for */
     uint32_t given_up;   /* 1: the cap on iterations ended it; lower and distance hold all the same */
+    uint32_t clear;      /* 1: tahr__convex_clear ended it early */
+    uint32_t reserved;
 } tahr__gap;
 
 /* Distance of a and b. first: a guess of the normal, or zero. With shapes about 1 m in size lower and distance differ
  * by 1e-12 m, more only where given_up says so. */
 void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, tahr__gap *gap);
+
+/* What a question about a motion of a needs to know no more: a plane whose gap is wider than reach even at the end of
+ * the motion. */
+typedef struct tahr__clearance {
+    tahr_vec3 motion;
+    double reach;
+} tahr__clearance;
+
+/* The same, ended as soon as there is such a plane: only lower and normal are set then. */
+void tahr__convex_clear(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, const tahr__clearance *enough,
+                        tahr__gap *gap);
 
 /* How far a must move along the unit vector n to leave b: exact for this direction; negative if they are apart along
  * it. */
