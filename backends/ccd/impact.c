@@ -17,24 +17,25 @@ enum { MAX_APPROACHES = 4, MAX_BISECTIONS = 40, MAX_TANGENTS = 64 };
 static tahr__ccd_verdict advance(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double limit,
                                  int came_by_tangent, double *fraction, tahr__ccd_near *near)
 {
-    double t = *fraction;
-    tahr__ccd_near before = *near;
+    double t = *fraction, last_speed = -v_dot(probe->motion, near->normal);
 
     for (int i = 0; i < MAX_TANGENTS; i++) {
-        tahr__ccd_measure(probe, piece, v_scale(probe->motion, t), near);
+        tahr__ccd_measure_far(probe, piece, v_scale(probe->motion, t), near);
         probe->context->narrow_iterations++;
         double gap = near->distance - probe->margin, speed = -v_dot(probe->motion, near->normal);
         *fraction = t;
         if (gap <= ARRIVED && gap >= -ARRIVED) return TAHR__CCD_HIT;
         if (came_by_tangent && gap < 0) {
-            /* They touch, no more. What is deeper is the way back to the front of a triangle that is crossed there. */
-            if (gap < -BRACKET) *near = before;
-            near->distance = d_max(near->distance, probe->margin);
+            /* They touch, no more. What is deeper is the way back to the front of a triangle that is crossed there: the
+             * contact itself is seen from a micrometre before. */
+            double back = d_max(0, t - BRACKET / last_speed);
+            if (gap < -BRACKET) tahr__ccd_measure(probe, piece, v_scale(probe->motion, back), near);
+            near->distance = probe->margin;
             return TAHR__CCD_HIT;
         }
         if (!(speed > 0)) return gap > 0 ? TAHR__CCD_FREE : TAHR__CCD_UNKNOWN;
         came_by_tangent = gap > 0;
-        before = *near;
+        last_speed = speed;
         t += gap / speed;
         if (t > limit) return TAHR__CCD_FREE;
         if (t < 0) t = 0;
@@ -81,7 +82,7 @@ static double approach(const tahr__ccd_probe *probe, const tahr__ccd_piece *piec
 {
     for (int i = 0; i < MAX_APPROACHES && safe <= limit; i++) {
         tahr__ccd_near here;
-        tahr__ccd_measure(probe, piece, v_scale(probe->motion, safe), &here);
+        tahr__ccd_measure_far(probe, piece, v_scale(probe->motion, safe), &here);
         probe->context->narrow_iterations++;
         double gap = here.distance - probe->margin, speed = -v_dot(probe->motion, here.normal);
         if (gap <= BRACKET) break;

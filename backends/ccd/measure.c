@@ -183,18 +183,17 @@ static tahr_vec3 likely_normal(const tahr__ccd_piece *piece, tahr_vec3 centre)
     return v_dot(n, v_sub(centre, piece->corner[0])) < 0 ? v_scale(n, -1) : n;
 }
 
-static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
+static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre, int rough,
                            tahr__ccd_near *near)
 {
     tahr__convex a = probe->shape, b;
     tahr__gap gap;
 
-    /* What the whole motion does not lead to is not measured to the end. */
     const tahr__clearance enough = {probe->motion, probe->radius + piece->radius + probe->margin};
 
     a.centre = v_add(a.centre, centre);
     tahr__ccd_convex(probe, piece, &b);
-    tahr__convex_clear(&a, &b, likely_normal(piece, a.centre), &enough, &gap);
+    tahr__convex_clear(&a, &b, likely_normal(piece, a.centre), rough ? &enough : NULL, &gap);
     near->reserved = 0;
     near->part = TAHR__FACE;
     if (gap.clear || gap.distance > TOUCHING) {
@@ -248,7 +247,16 @@ void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piec
     if (probe->is_core && !tahr__ccd_is_convex(piece))
         measure_core(probe, piece, centre, near);
     else
-        measure_convex(probe, piece, centre, near);
+        measure_convex(probe, piece, centre, 0, near);
+}
+
+void tahr__ccd_measure_far(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
+                           tahr__ccd_near *near)
+{
+    if (probe->is_core && !tahr__ccd_is_convex(piece))
+        measure_core(probe, piece, centre, near);
+    else
+        measure_convex(probe, piece, centre, 1, near);
 }
 
 int tahr__ccd_in_front(const tahr__ccd_piece *piece, const tahr__ccd_near *near)

@@ -127,6 +127,10 @@ tahr_vec3 tahr__ccd_triangle_normal(const tahr_vec3 v[3]);
 /* measure.c: everything that the distance decides. */
 void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
                        tahr__ccd_near *near);
+/* The same within the margin; beyond it as well as a tangent needs: a plane between the two that the motion does not
+ * cross before near->distance and near->normal say so. The rest of near is not sure there. */
+void tahr__ccd_measure_far(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
+                           tahr__ccd_near *near);
 /* Can it be felt from here at all? One-sided triangles are not there for what is behind them. */
 int tahr__ccd_in_front(const tahr__ccd_piece *piece, const tahr__ccd_near *near);
 

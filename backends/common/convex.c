@@ -15,6 +15,9 @@ enum { MAX_ITERATIONS = 128 };
  * coordinate. */
 #define ENOUGH 1e-12
 #define ROUNDING 8e-16
+/* What is farther beyond reach than this (m) need be known to this part only. */
+#define NEAR 1e-6
+#define ROUGH 0.1
 /* Squared sine below which a direction is along an axis. */
 #define AXIAL 1e-28
 /* Volume over the product of three edges: thinner tetrahedra hold nothing that their faces do not. */
@@ -261,6 +264,13 @@ static int is_clear(const tahr__clearance *enough, const tahr__gap *gap)
     return enough && gap->lower - enough->reach > d_max(0, -v_dot(enough->motion, gap->normal));
 }
 
+/* By how much lower and distance may differ in the end. */
+static double allowance(const tahr__clearance *enough, const tahr__gap *gap, double largest2)
+{
+    if (enough && gap->lower - enough->reach > NEAR) return ROUGH * (gap->lower - enough->reach);
+    return ENOUGH + ROUNDING * sqrt(largest2);
+}
+
 void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, tahr__gap *gap)
 {
     tahr__convex_clear(a, b, first, NULL, gap);
@@ -286,7 +296,7 @@ void tahr__convex_clear(const tahr__convex *a, const tahr__convex *b, tahr_vec3 
             if (gap->clear) return;
         }
         if (is_known(&s, next.w)) break;
-        if (gap->distance > 0 && gap->distance - gap->lower <= ENOUGH + ROUNDING * sqrt(largest)) break;
+        if (gap->distance > 0 && gap->distance - gap->lower <= allowance(enough, gap, largest)) break;
         if (gap->iterations >= MAX_ITERATIONS) {
             gap->given_up = 1;
             break;

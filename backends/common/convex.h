@@ -56,14 +56,15 @@ typedef struct tahr__gap {
  * by 1e-12 m, more only where given_up says so. */
 void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, tahr__gap *gap);
 
-/* What a question about a motion of a needs to know no more: a plane whose gap is wider than reach even at the end of
- * the motion. */
+/* What a question about a motion of a need not know better: that it stays farther than reach, and how far it is beyond
+ * that while it is far. */
 typedef struct tahr__clearance {
     tahr_vec3 motion;
     double reach;
 } tahr__clearance;
 
-/* The same, ended as soon as there is such a plane: only lower and normal are set then. */
+/* The same, ended as soon as there is a plane whose gap is wider than reach even at the end of the motion (clear: only
+ * lower and normal are set then), or as lower tells what is beyond reach to a tenth. */
 void tahr__convex_clear(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, const tahr__clearance *enough,
                         tahr__gap *gap);
 
