@@ -21,6 +21,8 @@ int main(void)
 #else
 #include <tahr/ccd.h>
 
+#include "dice.h"
+
 enum { KINDS = 4, RIM = 8, HULL_VERTICES = 2 * RIM, PRESETS = 2 };
 
 #define RADIUS 0.35
@@ -316,6 +318,116 @@ static void a_hull_must_be_a_template_of_the_scene_and_as_large(void **state)
     end(&w);
 }
 
+/* A floor of hills with a rim around it and solids of every kind on it, and a way by dice: nobody falls through, nobody
+ * gets deeper into anything than a backend may let them (5 mm), every step is answered. */
+enum { CELLS = 24, SOLIDS = 40, STEPS = 1500 };
+
+static double hills[(CELLS + 1) * (CELLS + 1) * 3];
+static uint32_t hill_triangles[CELLS * CELLS * 6];
+
+static tahr_body_desc hilly_floor(void)
+{
+    tahr_body_desc floor;
+    uint32_t *index = hill_triangles;
+    for (uint32_t i = 0; i < (CELLS + 1) * (CELLS + 1); i++) {
+        double x = (double)(i % (CELLS + 1)) - CELLS / 2, y = (double)(i / (CELLS + 1)) - CELLS / 2;
+        int rim = fabs(x) == CELLS / 2 || fabs(y) == CELLS / 2;
+        hills[3 * i] = x;
+        hills[3 * i + 1] = y;
+        hills[3 * i + 2] = rim ? 8 : 0.3 * sin(x) + 0.3 * cos(1.3 * y);
+    }
+    for (uint32_t i = 0; i < CELLS * CELLS; i++) {
+        uint32_t a = i / CELLS * (CELLS + 1) + i % CELLS;
+        const uint32_t cell[6] = {a, a + 1, a + CELLS + 2, a, a + CELLS + 2, a + CELLS + 1};
+        for (int k = 0; k < 6; k++)
+            *index++ = cell[k];
+    }
+    tahr_body_desc_init(&floor, sizeof floor, TAHR_BODY_MESH);
+    floor.vertices = hills;
+    floor.indices = hill_triangles;
+    floor.vertex_count = (CELLS + 1) * (CELLS + 1);
+    floor.triangle_count = CELLS * CELLS * 2;
+    return floor;
+}
+
+static void open_park(walker *w, int kind, oracle_random *dice)
+{
+    static const uint32_t types[] = {TAHR_BODY_BOX,  TAHR_BODY_SPHERE,    TAHR_BODY_CAPSULE, TAHR_BODY_CYLINDER,
+                                     TAHR_BODY_CONE, TAHR_BODY_ELLIPSOID, TAHR_BODY_HULL};
+    tahr_body_desc bodies[SOLIDS + 2] = {hilly_floor()};
+    tahr_vec3 at = {0, 0, 3.5};
+    tahr_world_desc desc;
+    for (uint32_t i = 1; i < SOLIDS + 2; i++) {
+        tahr_body_desc *b = &bodies[i];
+        tahr_body_desc_init(b, sizeof *b, types[i % 7]);
+        b->pose.position = (tahr_vec3){oracle_uniform(dice, -10, 10), oracle_uniform(dice, -10, 10), 0};
+        b->pose.orientation = (tahr_quat){0, sin(0.1 * i), 0, cos(0.1 * i)};
+        b->radius = oracle_uniform(dice, 0.2, 0.6);
+        b->half_height = b->radius + oracle_uniform(dice, 0, 0.6);
+        b->half_extents = dice_vec(dice, 0.2, 0.9);
+        b->vertices = hull_vertices;
+        b->vertex_count = HULL_VERTICES;
+    }
+    tahr_body_desc_init(&bodies[1], sizeof bodies[1], TAHR_BODY_HULL);
+    bodies[1].vertices = hull_vertices;
+    bodies[1].vertex_count = HULL_VERTICES;
+    bodies[1].flags = TAHR_BODY_TEMPLATE;
+    memset(w, 0, sizeof *w);
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = bodies;
+    desc.body_count = SOLIDS + 2;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_ccd(), &desc, &w->world), TAHR_OK);
+    tahr_config_init(&w->config, sizeof w->config, TAHR_PRESET_PRECISE);
+    w->config.shape = shape_of(kind);
+    assert_int_equal(tahr_mover_create(w->world, &w->config, &w->mover), TAHR_OK);
+    assert_int_equal(tahr_state_init(&w->state, &w->config, &at), TAHR_OK);
+    w->input.struct_size = sizeof w->input;
+}
+
+static double deepest(const walker *w)
+{
+    tahr_contact contacts[16];
+    tahr_contact_query q = {.shape = w->config.shape,
+                            .position = w->state.position,
+                            .up = w->state.up,
+                            .orientation = w->state.orientation,
+                            .mask = 0xFFFFFFFFu,
+                            .ignore_body = TAHR_NO_BODY};
+    uint32_t count = 0;
+    assert_true(tahr_world_contacts(w->world, &q, contacts, 16, &count) >= 0);
+    return count ? -contacts[0].distance : 0;
+}
+
+static void wanders_among_solids_of_every_kind(void **state)
+{
+    oracle_random dice = {77};
+    walker w;
+    (void)state;
+    for (int kind = 0; kind < KINDS; kind++) {
+        double worst = 0, way = 0;
+        int unlucky = 0;
+        open_park(&w, kind, &dice);
+        for (int i = 0; i < STEPS; i++) {
+            tahr_vec3 before = w.state.position;
+            if (i % 40 == 0) w.input.move = dice_vec(&dice, -1, 1);
+            w.input.move.z = 0;
+            w.input.jump = i % 90 < 10;
+            tahr_status status = tahr_mover_step(w.mover, &w.input, 1.0 / 60, &w.state, NULL);
+            assert_true(status >= 0);
+            unlucky += status != TAHR_OK && status != TAHR_STUCK;
+            worst = fmax(worst, deepest(&w));
+            way += hypot(w.state.position.x - before.x, w.state.position.y - before.y);
+            assert_true(w.state.position.z > -1);
+        }
+        print_message("    shape %u: %.0f m on the way, %.2g m deep at most, %d steps with a complaint\n",
+                      w.config.shape.type, way, worst, unlucky);
+        assert_true(worst <= 5e-3);
+        assert_true(way > 15);
+        assert_true(unlucky * 100 <= STEPS);
+        end(&w);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -327,6 +439,7 @@ int main(void)
         cmocka_unit_test(a_flat_base_stands_on_an_edge_until_it_leaves_it),
         cmocka_unit_test(an_ellipsoid_slides_off_an_edge_that_it_touches_with_its_side),
         cmocka_unit_test(crouches_under_a_ceiling_and_rises_where_there_is_room),
+        cmocka_unit_test(wanders_among_solids_of_every_kind),
         cmocka_unit_test(a_hull_must_be_a_template_of_the_scene_and_as_large),
     };
     make_hull();
