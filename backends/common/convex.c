@@ -15,6 +15,8 @@ enum { MAX_ITERATIONS = 128 };
  * coordinate. */
 #define ENOUGH 1e-12
 #define ROUNDING 8e-16
+/* Squared, of the largest coordinate: a nearest point that is the origin but for rounding. */
+#define NOTHING 1e-30
 /* What is farther beyond reach than this (m) need be known to this part only. */
 #define NEAR 1e-6
 #define ROUGH 0.1
@@ -305,7 +307,7 @@ void tahr__convex_clear(const tahr__convex *a, const tahr__convex *b, tahr_vec3 
         s.v[s.count++] = next;
         nearest n = solve(&s);
         /* A plane that passes between them is proof; a thin simplex is none that they overlap. */
-        if ((s.holds || !(n.square > 0)) && !(gap->lower > 0)) {
+        if ((s.holds || !(n.square > NOTHING * largest)) && !(gap->lower > 0)) {
             gap->distance = 0;
             return;
         }
