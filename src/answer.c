@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "message.h"
+#include "shape.h"
 
 static const char *bad_rule(uint32_t rule, double angle)
 {
@@ -85,16 +86,11 @@ tahr_status tahr__bad_answer(const tahr_world *world, const char *slot, const ch
     return tahr__complain(&world->log, TAHR_E_BACKEND, slot, field, "in the answer is invalid");
 }
 
-/* A backend without the margin gets round shapes inflated: then its overlap of depth d is a gap of margin - d. */
+/* A backend without the margin gets the shape inflated: then its overlap of depth d is a gap of margin - d. Of a sphere
+ * and a capsule that is exact, of the others as shape_grow says; hulls are refused. */
 static void inflate(tahr_sweep *q)
 {
-    q->shape.radius += q->margin;
-    q->shape.half_height += q->margin;
-    q->shape.half_x += q->shape.type == TAHR_SHAPE_BOX ? q->margin : 0;
-    q->shape.half_y += q->shape.type == TAHR_SHAPE_BOX ? q->margin : 0;
-    if (q->shape.type == TAHR_SHAPE_BOX) {
-        q->shape.radius = 0;
-    }
+    shape_grow(&q->shape, q->margin);
     q->flags |= TAHR_SWEEP_LEAVE_OVERLAP;
     q->margin = 0;
 }

@@ -31,6 +31,9 @@ static const char *bad_request(const tahr_input *in, const tahr_shape *shape)
     if ((in->flags & TAHR_INPUT_SHAPE) && !(in->half_height >= 1e-6 && in->half_height <= 1e4)) {
         return "input.half_height";
     }
+    if ((in->flags & TAHR_INPUT_SHAPE) && shape->type == TAHR_SHAPE_HULL && asked.half_height != shape->half_height) {
+        return "input.half_height"; /* its vertices do not change */
+    }
     if ((in->flags & TAHR_INPUT_SHAPE) && tahr__shape_check(&asked)) { /* of boxes 0, of spheres the half height */
         return "input.radius";
     }
@@ -111,7 +114,7 @@ static const char *bad_shape(const tahr_state *s, const tahr_shape *shape)
     }
     own.radius = s->radius;
     own.half_height = s->half_height;
-    if (!tahr__shape_check(&own)) {
+    if (!tahr__shape_check(&own) && shape->type != TAHR_SHAPE_HULL) {
         return NULL;
     }
     return s->radius == shape->radius ? "state.half_height" : "state.radius";
@@ -167,7 +170,7 @@ static const char *bad_state(const tahr_state *s, const tahr_shape *shape)
     if (!(up2 > 1 - 1e-9 && up2 < 1 + 1e-9)) {
         return "state.up";
     }
-    if (shape->type == TAHR_SHAPE_BOX && !(dot(rotate(s->orientation, vec(0, 0, 1)), s->up) > 1 - 1e-6)) {
+    if (!shape_is_round(shape) && !(dot(rotate(s->orientation, vec(0, 0, 1)), s->up) > 1 - 1e-6)) {
         return "state.orientation";
     }
     if (!tahr__is_mode(s->mode)) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "core.h"
+#include "shape.h"
 
 /* Does the state remember nothing, from radius on? Then all of that is in order. */
 static inline int state_is_blank(const tahr_mover *mover, const tahr_state *s)
@@ -33,7 +34,7 @@ static inline int arguments_are_usual(const tahr_mover *mover, const tahr_input 
     odd |= s->flags & ~(uint32_t)((TAHR_STATE_CRUSHED << 1) - 1);
     double off = (turn - 1) * (turn - 1) + (up - 1) * (up - 1); /* of the units from unit length, squared */
     normals -= f->flags ? 2 : 0;                                /* zero where there is no floor */
-    return odd == 0 && s->mode <= TAHR_MODE_CUSTOM && mover->config.shape.type != TAHR_SHAPE_BOX && dt >= 0 &&
+    return odd == 0 && s->mode <= TAHR_MODE_CUSTOM && shape_is_round(&mover->config.shape) && dt >= 0 &&
            dt <= mover->config.max_dt && places <= 4e14 && speeds <= 1e10 && off + normals * normals <= 1e-18 &&
            s->jump_hold == 0;
 }

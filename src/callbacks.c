@@ -12,22 +12,47 @@ static void close_callbacks(void *self)
     (void)self; /* the world owns it */
 }
 
+/* A level way from the axis to the rim, toward a direction; none along the axis. */
+static vec3 rim_toward(const tahr_sweep *q, vec3 direction)
+{
+    vec3 level = add_scaled(direction, q->up, -dot(direction, q->up));
+    double size = length(level);
+    return size > 1e-9 ? scale(level, q->shape.radius / size) : vec(0, 0, 0);
+}
+
+/* The lowest point of the shape at the origin along a normal. Of a hull that of the box of its extents: its vertices are
+ * the user's. */
+static vec3 lowest_point(const tahr_sweep *q, vec3 normal)
+{
+    const tahr_shape *s = &q->shape;
+    vec3 x = rotate(q->orientation, vec(1, 0, 0)), y = rotate(q->orientation, vec(0, 1, 0));
+    double along = dot(normal, q->up), ax = dot(normal, x), ay = dot(normal, y);
+    double side = along > 0 ? -1 : (along < 0 ? 1 : 0);
+    vec3 end = scale(q->up, side * s->half_height), rim;
+    switch (s->type) {
+    case TAHR_SHAPE_BOX:
+    case TAHR_SHAPE_HULL:
+        end = add_scaled(end, x, ax > 1e-9 ? -s->half_x : (ax < -1e-9 ? s->half_x : 0));
+        return add_scaled(end, y, ay > 1e-9 ? -s->half_y : (ay < -1e-9 ? s->half_y : 0));
+    case TAHR_SHAPE_CYLINDER: return add(end, rim_toward(q, scale(normal, -1)));
+    case TAHR_SHAPE_CONE:
+        rim = add(scale(q->up, -s->half_height), rim_toward(q, scale(normal, -1)));
+        return dot(rim, normal) <= s->half_height * along ? rim : scale(q->up, s->half_height);
+    case TAHR_SHAPE_ELLIPSOID: {
+        double ex = s->half_x * ax, ey = s->half_y * ay, ez = s->half_height * along;
+        double size = sqrt(ex * ex + ey * ey + ez * ez);
+        end = add_scaled(scale(x, -s->half_x * ex / size), y, -s->half_y * ey / size);
+        return add_scaled(end, q->up, -s->half_height * ez / size);
+    }
+    default: return add_scaled(scale(q->up, side * (s->half_height - s->radius)), normal, -s->radius);
+    }
+}
+
 /* Where the shape, stopped at the hit, is nearest to a surface with that normal. */
 static vec3 nearest_point(const tahr_sweep *q, const tahr_hit *h)
 {
     vec3 centre = add_scaled(q->position, q->motion, h->fraction);
-    double along = dot(h->normal, q->up);
-    double side = along > 0 ? -1 : (along < 0 ? 1 : 0);
-    if (q->shape.type == TAHR_SHAPE_BOX) {
-        vec3 x = rotate(q->orientation, vec(1, 0, 0)), y = rotate(q->orientation, vec(0, 1, 0));
-        double ax = dot(h->normal, x), ay = dot(h->normal, y);
-        vec3 corner = add_scaled(centre, q->up, side * q->shape.half_height);
-        corner = add_scaled(corner, x, ax > 1e-9 ? -q->shape.half_x : (ax < -1e-9 ? q->shape.half_x : 0));
-        corner = add_scaled(corner, y, ay > 1e-9 ? -q->shape.half_y : (ay < -1e-9 ? q->shape.half_y : 0));
-        return add_scaled(corner, h->normal, -h->distance);
-    }
-    vec3 core = add_scaled(centre, q->up, side * (q->shape.half_height - q->shape.radius));
-    return add_scaled(core, h->normal, -(q->shape.radius + h->distance));
+    return add_scaled(add(centre, lowest_point(q, h->normal)), h->normal, -h->distance);
 }
 
 /* A sensor does not block, and its normal decides little: against the motion, if the user says nothing. */

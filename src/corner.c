@@ -9,6 +9,7 @@
 #include "plane.h"
 #include "query.h"
 #include "report.h"
+#include "shape.h"
 
 /* Less downward than this is a wall, beside which a rise goes on. */
 static const double CEILING = 1e-3;
@@ -19,11 +20,12 @@ static const double FLAT = 1e-6;
 /* Of skin: so far below the ceiling and beside the corner, against rounding of single precision (2e-6 m at 1 m). */
 static const double CLEAR = 4e-4;
 
-/* How far up the widest part of the head lies above its top, so that it passes what the top has hit. */
+/* How far up the widest part of the head lies above its top, so that it passes what the top has hit. A cone's is its
+ * base. */
 static double head_height(const tahr__step *step)
 {
     const tahr_shape *s = &step->limits->shape;
-    return (s->type == TAHR_SHAPE_BOX ? 0 : s->radius) + 2 * step->config->skin;
+    return (s->type == TAHR_SHAPE_CONE ? 2 * s->half_height : shape_cap(s)) + 2 * step->config->skin;
 }
 
 /* m aside, along a level direction, at which the head passes; or more than corner_correction. */
@@ -72,7 +74,7 @@ static uint32_t directions_of(const tahr__step *step, const tahr_hit *hit, vec3 
 {
     vec3 level = step_level(step, hit->normal);
     vec3 motion = step_level(step, step->state.velocity);
-    if (step->limits->shape.type == TAHR_SHAPE_BOX) {
+    if (shape_is_square(&step->limits->shape)) {
         return sides_of(step, directions);
     }
     if (length(level) <= FLAT) {

@@ -24,7 +24,7 @@ static const char *bad_placement(const tahr_shape *shape, vec3 position, vec3 up
     if (!(length_squared(up) > 1 - 1e-9 && length_squared(up) < 1 + 1e-9)) {
         return "up";
     }
-    int upright = shape->type != TAHR_SHAPE_BOX || dot(rotate(q, vec(0, 0, 1)), up) > 1 - 1e-6;
+    int upright = shape_is_round(shape) || dot(rotate(q, vec(0, 0, 1)), up) > 1 - 1e-6;
     if (!(q2 > 1 - 1e-9 && q2 < 1 + 1e-9) || !upright) {
         return "orientation";
     }
@@ -68,7 +68,7 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     if (bad || capacity == 0) {
         return bad_argument(world, "tahr_world_sweep", bad ? bad : "capacity");
     }
-    if (!(world->backend->capabilities & tahr__shape_capability(query->shape.type))) {
+    if (!tahr__can_sweep(world, &query->shape)) {
         return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_sweep", "shape.type",
                               "is not among the backend's shapes");
     }
@@ -105,7 +105,7 @@ tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *que
     if (bad) {
         return bad_argument(world, "tahr_world_contacts", bad);
     }
-    if (!(world->backend->capabilities & tahr__shape_capability(query->shape.type))) {
+    if (!tahr__can_sweep(world, &query->shape)) {
         return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_contacts", "shape.type",
                               "is not among the backend's shapes");
     }

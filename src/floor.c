@@ -12,6 +12,7 @@
 #include "perch.h"
 #include "plane.h"
 #include "report.h"
+#include "shape.h"
 
 /* Faces this close to vertical are never a floor, whatever an override says. */
 static const double VERTICAL = 1e-4;
@@ -43,13 +44,11 @@ int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable)
                         "cosine of the face's slope");
 }
 
-static double inside_box(const tahr__step *step, vec3 offset)
+static double inside_outline(const tahr__step *step, vec3 offset)
 {
-    const tahr_shape *s = &step->limits->shape;
     vec3 x = rotate(step->state.orientation, vec(1, 0, 0));
     vec3 y = rotate(step->state.orientation, vec(0, 1, 0));
-    double dx = dot(offset, x), dy = dot(offset, y);
-    return min_of(s->half_x - max_of(dx, -dx), s->half_y - max_of(dy, -dy));
+    return shape_inside(&step->limits->shape, dot(offset, x), dot(offset, y));
 }
 
 /* How far inside the rim of the shape and its skin, seen from above, the point of a hit lies. */
@@ -58,7 +57,7 @@ static inline double inside_rim(const tahr__step *step, const tahr_hit *hit)
     vec3 offset = step_level(step, sub(hit->point, step->state.position));
     const tahr_shape *s = &step->limits->shape;
     double skin = step->config->skin;
-    return s->type == TAHR_SHAPE_BOX ? skin + inside_box(step, offset) : s->radius + skin - length(offset);
+    return shape_is_round(s) ? s->radius + skin - length(offset) : skin + inside_outline(step, offset);
 }
 
 /* Nearly the same face as a moment ago: within 0.8 degrees, less than the hysteresis. */

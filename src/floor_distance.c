@@ -18,7 +18,7 @@ static const double LEVEL = 1 - 1e-6;
 static int has_flat_base(const tahr__step *step)
 {
     int box = (step->world->backend->capabilities & TAHR_CAP_BOX) != 0;
-    return step->limits->shape.type == TAHR_SHAPE_BOX || (step->config->flat_base && box);
+    return shape_is_flat(&step->limits->shape) || (step->config->flat_base && box);
 }
 
 int tahr__is_within_edge_tolerance(const tahr__step *step, vec3 centre, vec3 point, double radius)
@@ -26,10 +26,13 @@ int tahr__is_within_edge_tolerance(const tahr__step *step, vec3 centre, vec3 poi
     const tahr_shape *s = &step->limits->shape;
     double tolerance = step->config->edge_tolerance, least = tolerance + tiny_length(step->config);
     vec3 offset = step_level(step, sub(point, centre));
-    if (s->type == TAHR_SHAPE_BOX) {
+    if (!shape_is_round(s)) {
         double off = step->limits->width - radius + tolerance;
         double x = dot(offset, rotate(step->state.orientation, vec(1, 0, 0)));
         double y = dot(offset, rotate(step->state.orientation, vec(0, 1, 0)));
+        if (!shape_is_square(s)) {
+            return length_squared(offset) < least * least || shape_inside(s, x, y) > off;
+        }
         return max_of(x, -x) < max_of(least, s->half_x - off) && max_of(y, -y) < max_of(least, s->half_y - off);
     }
     double rim = max_of(least, radius - tolerance);
@@ -44,12 +47,24 @@ static int touches_rim(const tahr__step *step, const tahr_hit *hit, vec3 centre,
 }
 
 /* The character's shape with a part `kept` of its straight part, `inset` thinner. [out] shrink: m by which both ends
- * are shorter. */
+ * are shorter: of an ellipsoid, which has no straight part, always the first part of it all, for its sides rise by less
+ * than its end; of a cone and a hull 0. */
 static tahr__foot probe_of(const tahr__step *step, double kept, double inset, double *shrink)
 {
     tahr_shape s = step->limits->shape;
     /* A line, for what it finds, and a shape for a backend. */
     const double least = max_of(0.01 * step->config->edge_tolerance, TAHR__THINNEST);
+    if (s.type > TAHR_SHAPE_BOX) {
+        *shrink = s.type == TAHR_SHAPE_CYLINDER    ? (1 - kept) * s.half_height
+                  : s.type == TAHR_SHAPE_ELLIPSOID ? (1 - FIRST) * s.half_height
+                                                   : 0;
+        s.half_height -= *shrink;
+        if (inset > 0) {
+            tahr__thin_shape(&s, inset, 0, step->world->backend->capabilities);
+        }
+        tahr__foot whole = {s, 0};
+        return whole;
+    }
     *shrink = (1 - kept) * (s.half_height - s.radius);
     if (s.type == TAHR_SHAPE_BOX) {
         s.half_height -= *shrink;
@@ -73,9 +88,11 @@ static int sweep_box(tahr__step *step, const tahr__foot *probe, vec3 from, doubl
 {
     const tahr_quat eighth = {0, 0, 0.3826834323650898, 0.9238795325112867}; /* of a turn about z: sin, cos of pi / 8 */
     const tahr_quat kept = step->state.orientation;
+    double radius = shape_is_round(&probe->shape) ? probe->shape.radius
+                                                  : min_of(probe->shape.half_x, probe->shape.half_y);
     tahr_shape box = {.type = TAHR_SHAPE_BOX,
                       .half_height = probe->shape.half_height,
-                      .half_x = max_of(FLAT * probe->shape.radius, TAHR__THINNEST)};
+                      .half_x = max_of(FLAT * radius, TAHR__THINNEST)};
     box.half_y = box.half_x;
     tahr_quat aligned = quat_between(vec(0, 0, 1), step->state.up);
     vec3 motion = scale(step->state.up, -range);
@@ -92,7 +109,7 @@ static int sweep_box(tahr__step *step, const tahr__foot *probe, vec3 from, doubl
 int tahr__floor_sweep_test(tahr__step *step, const tahr__foot *probe, vec3 from, double range, tahr_hit *hit)
 {
     vec3 centre = add_scaled(from, step->state.up, probe->offset);
-    if (probe->shape.type != TAHR_SHAPE_BOX && has_flat_base(step)) {
+    if (!shape_is_flat(&probe->shape) && has_flat_base(step)) {
         return sweep_box(step, probe, centre, range, hit);
     }
     tahr__sweep(step, &probe->shape, centre, scale(step->state.up, -range), 0, 0, hit);

@@ -20,12 +20,24 @@ tahr__foot tahr__foot_of(const tahr_shape *shape, uint32_t capabilities)
 tahr__foot tahr__thinner_foot(const tahr__step *step, double by)
 {
     tahr_shape s = step->limits->shape;
-    if (s.type == TAHR_SHAPE_BOX) {
-        s.half_x = max_of(s.half_x - by, max_of(1e-3 * s.half_x, TAHR__THINNEST));
-        s.half_y = max_of(s.half_y - by, max_of(1e-3 * s.half_y, TAHR__THINNEST));
-    } else {
-        s.type = TAHR_SHAPE_CAPSULE;
-        s.radius = max_of(s.radius - by, max_of(1e-3 * s.radius, TAHR__THINNEST));
-    }
+    tahr__thin_shape(&s, by, 1e-3, step->world->backend->capabilities);
     return tahr__foot_of(&s, step->world->backend->capabilities);
+}
+
+void tahr__thin_shape(tahr_shape *s, double by, double part, uint32_t capabilities)
+{
+    if (s->type == TAHR_SHAPE_HULL) {
+        if (!(capabilities & TAHR_CAP_BOX)) {
+            return;
+        }
+        s->type = TAHR_SHAPE_BOX;
+        s->hull = 0;
+    }
+    if (shape_is_round(s)) {
+        s->type = s->type == TAHR_SHAPE_SPHERE ? TAHR_SHAPE_CAPSULE : s->type;
+        s->radius = max_of(s->radius - by, max_of(part * s->radius, TAHR__THINNEST));
+    } else {
+        s->half_x = max_of(s->half_x - by, max_of(part * s->half_x, TAHR__THINNEST));
+        s->half_y = max_of(s->half_y - by, max_of(part * s->half_y, TAHR__THINNEST));
+    }
 }

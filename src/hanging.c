@@ -37,12 +37,11 @@ static vec3 head_of(const tahr__step *step)
 static double extent_along(const tahr__step *step, vec3 direction)
 {
     const tahr_shape *s = &step->limits->shape;
-    if (s->type != TAHR_SHAPE_BOX) {
+    if (shape_is_round(s)) {
         return s->radius;
     }
-    double x = dot(direction, rotate(step->state.orientation, vec(1, 0, 0)));
-    double y = dot(direction, rotate(step->state.orientation, vec(0, 1, 0)));
-    return s->half_x * max_of(x, -x) + s->half_y * max_of(y, -y);
+    return shape_reach(s, dot(direction, rotate(step->state.orientation, vec(1, 0, 0))),
+                       dot(direction, rotate(step->state.orientation, vec(0, 1, 0))));
 }
 
 double tahr__edge_depth(const tahr__step *step, const tahr_hit *edge)

@@ -7,15 +7,16 @@
 #include "launch.h"
 #include "modes.h"
 #include "report.h"
+#include "shape.h"
 
 /* A normal that rises less is a wall's; normals that differ by no more along every axis are one. */
 static const double SMALL = 1e-4;
 
-/* Is the point on the lower cap of the shape at `centre`, and well inside its rim? Of a box: on its lower face. */
+/* Is the point on the lower cap of the shape at `centre`, and well inside its rim? Of a flat base: on its lower face. */
 static int is_under_foot(const tahr__step *step, vec3 centre, vec3 point)
 {
     const tahr_shape *s = &step->limits->shape;
-    double cap = s->type == TAHR_SHAPE_BOX ? step->config->edge_tolerance : s->radius;
+    double cap = shape_is_flat(s) ? step->config->edge_tolerance : shape_cap(s);
     double height = dot(sub(point, centre), step->state.up);
     return height < cap - s->half_height && tahr__is_within_edge_tolerance(step, centre, point, step->limits->width);
 }

@@ -36,11 +36,10 @@ tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t
                    c->separation == TAHR_SEPARATION_MARGIN && c->depenetration == TAHR_DEPENETRATION_JOINT;
     tahr__sincos(c->walkable_angle, &sine, &limits.walkable);
     tahr__sincos(c->walkable_angle + c->walkable_hysteresis, &sine, &limits.walkable_hysteresis);
-    int box = s->type == TAHR_SHAPE_BOX;
     limits.width = shape_width(s);
-    limits.around = box ? sqrt(s->half_x * s->half_x + s->half_y * s->half_y) : s->radius;
+    limits.around = shape_is_square(s) ? sqrt(s->half_x * s->half_x + s->half_y * s->half_y) : limits.width;
     limits.speed = s->half_height < c->shape.half_height ? c->crouched_speed : c->max_speed;
-    limits.axis = s->half_height - (box ? 0 : s->radius);
+    limits.axis = s->half_height - (s->type <= TAHR_SHAPE_CAPSULE ? s->radius : 0);
     limits.plane = unit(c->plane);
     limits.in_plane = length_squared(c->plane) > 0;
     limits.pull = tahr__pull_of(along_plane(&limits, c->gravity));

@@ -41,6 +41,28 @@ static const char *out_of_plane(const tahr_world *world, const tahr_config *c)
     return !planar ? "plane" : c->gravity.z != 0 ? "gravity" : NULL;
 }
 
+static int differs(double size, double half)
+{
+    return !(fabs(size - half) <= 1e-6 * half);
+}
+
+/* Described bodies only: of callbacks nothing is known. */
+static const char *bad_hull(const tahr_world *world, const tahr_shape *s)
+{
+    if (!world->bodies) {
+        return NULL;
+    }
+    const uint32_t id = s->hull;
+    if (id >= world->body_count || !(world->bodies[id].flags & TAHR_BODY_TEMPLATE)) {
+        return "shape.hull";
+    }
+    const vec3 half = world->bodies[id].half;
+    if (differs(s->half_x, half.x) || differs(s->half_y, half.y)) {
+        return differs(s->half_x, half.x) ? "shape.half_x" : "shape.half_y";
+    }
+    return differs(s->half_height, half.z) ? "shape.half_height" : NULL;
+}
+
 tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **out)
 {
     const char *field = NULL;
@@ -55,7 +77,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
         return tahr__complain(&world->log, status, "tahr_mover_create", field ? field : "config:",
                               field ? "is out of range or not finite" : tahr_status_message(status));
     }
-    if (!(world->backend->capabilities & tahr__shape_capability(config->shape.type))) {
+    if (!tahr__can_sweep(world, &config->shape)) {
         return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", "shape.type",
                               "is not among the backend's shapes");
     }
@@ -63,6 +85,11 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     if (field) {
         return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", field,
                               "leaves the plane of x and y, and the world is one of two dimensions");
+    }
+    field = config->shape.type == TAHR_SHAPE_HULL ? bad_hull(world, &config->shape) : NULL;
+    if (field) {
+        return tahr__complain(&world->log, TAHR_E_ARGUMENT, "tahr_mover_create", field,
+                              "does not fit a hull of the scene with TAHR_BODY_TEMPLATE");
     }
     tahr_allocator a = world->memory.user;
     size_t cache_size = world->backend->cache_size ? world->backend->cache_size(world->self) : 0;

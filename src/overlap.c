@@ -8,6 +8,7 @@
 
 #include "query.h"
 #include "report.h"
+#include "shape.h"
 
 /* Sensors that one leg may touch; native tells of no more in one answer. */
 enum { SENSORS = 32 };
@@ -245,7 +246,7 @@ static int changed_shape(const tahr__step *step)
     tahr_quat a = t->orientation, b = s->orientation;
     int turned = a.x != b.x || a.y != b.y || a.z != b.z || a.w != b.w;
     return t->radius != s->radius || t->half_height != s->half_height || !vec_equal(t->up, s->up) ||
-           (turned && step->limits->shape.type == TAHR_SHAPE_BOX);
+           (turned && !shape_is_round(&step->limits->shape));
 }
 
 void tahr__find_overlaps(tahr__step *step)

@@ -5,6 +5,7 @@
 #include "plane.h"
 #include "query.h"
 #include "report.h"
+#include "shape.h"
 #include "trail.h"
 
 /* Added to the depth, and the depth itself where that is not known: 0.125 cm in the field
@@ -38,16 +39,14 @@ vec3 tahr__penetration_adjustment(const tahr__step *step, const tahr_hit *hit)
 static int fits(tahr__step *step, vec3 position)
 {
     tahr_contact contact[TAHR__MAX_PLANES]; /* sensors among them do not count */
-    double more = fit_inflation(step->config);
+    double more = fit_inflation(step->config), margin = 0;
     tahr_shape s = step->limits->shape;
-    s.half_height += more;
-    if (s.type == TAHR_SHAPE_BOX) {
-        s.half_x += more;
-        s.half_y += more;
+    if (s.type == TAHR_SHAPE_HULL) { /* what is within that is not there for a larger one either */
+        margin = more;
     } else {
-        s.radius += more;
+        shape_grow(&s, more);
     }
-    return tahr__contacts_of(step, &s, position, 0, contact, TAHR__MAX_PLANES) == 0 && step->error >= 0 &&
+    return tahr__contacts_of(step, &s, position, margin, contact, TAHR__MAX_PLANES) == 0 && step->error >= 0 &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP);
 }
 

@@ -234,7 +234,7 @@ void tahr__announce(tahr__step *step, const tahr_prepare *announcement)
     }
 }
 
-uint32_t tahr__shape_capability(uint32_t type)
+int tahr__can_sweep(const tahr_world *world, const tahr_shape *shape)
 {
     static const uint32_t needed[] = {0,
                                       TAHR_CAP_SPHERE,
@@ -243,6 +243,7 @@ uint32_t tahr__shape_capability(uint32_t type)
                                       TAHR_CAP_CYLINDER,
                                       TAHR_CAP_CONE,
                                       TAHR_CAP_ELLIPSOID,
-                                      TAHR_CAP_HULL};
-    return type < sizeof needed / sizeof needed[0] ? needed[type] : 0;
+                                      TAHR_CAP_HULL | TAHR_CAP_MARGIN}; /* nothing inflates a hull */
+    uint32_t need = shape->type < sizeof needed / sizeof needed[0] ? needed[shape->type] : 0;
+    return need != 0 && (world->backend->capabilities & need) == need;
 }

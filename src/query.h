@@ -37,8 +37,8 @@ static inline int step_has_fluids(const tahr__step *step)
     return (step->world->has & TAHR__HAS_FLUIDS) != 0;
 }
 
-/* The TAHR_CAP_* that a character of this shape needs. */
-uint32_t tahr__shape_capability(uint32_t type);
+/* Does the backend sweep such a shape? */
+int tahr__can_sweep(const tahr_world *world, const tahr_shape *shape);
 
 /* Tells the backend where this step is expected to ask. No query. */
 void tahr__announce(tahr__step *step, const tahr_prepare *announcement);

@@ -34,7 +34,7 @@ void tahr__use_shape(tahr__step *step, double radius, double half_height)
     step->limits = &step->own_limits;
 }
 
-/* Spheres cannot crouch. */
+/* Spheres cannot crouch, nor can hulls. */
 static tahr_shape wanted(const tahr__step *step)
 {
     const tahr_config *c = step->config;
@@ -42,8 +42,8 @@ static tahr_shape wanted(const tahr__step *step)
     if (step->input->flags & TAHR_INPUT_SHAPE) {
         shape.radius = step->input->radius + 0.0; /* never -0.0: it goes into the state */
         shape.half_height = step->input->half_height;
-    } else if (step->input->crouch && shape.type != TAHR_SHAPE_SPHERE) {
-        double low = max_of(c->crouched_half_height, shape.radius);
+    } else if (step->input->crouch && shape.type != TAHR_SHAPE_SPHERE && shape.type != TAHR_SHAPE_HULL) {
+        double low = max_of(c->crouched_half_height, shape.type == TAHR_SHAPE_CAPSULE ? shape.radius : 0);
         shape.half_height = min_of(low, shape.half_height);
     }
     return shape;
@@ -57,6 +57,12 @@ typedef struct change {
     int on_ground, grows;
 } change;
 
+/* A cone and an ellipsoid that shrink stick out of what they were: a flatter end is wider at the same height. */
+static int sticks_out(uint32_t type, double taller, double wider)
+{
+    return (type == TAHR_SHAPE_CONE || type == TAHR_SHAPE_ELLIPSOID) && (taller != 0 || wider != 0);
+}
+
 /* On ground only what a wider foot needs on a slope, and down what is left of the clearance that everything keeps. */
 static change plan(const tahr__step *step, const tahr_shape *shape)
 {
@@ -64,6 +70,10 @@ static change plan(const tahr__step *step, const tahr_shape *shape)
     const tahr_config *c = step->config;
     double taller = shape->half_height - now->half_height, wider = shape->radius - now->radius;
     change to = {.shape = *shape, .at = step->state.position, .grows = taller > 0 || wider > 0};
+    if (sticks_out(shape->type, taller, wider)) {
+        to.grows = 1;
+        wider = max_of(wider, max_of(taller, -taller));
+    }
     to.on_ground = step->state.mode == TAHR_MODE_WALKING;
     if (to.on_ground) {
         double least = c->separation == TAHR_SEPARATION_MARGIN ? c->skin : room_of(c);

@@ -171,6 +171,18 @@ static double reach_of(const tahr_body_desc *b)
     }
 }
 
+/* Half the extents of what lends its vertices to characters. */
+static vec3 half_of(const tahr_body_desc *b)
+{
+    vec3 low = vec(0, 0, 0), high = low;
+    for (uint32_t i = 0; b->flags & TAHR_BODY_TEMPLATE && i < b->vertex_count; i++) {
+        const double *v = b->vertices + 3 * (size_t)i;
+        low = i ? vec(min_of(low.x, v[0]), min_of(low.y, v[1]), min_of(low.z, v[2])) : vec(v[0], v[1], v[2]);
+        high = i ? vec(max_of(high.x, v[0]), max_of(high.y, v[1]), max_of(high.z, v[2])) : low;
+    }
+    return scale(sub(high, low), 0.5);
+}
+
 static tahr__body_note note_of(uint32_t i, const tahr_body_desc *b)
 {
     tahr_pose pose = b->pose;
@@ -184,6 +196,7 @@ static tahr__body_note note_of(uint32_t i, const tahr_body_desc *b)
                             .pose = {pose.position, quat_unit(pose.orientation)},
                             .before = {pose.position, quat_unit(pose.orientation)},
                             .mass = b->mass,
+                            .half = half_of(b),
                             .flags = b->flags};
     return note;
 }

@@ -51,7 +51,7 @@ static void visit(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, co
     tahr__ccd_near near;
 
     probe->context->narrow_tests++;
-    tahr__ccd_measure(probe, piece, v_make(0, 0, 0), &near);
+    tahr__ccd_measure_far(probe, piece, v_make(0, 0, 0), &near);
     if (near.distance > probe->margin || !tahr__ccd_in_front(piece, &near)) return;
     if (!tahr__ccd_face(probe, piece, near.normal, &near, &contact.surface_normal)) return;
     if (tahr__ccd_is_one_way(b) &&

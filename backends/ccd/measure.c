@@ -6,6 +6,8 @@
 
 /* Nearer than this the direction between the nearest points is rounding: the way out is taken instead. */
 #define TOUCHING 1e-10
+/* The air between two that have left each other, so that there is a nearest point. */
+#define LEFT 1e-6
 /* Of the faces of hulls so many are looked at for the shortest way out. */
 enum { GUESSED_FACES = 32, GUESSES = 2 * GUESSED_FACES + 16 };
 
@@ -161,26 +163,54 @@ static uint32_t part_of(const tahr__ccd_piece *piece, const tahr__gap *gap)
     return w[b] < TAHR__CCD_SAME_DIRECTION ? TAHR__CORNER + a : TAHR__EDGE + a;
 }
 
-static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
+/* Where the shape touches a piece that it has just left along normal, by depth: of two flat faces, some point that both
+ * hold. */
+static void leave_along(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre, double depth,
+                        tahr_vec3 normal, tahr__gap *gap)
+{
+    tahr__convex a = probe->shape, b;
+
+    a.centre = v_add(v_mad(a.centre, normal, depth + LEFT), centre);
+    tahr__ccd_convex(probe, piece, &b);
+    tahr__convex_distance(&a, &b, normal, gap);
+}
+
+/* A triangle most often faces the shape. */
+static tahr_vec3 likely_normal(const tahr__ccd_piece *piece, tahr_vec3 centre)
+{
+    if (piece->body->type != TAHR_BODY_MESH) return v_make(0, 0, 0);
+    tahr_vec3 n = tahr__ccd_triangle_normal(piece->corner);
+    return v_dot(n, v_sub(centre, piece->corner[0])) < 0 ? v_scale(n, -1) : n;
+}
+
+static void measure_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre, int rough,
                            tahr__ccd_near *near)
 {
     tahr__convex a = probe->shape, b;
     tahr__gap gap;
 
+    const tahr__clearance enough = {probe->motion, probe->radius + piece->radius + probe->margin};
+
     a.centre = v_add(a.centre, centre);
     tahr__ccd_convex(probe, piece, &b);
-    tahr__convex_distance(&a, &b, v_make(0, 0, 0), &gap);
-    probe->context->narrow_iterations += gap.iterations;
+    tahr__convex_clear(&a, &b, likely_normal(piece, a.centre), rough ? &enough : NULL, &gap);
     near->reserved = 0;
     near->part = TAHR__FACE;
-    if (gap.lower > 0 && gap.distance > TOUCHING) {
+    if (gap.clear || gap.distance > TOUCHING) {
+        near->distance = d_max(gap.lower, 0);
+        near->normal = gap.normal;
+        near->point = gap.on_b;
+        if (piece->body->type == TAHR_BODY_MESH && !gap.clear) near->part = part_of(piece, &gap);
+    } else if (gap.lower > -TOUCHING) { /* the plane between them is as good as a contact */
         near->distance = gap.lower;
         near->normal = gap.normal;
+        leave_along(probe, piece, centre, -near->distance, near->normal, &gap);
         near->point = gap.on_b;
         if (piece->body->type == TAHR_BODY_MESH) near->part = part_of(piece, &gap);
     } else {
         near->distance = -convex_depth(probe, piece, &a, &b, &near->normal);
-        near->point = v_mad(tahr__convex_support(&a, v_scale(near->normal, -1), NULL), near->normal, -near->distance);
+        leave_along(probe, piece, centre, -near->distance, near->normal, &gap);
+        near->point = gap.on_b;
     }
     near->distance -= probe->radius + piece->radius;
     near->point = v_mad(near->point, near->normal, piece->radius);
@@ -192,6 +222,7 @@ static void measure_core(const tahr__ccd_probe *probe, const tahr__ccd_piece *pi
                          tahr__ccd_near *near)
 {
     tahr__witness w = {0};
+    tahr__gap gap;
     tahr_vec3 way_out;
     double depth;
 
@@ -202,9 +233,10 @@ static void measure_core(const tahr__ccd_probe *probe, const tahr__ccd_piece *pi
     depth = core_depth(probe, piece, centre, w.distance, &way_out);
     near->normal = depth >= 0 ? way_out : w.normal;
     near->distance = (depth >= 0 ? -depth : w.distance) - probe->radius - piece->radius;
-    if (depth >= 0) near->part = TAHR__FACE;
-    if (depth >= 0 && piece->body->type == TAHR_BODY_BOX) {
-        near->point = v_mad(centre, near->normal, depth - tahr__core_extent(&probe->core, near->normal));
+    if (depth >= 0) {
+        near->part = TAHR__FACE;
+        leave_along(probe, piece, centre, depth, near->normal, &gap);
+        near->point = gap.on_b;
     }
     near->point = v_mad(near->point, near->normal, piece->radius);
 }
@@ -215,7 +247,16 @@ void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piec
     if (probe->is_core && !tahr__ccd_is_convex(piece))
         measure_core(probe, piece, centre, near);
     else
-        measure_convex(probe, piece, centre, near);
+        measure_convex(probe, piece, centre, 0, near);
+}
+
+void tahr__ccd_measure_far(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
+                           tahr__ccd_near *near)
+{
+    if (probe->is_core && !tahr__ccd_is_convex(piece))
+        measure_core(probe, piece, centre, near);
+    else
+        measure_convex(probe, piece, centre, 1, near);
 }
 
 int tahr__ccd_in_front(const tahr__ccd_piece *piece, const tahr__ccd_near *near)

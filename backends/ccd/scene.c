@@ -138,7 +138,7 @@ static tahr_status read_options(tahr__ccd_scene *scene, const tahr_host *host, c
         if (d.reserved[i] != 0) return bad_option(host, "options.reserved is not 0");
     }
     scene->sweep = d.sweep ? d.sweep : (uint32_t)TAHR_CCD_SWEEP_ADVANCE;
-    scene->boolean = d.boolean ? d.boolean : (uint32_t)TAHR_CCD_BOOLEAN_GJK;
+    scene->boolean = d.boolean ? d.boolean : (uint32_t)TAHR_CCD_BOOLEAN_MPR;
     /* libccd's own default is ULONG_MAX; random, lattice, far and huge inputs need at most some thirty. */
     scene->max_iterations = d.max_iterations ? d.max_iterations : 100;
     return TAHR_OK;

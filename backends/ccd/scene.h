@@ -130,6 +130,10 @@ tahr_vec3 tahr__ccd_triangle_normal(const tahr_vec3 v[3]);
 /* measure.c: everything that the distance decides. */
 void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
                        tahr__ccd_near *near);
+/* The same within the margin; beyond it as well as a tangent needs: a plane between the two that the motion does not
+ * cross before near->distance and near->normal say so. The rest of near is not sure there. */
+void tahr__ccd_measure_far(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,
+                           tahr__ccd_near *near);
 /* Can it be felt from here at all? One-sided triangles are not there for what is behind them. */
 int tahr__ccd_in_front(const tahr__ccd_piece *piece, const tahr__ccd_near *near);
 
@@ -140,12 +144,13 @@ int tahr__ccd_face(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, t
                    tahr__ccd_near *near, tahr_vec3 *face);
 uint32_t tahr__ccd_feature(const tahr__ccd_piece *piece, const tahr__ccd_near *near);
 
-/* impact.c: the first fraction in [*fraction, limit] at which the shape comes within its margin of a piece. */
+/* impact.c: the first fraction in [*fraction, limit] at which the shape comes within its margin of a piece. *fraction is
+ * 0 or the root of the tangent at *near. */
 typedef enum tahr__ccd_verdict { TAHR__CCD_FREE, TAHR__CCD_HIT, TAHR__CCD_UNKNOWN } tahr__ccd_verdict;
 
 tahr__ccd_verdict tahr__ccd_impact(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double limit,
                                    double *fraction, tahr__ccd_near *near);
-/* From a fraction known to be free, by tangents of the convex distance; never late. */
+/* The same by tangents of the convex distance alone; never late. */
 tahr__ccd_verdict tahr__ccd_advance(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double limit,
                                     double *fraction, tahr__ccd_near *near);
 

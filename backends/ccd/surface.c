@@ -225,6 +225,8 @@ int tahr__ccd_face(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, t
         *face = facing_normal(piece, near->normal);
         if (near->part != TAHR__FACE && !mesh_surface(probe, piece, near, direction, face)) return 0;
     }
+    /* The way out of an overlap is as long as it is for its own normal. */
+    if (!exact && near->distance < 0) return 1;
     tilt = v_sub(near->normal, *face);
     if (v_dot(tilt, tilt) < snap * snap) near->normal = *face;
     return 1;

@@ -156,7 +156,7 @@ static void visit(search *s, const tahr__ccd_piece *piece)
     uint32_t at;
 
     s->probe->context->narrow_tests++;
-    tahr__ccd_measure(s->probe, piece, v_make(0, 0, 0), &c.near);
+    tahr__ccd_measure_far(s->probe, piece, v_make(0, 0, 0), &c.near);
     gap = c.near.distance - s->probe->margin;
     speed = -v_dot(s->probe->motion, c.near.normal);
     if (gap <= 0) report(s, piece, &c.near, 0, 0); /* by core distance, never by the boolean */

@@ -7,12 +7,19 @@
  * are looked at; and the iteration ends when nothing is gained, with the last certificate. */
 #include "convex.h"
 
+#include <stddef.h>
+
 enum { MAX_ITERATIONS = 128 };
 
 /* The two ends of the bracket differ by this when it is done (m, with shapes of 1 m), or by the rounding of the largest
  * coordinate. */
 #define ENOUGH 1e-12
 #define ROUNDING 8e-16
+/* Squared, of the largest coordinate: a nearest point that is the origin but for rounding. */
+#define NOTHING 1e-30
+/* What is farther beyond reach than this (m) need be known to this part only. */
+#define NEAR 1e-6
+#define ROUGH 0.1
 /* Squared sine below which a direction is along an axis. */
 #define AXIAL 1e-28
 /* Volume over the product of three edges: thinner tetrahedra hold nothing that their faces do not. */
@@ -254,7 +261,25 @@ static void write_witness(const simplex *s, const tahr__convex *b, tahr__gap *ga
     }
 }
 
+static int is_clear(const tahr__clearance *enough, const tahr__gap *gap)
+{
+    return enough && gap->lower - enough->reach > d_max(0, -v_dot(enough->motion, gap->normal));
+}
+
+/* By how much lower and distance may differ in the end. */
+static double allowance(const tahr__clearance *enough, const tahr__gap *gap, double largest2)
+{
+    if (enough && gap->lower - enough->reach > NEAR) return ROUGH * (gap->lower - enough->reach);
+    return ENOUGH + ROUNDING * sqrt(largest2);
+}
+
 void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, tahr__gap *gap)
+{
+    tahr__convex_clear(a, b, first, NULL, gap);
+}
+
+void tahr__convex_clear(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, const tahr__clearance *enough,
+                        tahr__gap *gap)
 {
     simplex s = {.count = 0};
     double square = 1e300, largest = 0;
@@ -269,9 +294,11 @@ void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_ve
         if (lower > gap->lower) {
             gap->lower = lower;
             gap->normal = v_scale(v, 1.0 / length);
+            gap->clear = is_clear(enough, gap) != 0;
+            if (gap->clear) return;
         }
         if (is_known(&s, next.w)) break;
-        if (gap->distance > 0 && gap->distance - gap->lower <= ENOUGH + ROUNDING * sqrt(largest)) break;
+        if (gap->distance > 0 && gap->distance - gap->lower <= allowance(enough, gap, largest)) break;
         if (gap->iterations >= MAX_ITERATIONS) {
             gap->given_up = 1;
             break;
@@ -279,11 +306,12 @@ void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_ve
         simplex before = s;
         s.v[s.count++] = next;
         nearest n = solve(&s);
-        if (s.holds || !(n.square > 0)) {
-            gap->distance = gap->lower = 0;
+        /* A plane that passes between them is proof; a thin simplex is none that they overlap. */
+        if ((s.holds || !(n.square > NOTHING * largest)) && !(gap->lower > 0)) {
+            gap->distance = 0;
             return;
         }
-        if (!(n.square < square)) {
+        if (s.holds || !(n.square < square)) {
             s = before;
             break;
         }
@@ -292,6 +320,4 @@ void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_ve
         v = n.point;
     }
     write_witness(&s, b, gap);
-    /* No plane was found to pass between them: nearer than rounding tells. */
-    if (!(gap->lower > 0)) gap->lower = 0;
 }

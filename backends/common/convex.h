@@ -41,17 +41,32 @@ static inline double tahr__convex_extent(const tahr__convex *c, tahr_vec3 n)
 
 typedef struct tahr__gap {
     double distance;  /* between the witness points: not less than the true distance; 0: they overlap */
-    double lower;     /* not more than the true distance: the gap between the planes across normal; 0: they overlap */
-    tahr_vec3 normal; /* unit, from b to a; of a pair that overlaps not set */
-    tahr_vec3 on_a, on_b;
+    double lower;     /* the gap between the planes across normal, the largest that was found: not more than the true
+                       * distance; negative where no plane was found that passes between them */
+    tahr_vec3 normal; /* unit, from b to a */
+    tahr_vec3 on_a, on_b; /* not set where the distance is 0 */
     double weight[3];    /* of the first three points of b, if it has so many: where on_b lies between them */
     uint32_t iterations; /* support points asked for */
     uint32_t given_up;   /* 1: the cap on iterations ended it; lower and distance hold all the same */
+    uint32_t clear;      /* 1: tahr__convex_clear ended it early */
+    uint32_t reserved;
 } tahr__gap;
 
 /* Distance of a and b. first: a guess of the normal, or zero. With shapes about 1 m in size lower and distance differ
  * by 1e-12 m, more only where given_up says so. */
 void tahr__convex_distance(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, tahr__gap *gap);
+
+/* What a question about a motion of a need not know better: that it stays farther than reach, and how far it is beyond
+ * that while it is far. */
+typedef struct tahr__clearance {
+    tahr_vec3 motion;
+    double reach;
+} tahr__clearance;
+
+/* The same, ended as soon as there is a plane whose gap is wider than reach even at the end of the motion (clear: only
+ * lower and normal are set then), or as lower tells what is beyond reach to a tenth. */
+void tahr__convex_clear(const tahr__convex *a, const tahr__convex *b, tahr_vec3 first, const tahr__clearance *enough,
+                        tahr__gap *gap);
 
 /* How far a must move along the unit vector n to leave b: exact for this direction; negative if they are apart along
  * it. */

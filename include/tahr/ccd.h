@@ -21,7 +21,7 @@ enum { TAHR_CCD_BOOLEAN_GJK = 1, TAHR_CCD_BOOLEAN_MPR = 2 };
 typedef struct tahr_ccd_desc {
     uint32_t struct_size;
     uint32_t sweep;          /* TAHR_CCD_SWEEP_*, default ADVANCE */
-    uint32_t boolean;        /* TAHR_CCD_BOOLEAN_*, default GJK; BISECTION only */
+    uint32_t boolean;        /* TAHR_CCD_BOOLEAN_*, default MPR; BISECTION only */
     uint32_t max_iterations; /* of one boolean test, 1..10000, default 100: the distance decides what it leaves open */
     uint32_t reserved[4];    /* 0 */
 } tahr_ccd_desc;
