@@ -33,6 +33,11 @@ static void add_triangle(struct level *level, tahr_vec3 a, tahr_vec3 b, tahr_vec
     level->triangle_count++;
 }
 
+void level_add_triangle(struct level *level, const tahr_vec3 corners[3])
+{
+    add_triangle(level, corners[0], corners[1], corners[2]);
+}
+
 static tahr_body_desc *add_body(struct level *level, uint32_t type)
 {
     level->bodies = memory_grow(level->bodies, &level->body_capacity, level->body_count + 1, sizeof *level->bodies);
@@ -181,5 +186,6 @@ void level_close(struct level *level)
     free(level->movers);
     free(level->pools);
     free(level->name);
+    free(level->octree);
     *level = (struct level){0};
 }
