@@ -26,7 +26,8 @@ static tahr_vec3 place(const tahr__placement *frame, tahr_vec3 local)
 
 static tahr_vec3 column(const tahr__placement *frame, int i, double length)
 {
-    return m_apply(&frame->turn, v_make(i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0));
+    tahr_vec3 along = v_make(i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0);
+    return frame->turned ? m_apply(&frame->turn, along) : along;
 }
 
 static void begin(tahr__piece *piece, uint32_t kind, const tahr__placement *frame)
@@ -53,6 +54,7 @@ void tahr__piece_box(const tahr__placement *frame, tahr_vec3 middle, tahr_vec3 h
 {
     begin(piece, TAHR__BOX, frame);
     piece->middle = place(frame, middle);
+    piece->half = half;
     piece->solid.axis_count = 3;
     for (int i = 0; i < 3; i++)
         piece->solid.axis[i] = column(frame, i, v_get(half, i));
@@ -185,7 +187,9 @@ void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr_
         return;
     }
     if (piece->kind == TAHR__BOX && core->axis_count < 3)
-        tahr__core_box(core, centre, &piece->solid, piece->middle, &w);
+        tahr__core_box(
+            core, centre,
+            &(tahr__box){piece->middle, piece->half, piece->frame->turned ? &piece->frame->turn : NULL}, &w);
     else if (piece->kind == TAHR__BOX)
         box_to_box(core, centre, piece, &w);
     else
