@@ -207,6 +207,23 @@ void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr_
     near->point = v_mad(near->point, near->normal, piece->radius);
 }
 
+/* A bare core (no radius, no margin) that arrives at a one-sided triangle touches it, and out of what it touches the only
+ * way is the front, however far that is. A little earlier it is still free, and the nearest points say where it came
+ * from: looks back 1e-9, 1e-8, 1e-7 m. */
+static int look_back(const tahr__motion *motion, const tahr__piece *piece, double *fraction, tahr__near *near)
+{
+    double length = v_length(motion->motion);
+
+    for (double back = ARRIVED; back < 2e-7; back *= 10) {
+        double t = d_max(0, *fraction - back / length);
+        tahr__piece_measure(motion->shape, v_scale(motion->motion, t), piece, near);
+        if (near->distance < motion->margin - ARRIVED) continue;
+        *fraction = t;
+        return 1;
+    }
+    return 0;
+}
+
 /* A tangent of a convex function lies below it: a step to its root never overshoots, and one that starts late goes back
  * to the early side. */
 tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece *piece, double limit, double *fraction,
@@ -220,6 +237,8 @@ tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece 
         ++*motion->iterations;
         *fraction = t;
         if (gap <= ARRIVED && gap >= -ARRIVED) return TAHR__HIT;
+        if (gap < 0 && piece->kind == TAHR__TRIANGLE && motion->shape->radius + motion->margin <= 0)
+            return look_back(motion, piece, fraction, near) ? TAHR__HIT : TAHR__UNKNOWN;
         if (!(speed > 0)) return gap > 0 ? TAHR__FREE : TAHR__UNKNOWN;
         t += gap / speed;
         if (t > limit) return TAHR__FREE;
