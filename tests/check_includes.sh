@@ -74,6 +74,7 @@ for folder in tests/*/; do
     name=$(basename "$folder")
     case $name in
     unit) pattern='"[a-z0-9_/.]+\.(h|inc)"' ;;
+    fcl) pattern='<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>|"[a-z0-9_]+\.h"' ;;
     cli) pattern='"((\.\./)?support/|\.\./\.\./bindings/cli/)?[a-z0-9_]+\.h"' ;;
     *) pattern='"((\.\./)?support/)?[a-z0-9_]+\.h"' ;;
     esac

@@ -72,26 +72,27 @@ static double nearest_on_segment(const double a[3], const double d[3], const dou
     return 1;
 }
 
-void tahr__core_box(const tahr__core *core, tahr_vec3 centre, const tahr__core *box, tahr_vec3 middle,
-                    tahr__witness *out)
+void tahr__core_box(const tahr__core *core, tahr_vec3 centre, const tahr__box *box, tahr__witness *out)
 {
-    tahr_vec3 from = v_sub(centre, middle), unit[3];
-    double a[3], d[3] = {0, 0, 0}, h[3], t = 0;
+    tahr_vec3 from = v_sub(centre, box->middle), along = v_make(0, 0, 0), apart;
+    double t = 0;
 
-    for (int i = 0; i < 3; i++) {
-        h[i] = v_length(box->axis[i]);
-        unit[i] = v_scale(box->axis[i], 1.0 / h[i]);
-        a[i] = v_dot(unit[i], from);
-        if (core->axis_count == 1) d[i] = v_dot(unit[i], core->axis[0]);
+    if (core->axis_count == 1) along = core->axis[0];
+    if (box->turn) {
+        from = m_unapply(box->turn, from);
+        along = m_unapply(box->turn, along);
     }
+    double a[3] = {from.x, from.y, from.z}, d[3] = {along.x, along.y, along.z};
+    double h[3] = {box->half.x, box->half.y, box->half.z};
     if (core->axis_count == 1) t = nearest_on_segment(a, d, h);
-    tahr_vec3 apart = v_make(0, 0, 0);
-    out->point = middle;
-    for (int i = 0; i < 3; i++) {
-        double q = a[i] + t * d[i], o = outside(q, h[i]);
-        apart = v_mad(apart, unit[i], o);
-        out->point = v_mad(out->point, unit[i], q - o);
+    tahr_vec3 q = v_mad(from, along, t);
+    apart = v_make(outside(q.x, h[0]), outside(q.y, h[1]), outside(q.z, h[2]));
+    out->point = v_sub(q, apart);
+    if (box->turn) {
+        apart = m_apply(box->turn, apart);
+        out->point = m_apply(box->turn, out->point);
     }
+    out->point = v_add(box->middle, out->point);
     out->feature = TAHR__FACE;
     out->reserved = 0;
     out->distance = v_length(apart);

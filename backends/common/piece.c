@@ -26,7 +26,8 @@ static tahr_vec3 place(const tahr__placement *frame, tahr_vec3 local)
 
 static tahr_vec3 column(const tahr__placement *frame, int i, double length)
 {
-    return m_apply(&frame->turn, v_make(i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0));
+    tahr_vec3 along = v_make(i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0);
+    return frame->turned ? m_apply(&frame->turn, along) : along;
 }
 
 static void begin(tahr__piece *piece, uint32_t kind, const tahr__placement *frame)
@@ -53,6 +54,7 @@ void tahr__piece_box(const tahr__placement *frame, tahr_vec3 middle, tahr_vec3 h
 {
     begin(piece, TAHR__BOX, frame);
     piece->middle = place(frame, middle);
+    piece->half = half;
     piece->solid.axis_count = 3;
     for (int i = 0; i < 3; i++)
         piece->solid.axis[i] = column(frame, i, v_get(half, i));
@@ -185,7 +187,9 @@ void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr_
         return;
     }
     if (piece->kind == TAHR__BOX && core->axis_count < 3)
-        tahr__core_box(core, centre, &piece->solid, piece->middle, &w);
+        tahr__core_box(
+            core, centre,
+            &(tahr__box){piece->middle, piece->half, piece->frame->turned ? &piece->frame->turn : NULL}, &w);
     else if (piece->kind == TAHR__BOX)
         box_to_box(core, centre, piece, &w);
     else
@@ -203,6 +207,23 @@ void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr_
     near->point = v_mad(near->point, near->normal, piece->radius);
 }
 
+/* A bare core (no radius, no margin) that arrives at a one-sided triangle touches it, and out of what it touches the only
+ * way is the front, however far that is. A little earlier it is still free, and the nearest points say where it came
+ * from: looks back 1e-9, 1e-8, 1e-7 m. */
+static int look_back(const tahr__motion *motion, const tahr__piece *piece, double *fraction, tahr__near *near)
+{
+    double length = v_length(motion->motion);
+
+    for (double back = ARRIVED; back < 2e-7; back *= 10) {
+        double t = d_max(0, *fraction - back / length);
+        tahr__piece_measure(motion->shape, v_scale(motion->motion, t), piece, near);
+        if (near->distance < motion->margin - ARRIVED) continue;
+        *fraction = t;
+        return 1;
+    }
+    return 0;
+}
+
 /* A tangent of a convex function lies below it: a step to its root never overshoots, and one that starts late goes back
  * to the early side. */
 tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece *piece, double limit, double *fraction,
@@ -216,6 +237,8 @@ tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece 
         ++*motion->iterations;
         *fraction = t;
         if (gap <= ARRIVED && gap >= -ARRIVED) return TAHR__HIT;
+        if (gap < 0 && piece->kind == TAHR__TRIANGLE && motion->shape->radius + motion->margin <= 0)
+            return look_back(motion, piece, fraction, near) ? TAHR__HIT : TAHR__UNKNOWN;
         if (!(speed > 0)) return gap > 0 ? TAHR__FREE : TAHR__UNKNOWN;
         t += gap / speed;
         if (t > limit) return TAHR__FREE;

@@ -21,7 +21,7 @@ typedef struct tahr__placement {
 typedef struct tahr__piece {
     uint32_t kind;
     uint32_t two_sided;      /* triangles and half spaces (a plane) */
-    const tahr__placement *frame; /* triangles: where their neighbours are */
+    const tahr__placement *frame;
     const tahr__mesh *mesh;
     uint32_t triangle; /* in leaf order of the mesh */
     uint32_t reserved;
@@ -29,7 +29,7 @@ typedef struct tahr__piece {
     /* Boxes: centre and half axes. Round bodies: centre, half the axis, radius. Half spaces: a point on the surface and,
      * as axis[0], the unit normal. */
     tahr__core solid;
-    tahr_vec3 middle;
+    tahr_vec3 middle, half; /* half: of boxes */
     double radius;
 } tahr__piece;
 
@@ -51,7 +51,7 @@ typedef struct tahr__near {
 /* A frame from a pose, seen from the start of a query. */
 void tahr__placement_make(const tahr_vec3 *position, const tahr__mat *turn, tahr_vec3 start, tahr__placement *frame);
 
-/* Fill in a piece; the frame must live as long as a piece of a mesh. Round bodies: reach is half the axis along z. */
+/* Fill in a piece; the frame must live as long as it. Round bodies: reach is half the axis along z. */
 void tahr__piece_triangle(const tahr__placement *frame, const tahr__mesh *mesh, uint32_t triangle, tahr__piece *piece);
 void tahr__piece_box(const tahr__placement *frame, tahr_vec3 middle, tahr_vec3 half, tahr__piece *piece);
 void tahr__piece_round(const tahr__placement *frame, double radius, double reach, tahr__piece *piece);

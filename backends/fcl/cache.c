@@ -5,10 +5,13 @@
 
 #include <string.h>
 
+#define TOO_MANY UINT32_MAX
+
 typedef struct cache {
     uint64_t revision; /* of the scene, plus 1; 0: nothing is in here */
     tahr_bounds box;   /* world */
-    uint32_t count, reserved;
+    uint32_t count; /* or TOO_MANY: they did not fit, and need not be tried again */
+    uint32_t reserved;
     tahr__fcl_part parts[];
 } cache;
 
@@ -50,8 +53,8 @@ tahr_status tahr__fcl_prepare(void *self, tahr_query_context *context, const tah
     tahr__fcl_list_begin(&list, scene->host, c->parts, scene->desc.cache_parts);
     tahr_status status = tahr__fcl_engine_gather(scene->engine, &question, &list);
     tahr__fcl_list_sort(&list);
-    if (status >= 0 && !list.grown) {
-        c->count = list.count;
+    if (status >= 0) {
+        c->count = list.grown ? TOO_MANY : list.count;
         c->box = question.box;
         c->revision = scene->revision + 1;
     }
@@ -64,7 +67,7 @@ int tahr__fcl_cache_find(const tahr__fcl_query *query, const tahr_bounds *box, c
 {
     const cache *c = query->context->cache;
 
-    if (!c || !is_used(query->scene) || c->revision != query->scene->revision + 1) return 0;
+    if (!c || !is_used(query->scene) || c->revision != query->scene->revision + 1 || c->count == TOO_MANY) return 0;
     if (!holds(&c->box, box)) {
         query->context->escapes++;
         return 0;

@@ -27,9 +27,9 @@ void tahr__fcl_cell_box(const tahr__fcl_body *body, const tahr__fcl_part *cell, 
 /* A point relative to the query's start, from the middle of the cell along its own axes, in metres. */
 static void to_cell(const tahr__piece *piece, tahr_vec3 point, double at[3])
 {
-    tahr_vec3 d = v_sub(point, piece->middle);
+    tahr_vec3 d = m_unapply(&piece->frame->turn, v_sub(point, piece->middle));
     for (int i = 0; i < 3; i++)
-        at[i] = v_dot(v_unit(piece->solid.axis[i]), d);
+        at[i] = v_get(d, i);
 }
 
 /* The finest key along axis i at a place within the cell. */
@@ -44,12 +44,12 @@ static int32_t key_at(const tahr__fcl_part *cell, int i, double at, double half,
 int tahr__fcl_cell_felt(const tahr__fcl_query *q, uint32_t i, const tahr__piece *piece, const tahr__near *near)
 {
     const tahr__fcl_part *cell = &q->parts[i];
-    double r = q->scene->bodies[cell->body].radius, half = v_length(piece->solid.axis[0]), at[3], n[3];
+    double r = q->scene->bodies[cell->body].radius, half = piece->half.x, at[3];
+    tahr_vec3 normal = m_unapply(&piece->frame->turn, near->normal);
     int32_t key[3][2];
 
     to_cell(piece, near->point, at);
     for (int k = 0; k < 3; k++) {
-        n[k] = v_dot(v_unit(piece->solid.axis[k]), near->normal);
         key[k][0] = key[k][1] = key_at(cell, k, at[k], half, r);
         if (at[k] <= -half + ON_FACE) key[k][0] = cell->key[k] - 1;
         if (at[k] >= half - ON_FACE) key[k][1] = cell->key[k] + cell_size(cell);
@@ -60,7 +60,7 @@ int tahr__fcl_cell_felt(const tahr__fcl_query *q, uint32_t i, const tahr__piece 
         for (int k = 0; k < 3; k++) {
             int up = octant >> k & 1;
             place[k] = key[k][up];
-            leads |= key[k][0] != key[k][1] && (up ? n[k] > LEAN : n[k] < -LEAN);
+            leads |= key[k][0] != key[k][1] && (up ? v_get(normal, k) > LEAN : v_get(normal, k) < -LEAN);
             own &= place[k] >= cell->key[k] && place[k] < cell->key[k] + cell_size(cell);
         }
         if (leads && !own && tahr__fcl_engine_occupied(q->scene->engine, cell->body, place)) return 0;
@@ -86,7 +86,7 @@ void tahr__fcl_cell_way_out(const tahr__fcl_query *q, uint32_t i, const tahr__pi
                             tahr__near *near)
 {
     const tahr__fcl_part *cell = &q->parts[i];
-    double r = q->scene->bodies[cell->body].radius, half = v_length(piece->solid.axis[0]), at[3], least = 1e300;
+    double r = q->scene->bodies[cell->body].radius, half = piece->half.x, at[3], least = 1e300;
     int32_t key[3];
 
     to_cell(piece, centre, at);

@@ -47,20 +47,28 @@ void tahr__fcl_list_add(tahr__fcl_list *list, const tahr__fcl_part *part)
     if (list->status >= 0) list->parts[list->count++] = *part;
 }
 
-static int compare(const void *left, const void *right)
+/* Cells in the order of an octree's leaves, in which they come: the highest bit that differs decides, z before y before
+ * x. */
+static int compare_keys(const uint16_t a[3], const uint16_t b[3])
 {
-    const tahr__fcl_part *a = left, *b = right;
+    int first = 2;
 
-    if (a->body != b->body) return a->body < b->body ? -1 : 1;
-    if (a->triangle != b->triangle) return a->triangle < b->triangle ? -1 : 1;
-    for (int i = 2; i >= 0; i--) {
-        if (a->key[i] != b->key[i]) return a->key[i] < b->key[i] ? -1 : 1;
+    for (int i = 1; i >= 0; i--) {
+        unsigned d = a[i] ^ b[i], e = a[first] ^ b[first];
+        if (e < d && e < (e ^ d)) first = i; /* d has the higher bit */
     }
-    return 0;
+    return a[first] < b[first] ? -1 : a[first] > b[first];
 }
 
-/* Most lists are short and nearly in order: trees store their triangles in the order of their leaves. qsort of long
- * ones may allocate (glibc's merge sort beyond a kilobyte), so a heap sorts them in place. */
+static int compare(const tahr__fcl_part *a, const tahr__fcl_part *b)
+{
+    if (a->body != b->body) return a->body < b->body ? -1 : 1;
+    if (a->triangle != b->triangle) return a->triangle < b->triangle ? -1 : 1;
+    return compare_keys(a->key, b->key);
+}
+
+/* Most lists are short, or in order already. qsort of long ones may allocate (glibc's merge sort beyond a kilobyte), so
+ * a heap sorts them in place. */
 static void sift(tahr__fcl_part *p, uint32_t at, uint32_t count)
 {
     for (uint32_t child; (child = 2 * at + 1) < count; at = child) {

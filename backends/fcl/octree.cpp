@@ -40,14 +40,14 @@ struct Range {
 template <class Visit> void visit_cells(const Octree &tree, const Node *node, const Cell &cell, const Range &range,
                                         Visit &&visit)
 {
-    if (!range.meets(cell)) return;
-    if (!tree.nodeHasChildren(node)) {
-        if (tree.isNodeOccupied(node)) visit(cell);
-        return;
-    }
+    bool alone = true;
     for (uint32_t i = 0; i < 8 && cell.depth < TAHR__FCL_LEVELS; i++) {
-        if (tree.nodeChildExists(node, i)) visit_cells(tree, tree.getNodeChild(node, i), cell.child(i), range, visit);
+        if (!tree.nodeChildExists(node, i)) continue;
+        Cell child = cell.child(i);
+        alone = false;
+        if (range.meets(child)) visit_cells(tree, tree.getNodeChild(node, i), child, range, visit);
     }
+    if (alone && tree.isNodeOccupied(node)) visit(cell);
 }
 
 double resolution_of(const Octree &tree)

@@ -76,6 +76,15 @@ static void enter_frame(tahr__fcl_query *q, uint32_t body)
     tahr__placement_make(&pose.position, &turn, q->origin, &q->frame);
 }
 
+/* The same for a cell, before a piece is made of it: most of what an octree lists is out of the box of the query. */
+static int cell_within_reach(const tahr__fcl_query *q, tahr_vec3 middle, double half)
+{
+    tahr_vec3 at = v_add(q->frame.base, middle);
+    return q->frame.turned || (at.x - half <= q->box.max.x && at.x + half >= q->box.min.x &&
+                               at.y - half <= q->box.max.y && at.y + half >= q->box.min.y &&
+                               at.z - half <= q->box.max.z && at.z + half >= q->box.min.z);
+}
+
 static int within_reach(const tahr__fcl_query *q, const tahr__piece *piece)
 {
     tahr_bounds bounds = {piece->facet.v[0], piece->facet.v[0]};
@@ -112,6 +121,7 @@ int tahr__fcl_query_piece(tahr__fcl_query *q, uint32_t i, tahr__piece *piece)
     case TAHR__FCL_PLANE: tahr__piece_half_space(&q->frame, b->half_extents, b->radius, piece); break;
     case TAHR__FCL_OCTREE:
         tahr__fcl_cell_box(b, part, &middle, &half);
+        if (!cell_within_reach(q, middle, half.x)) return 0;
         /* fallthrough */
     default: tahr__piece_box(&q->frame, middle, half, piece); break;
     }

@@ -122,9 +122,12 @@ static tahr_status open_octree(tahr__fcl_scene *scene, uint32_t i)
 
     if (octree->body) desc = *octree->body;
     desc.type = 0;
-    if (desc.flags & ~known || desc.walkable_rule > TAHR_WALKABLE_NEVER || !(v_length(desc.pose.position) <= 1e7) ||
+    tahr_quat *turn = &desc.pose.orientation;
+    double n = turn->x * turn->x + turn->y * turn->y + turn->z * turn->z + turn->w * turn->w;
+    if (n == 0) n = turn->w = 1;
+    if (!(n > 1 - 1e-6 && n < 1 + 1e-6) || desc.flags & ~known || desc.walkable_rule > TAHR_WALKABLE_NEVER || !(v_length(desc.pose.position) <= 1e7) ||
         !(v_length(desc.surface_velocity) <= 1e4) || desc.walkable_angle * 0 != 0) {
-        tahr__log_body(scene->host, id, "octree: flags, pose, rule or velocity out of range");
+        tahr__log_body(scene->host, id, "octree: flags, pose, walkable rule or velocity out of range");
         return TAHR_E_ARGUMENT;
     }
     tahr_status status = tahr__fcl_octree_read(scene->engine, scene->host, octree, &g);

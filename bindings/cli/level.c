@@ -34,6 +34,11 @@ static void add_triangle(struct level *level, tahr_vec3 a, tahr_vec3 b, tahr_vec
     level->triangle_count++;
 }
 
+void level_add_triangle(struct level *level, const tahr_vec3 corners[3])
+{
+    add_triangle(level, corners[0], corners[1], corners[2]);
+}
+
 tahr_body_desc *level_add_body(struct level *level, uint32_t type)
 {
     level->bodies = memory_grow(level->bodies, &level->body_capacity, level->body_count + 1, sizeof *level->bodies);
@@ -210,5 +215,6 @@ void level_close(struct level *level)
         side_free(level->side);
         free(level->side);
     }
+    free(level->octree);
     *level = (struct level){0};
 }

@@ -4,6 +4,9 @@
 #ifndef TAHR_CLI_LEVEL_H
 #define TAHR_CLI_LEVEL_H
 
+#include "backends.h"
+
+#include <tahr/fcl.h>
 #include <tahr/tahr.h>
 
 /* A sphere (a equals b) or a capsule, by the ends of its axis. */
@@ -41,6 +44,7 @@ struct level_label {
 
 struct level {
     char *name;
+    char *octree; /* a map of voxels by its path, or NULL */
     tahr_body_desc *bodies;
     size_t body_count, body_capacity;
     tahr_vec3 *corners; /* three per triangle, of meshes and of boxes, world */
@@ -59,8 +63,22 @@ struct level {
     size_t thin_count, thin_capacity;
 };
 
-/* Reads a file with Assimp, triangulates it, turns Y up to Z up if up_axis is 'y', welds equal vertices. One two-sided
- * mesh body, because the winding of level files cannot be relied on. 0, or -1 after a message that names the file. */
+/* Is it a map of voxels, by the end of its name? */
+int level_is_octree(const char *path);
+/* Reads a map of voxels, always Z up. 0, or -1 after a message. */
+int level_load_octree(struct level *level, const char *path);
+
+/* What opens a world of this level on a backend: *options, in room if need be. 0, or -1 after a message that the
+ * backend does not hold it. */
+struct level_options {
+    tahr_fcl_desc fcl;
+    tahr_fcl_octree octree;
+};
+int level_options(const struct level *level, const struct backend_choice *backend, struct level_options *room,
+                  const void **options);
+
+/* Reads a file: a map of voxels as above, anything else with Assimp: triangulates it, turns Y up to Z up if up_axis
+ * is 'y', welds equal vertices. One two-sided mesh body, because the winding of level files cannot be relied on. 0, or -1 after a message that names the file. */
 int level_load(struct level *level, const char *path, char up_axis);
 
 /* The bundled level: about 60 x 54 m of everything that a character meets. */
@@ -68,6 +86,9 @@ void level_playground(struct level *level);
 
 /* Switches on what the bundled level has places for: wall jumps, ledges to hang on, forgiving jumps. */
 void playground_feel(tahr_config *config);
+
+/* For the checker and the plot only. */
+void level_add_triangle(struct level *level, const tahr_vec3 corners[3]);
 
 /* Adding bodies; the level owns the arrays of a mesh from then on. */
 void level_add_mesh(struct level *level, double *vertices, uint32_t vertex_count, uint32_t *indices,

@@ -199,6 +199,9 @@ static const struct aiScene *import_file(const char *path)
 int level_load(struct level *level, const char *path, char up_axis)
 {
     const affine identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    if (level_is_octree(path)) {
+        return level_load_octree(level, path);
+    }
     gather g = {.scene = import_file(path), .path = path, .up_axis = up_axis};
     *level = (struct level){0};
     if (g.scene == NULL) {

@@ -27,7 +27,10 @@ static int open_world(struct run *run)
     desc.bodies = run->level.bodies;
     desc.body_count = (uint32_t)run->level.body_count;
     desc.log = &log;
-    desc.options = o->backend->options;
+    struct level_options room;
+    if (level_options(&run->level, o->backend, &room, &desc.options) != 0) {
+        return -1;
+    }
     uint64_t before = clock_ns();
     tahr_status status = tahr_world_open(o->backend->get(), &desc, &run->world);
     run->result.open_seconds = (double)(clock_ns() - before) * 1e-9;
