@@ -42,7 +42,8 @@ static int is_left_out(uint32_t type)
 static tahr_status check(const tahr__native *world, uint32_t id, const tahr_body_desc *d)
 {
     const tahr_vec3 *h = &d->half_extents;
-    if (d->type < TAHR_BODY_MESH || d->type > TAHR_BODY_HEIGHTS || is_left_out(d->type)) return refuse(world, id, "type", d->type);
+    if (d->type < TAHR_BODY_MESH || d->type > TAHR_BODY_HEIGHTS || is_left_out(d->type))
+        return refuse(world, id, "type", d->type);
     if (d->flags >= TAHR_BODY_CHARACTER << 1) return refuse(world, id, "flags", d->flags);
     if (d->walkable_rule > TAHR_WALKABLE_NEVER) return refuse(world, id, "walkable_rule", d->walkable_rule);
     const char *bad = bad_pose(&d->pose);

@@ -35,8 +35,7 @@ static tahr_status read_points(const tahr_host *host, const tahr_body_desc *d, u
     }
     for (uint32_t i = 0; i < d->vertex_count; i++) {
         const double *v = d->vertices + 3 * (size_t)i;
-        b->point[i] =
-            v_make(fabs(v[0]) < TINY ? 0 : v[0], fabs(v[1]) < TINY ? 0 : v[1], fabs(v[2]) < TINY ? 0 : v[2]);
+        b->point[i] = v_make(fabs(v[0]) < TINY ? 0 : v[0], fabs(v[1]) < TINY ? 0 : v[1], fabs(v[2]) < TINY ? 0 : v[2]);
     }
     return TAHR_OK;
 }

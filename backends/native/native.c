@@ -109,7 +109,8 @@ const tahr_backend *tahr_backend_v1_native(void)
         .abi_major = TAHR_ABI_MAJOR,
         .abi_minor = TAHR_ABI_MINOR,
         .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
-                        TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_HULLS | TAHR_CAP_HEIGHTS | TAHR_CAP_SENSORS | TAHR_CAP_BIT_IDENTICAL,
+                        TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_HULLS | TAHR_CAP_HEIGHTS |
+                        TAHR_CAP_SENSORS | TAHR_CAP_BIT_IDENTICAL,
         .name = "native",
         .version = "0.1.0",
         .open = native_open,

@@ -20,9 +20,9 @@ enum { BATCH = 48 };
 typedef struct stream {
     tahr_gather out;
     const tahr__query *query;
-    const char *bad;   /* what is wrong with triangle bad_at */
+    const char *bad; /* what is wrong with triangle bad_at */
     uint32_t bad_at;
-    uint32_t seen;     /* triangles handed over so far */
+    uint32_t seen; /* triangles handed over so far */
     uint32_t enough, reserved;
     void (*take)(struct stream *stream, const tahr__loose *loose);
     int (*wants)(const struct stream *stream, const tahr_triangle *t);
@@ -248,6 +248,9 @@ static int is_at_corner(const ring *r, const tahr_vec3 v[3])
 static void keep_near(ring *r, const tahr__prim *prim, const tahr_vec3 corner[3])
 {
     uint32_t at = r->count;
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (r->near[i].feature == prim->feature && is_twin(r->near[i].corner, corner)) return; /* handed over twice */
+    }
     if (at == r->most) {
         at = 0;
         for (uint32_t i = 1; i < r->most; i++)

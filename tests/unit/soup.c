@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "../support/scene_level.h"
 #include "soup.h"
 
 #define CELL 4.0
@@ -142,9 +143,9 @@ void soup_ask(fixture *f, const tahr_sweep *sweep, soup_answer *a)
     a->status[2] = b->ray(f->self, &f->context, &ray, &a->ray, &a->ray_count);
 }
 
-void soup_announce(fixture *f, tahr_vec3 at, tahr_vec3 up)
+void soup_announce(fixture *f, tahr_vec3 at, tahr_vec3 up, double far)
 {
-    const tahr_vec3 reach = {1.6, 1.6, 1.6};
+    const tahr_vec3 reach = {far, far, far};
     tahr_prepare a;
     memset(&a, 0, sizeof a);
     a.position = at;
@@ -179,8 +180,8 @@ uint32_t soup_compare(fixture *worlds, uint32_t count, const soup *s, uint32_t q
         tahr_sweep q = soup_query(s, &r, n);
         soup_answer first, other;
         for (uint32_t i = 0; i < count; i++) {
-            /* Some are told a place near by, some another one: the frame differs with the cell, and only then bits. */
-            soup_announce(&worlds[i], q.position, q.up);
+            const double reach[] = {1.6, 0.2, 1.6, 0.7, 5};
+            soup_announce(&worlds[i], q.position, q.up, reach[(n / 7 + i) % 5]);
             soup_ask(&worlds[i], &q, i == 0 ? &first : &other);
             if (i > 0 && memcmp(&first, &other, sizeof first) != 0)
                 fail_msg("query %u: world %u answers otherwise than world 0 (%u and %u hits, features %u and %u)", n, i,
@@ -190,4 +191,52 @@ uint32_t soup_compare(fixture *worlds, uint32_t count, const soup *s, uint32_t q
         hits += first.hit_count > 0 && first.hits[first.hit_count - 1].blocking;
     }
     return hits;
+}
+
+void soup_open_all(fixture worlds[SOUP_WORLDS], const tahr_body_desc *mesh, soup soups[2], uint32_t precision)
+{
+    for (uint32_t i = 0; i < SOUP_WORLDS; i++) {
+        tahr_native_desc o = fixture_options(precision);
+        o.no_cache = i < 2;
+        o.no_simd = i == 3;
+        o.cache_triangles = i == 4 ? 16 : 600;
+        o.cache_margin = i == 5 ? 3 : 0.5;
+        if (i > 0) {
+            o.gather = soup_gather;
+            o.gather_user = &soups[i % 2];
+        }
+        fixture_init(&worlds[i]);
+        assert_int_equal(fixture_open(&worlds[i], mesh, i == 0, &o, 1), TAHR_OK);
+    }
+}
+
+void soup_compare_level(const char *name, uint32_t queries)
+{
+    scene_mesh mesh = {0};
+    char why[256];
+    if (!scene_level_make(name, &mesh, why)) {
+        print_message("    SKIP: %s: %s\n", name, why);
+        scene_mesh_free(&mesh);
+        return;
+    }
+    tahr_body_desc body;
+    soup soups[2];
+    scene_level_body(&mesh, &body);
+    for (uint32_t i = 0; i < 2; i++) {
+        soup_make(&soups[i], &body, 0);
+        soups[i].reversed = i;
+    }
+    for (uint32_t precision = 0; precision < 2; precision++) {
+        fixture worlds[SOUP_WORLDS];
+        soup_open_all(worlds, &body, soups, precision);
+        uint32_t hits = soup_compare(worlds, SOUP_WORLDS, &soups[0], queries);
+        print_message("    %s: %u queries, %u stopped\n", name, queries, hits);
+        assert_true(hits > queries / 4);
+        assert_true(worlds[2].context.gathers > queries / 4);
+        for (uint32_t i = 0; i < SOUP_WORLDS; i++)
+            native_close(&worlds[i]);
+    }
+    soup_free(&soups[0]);
+    soup_free(&soups[1]);
+    scene_mesh_free(&mesh);
 }

@@ -32,12 +32,19 @@ typedef struct soup_answer {
 } soup_answer;
 
 void soup_ask(fixture *f, const tahr_sweep *sweep, soup_answer *answer);
-/* The announcement of a runner's step. */
-void soup_announce(fixture *f, tahr_vec3 at, tahr_vec3 up);
+/* Announces a step that reaches so far. */
+void soup_announce(fixture *f, tahr_vec3 at, tahr_vec3 up, double reach);
 /* A random query near the triangles: any shape, up and motion. */
 tahr_sweep soup_query(const soup *s, oracle_random *random, uint32_t n);
 
-/* Asks worlds the same questions and fails the test where a bit differs. Returns how many blocking hits there were. */
+/* Asks worlds, to which different things were announced, the same questions and fails the test where a bit differs.
+ * Returns how many blocking hits there were. */
 uint32_t soup_compare(fixture *worlds, uint32_t count, const soup *s, uint32_t queries);
+
+/* A mesh (world 0) and the same triangles, handed over in two orders, with caches and lanes on and off. */
+enum { SOUP_WORLDS = 6 };
+void soup_open_all(fixture worlds[SOUP_WORLDS], const tahr_body_desc *mesh, soup soups[2], uint32_t precision);
+/* Compares them on a level (scene_level.h), in both precisions; says so if it is not there. */
+void soup_compare_level(const char *name, uint32_t queries);
 
 #endif
