@@ -58,6 +58,15 @@ static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
     }
 }
 
+/* Is a cell wholly below or above a box? With a hole at a corner the triangles themselves are asked. */
+static int cell_beside(const double *low, const double *high, const tahr_bounds *box)
+{
+    double sum = low[0] + low[1] + high[0] + high[1];
+    if (!(sum == sum)) return 0;
+    return d_max(d_max(low[0], low[1]), d_max(high[0], high[1])) < box->min.z ||
+           d_min(d_min(low[0], low[1]), d_min(high[0], high[1])) > box->max.z;
+}
+
 /* The same straight from the grid of a field of heights. */
 static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
 {
@@ -72,9 +81,7 @@ static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
     for (uint32_t row = range.row; row < range.row_end; row++) {
         for (uint32_t column = range.column; column < range.column_end; column++) {
             const double *low = h->z + (size_t)row * h->columns + column, *high = low + h->columns;
-            /* Of a hole nothing is known, and all comparisons are false. */
-            if (d_max(d_max(low[0], low[1]), d_max(high[0], high[1])) < around.min.z) continue;
-            if (d_min(d_min(low[0], low[1]), d_min(high[0], high[1])) > around.max.z) continue;
+            if (cell_beside(low, high, &around)) continue;
             for (uint32_t k = 0; k < 2; k++) {
                 tahr_vec3 v[3];
                 uint32_t triangle = 2 * (row * (h->columns - 1) + column) + k;

@@ -81,7 +81,7 @@ void soup_make(soup *s, const tahr_body_desc *mesh, uint32_t body)
     }
     s->low = v_make(floor(all.min.x / CELL) * CELL, floor(all.min.y / CELL) * CELL, floor(all.min.z / CELL) * CELL);
     for (int i = 0; i < 3; i++)
-        s->cells[i] = (uint32_t)((v_get(all.max, i) - v_get(s->low, i)) / CELL) + 1;
+        s->cells[i] = clamped((v_get(all.max, i) - v_get(s->low, i)) / CELL, 256) + 1;
     uint32_t cells = s->cells[0] * s->cells[1] * s->cells[2], sum = 0;
     uint32_t *next = calloc(cells + 1, sizeof *next);
     s->first = calloc(cells + 1, sizeof *s->first);
