@@ -123,7 +123,8 @@ static void a_sphere_rests_on_a_slope_of_heights(void **state)
     d.columns = d.rows = 2;
     d.half_extents = v_make(1, 1, 0);
     native_open(&w, &d, 1, TAHR_NATIVE_DOUBLE, 0);
-    tahr_sweep q = fixture_sweep(fixture_shape(TAHR_SHAPE_SPHERE, 0.5, 0.5), v_make(0.1, 0.2, 2), v_make(0, 0, -2), 0.01);
+    tahr_sweep q =
+        fixture_sweep(fixture_shape(TAHR_SHAPE_SPHERE, 0.5, 0.5), v_make(0.1, 0.2, 2), v_make(0, 0, -2), 0.01);
     tahr_hit h = fixture_hit(&w, &q);
     double tilt = sqrt(1 + 0.1 * 0.1 + 0.05 * 0.05), height = 0.1 * 0.1 + 0.05 * 0.2 + 0.51 * tilt;
     assert_true(h.blocking && fabs(h.fraction - (2 - height) / 2) < 1e-10);
@@ -135,7 +136,8 @@ static void a_sphere_rests_on_a_slope_of_heights(void **state)
 static void bad_fields_are_refused(void **state)
 {
     (void)state;
-    const char *const named[] = {"heights", "heights", "columns", "rows", "half_extents.x", "half_extents.y", "heights"};
+    const char *const named[] = {"heights",        "heights",        "columns", "rows",
+                                 "half_extents.x", "half_extents.y", "heights"};
     double heights[9] = {0};
     for (int n = 0; n < 8; n++) {
         tahr_body_desc d;
