@@ -53,7 +53,7 @@ static void moved_bodies_are_found_where_they_are(void **state)
 static void broken_bodies_and_options_are_refused(void **state)
 {
     const char *const named[] = {"radius is -1", "half_height",       "pose.position",     "pose.orientation",
-                                 "type is 9",    "options.precision", "options.cache_tri", "options.cache_m",
+                                 "type is 7",    "options.precision", "options.cache_tri", "options.cache_m",
                                  "flags is 128", "options.no_cache",  "options.no_simd",   "options.reserved"};
     (void)state;
     fixture f;
