@@ -197,19 +197,14 @@ static tahr_status fluid(void *self, tahr_query_context *context, const tahr_flu
     return user->fluid ? user->fluid(user->user, query, answer) : TAHR_OK;
 }
 
-const tahr_backend tahr__callbacks_backend = {
-    .struct_size = sizeof(tahr_backend),
-    .abi_major = TAHR_ABI_MAJOR,
-    .abi_minor = TAHR_ABI_MINOR,
-    /* Every shape: the user's sweep must honour those that its movers have. */
-    .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
-                    TAHR_CAP_BOX | TAHR_CAP_CYLINDER | TAHR_CAP_CONE | TAHR_CAP_ELLIPSOID | TAHR_CAP_HULL,
-    .name = "callbacks",
-    .version = "user",
-    .close = close_callbacks,
-    .sweep = sweep,
-    .contacts = contacts,
-    .ray = ray,
-    .body_motion = body_motion,
-    .fluid = fluid,
-};
+/* Every shape: the user's sweep must honour those that its movers have. */
+#define CAPABILITIES                                                                                              \
+    (TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE | TAHR_CAP_BOX | TAHR_CAP_CYLINDER | \
+     TAHR_CAP_CONE | TAHR_CAP_ELLIPSOID | TAHR_CAP_HULL)
+#define SLOTS                                                                                   \
+    .struct_size = sizeof(tahr_backend), .abi_major = TAHR_ABI_MAJOR, .abi_minor = TAHR_ABI_MINOR, \
+    .name = "callbacks", .version = "user", .close = close_callbacks, .sweep = sweep, .contacts = contacts, \
+    .ray = ray, .body_motion = body_motion, .fluid = fluid
+
+const tahr_backend tahr__callbacks_backend = {.capabilities = CAPABILITIES | TAHR_CAP_MARGIN, SLOTS};
+const tahr_backend tahr__callbacks_without_margin = {.capabilities = CAPABILITIES, SLOTS};

@@ -316,8 +316,8 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     if (!callbacks->sweep) {
         return tahr__complain(log, TAHR_E_NULL, function, "callbacks.sweep", "is NULL");
     }
-    if (callbacks->flags) {
-        return tahr__complain(log, TAHR_E_UNSUPPORTED, function, "callbacks.flags", "is not 0");
+    if (callbacks->flags & ~(uint32_t)TAHR_CALLBACKS_NO_MARGIN) {
+        return tahr__complain(log, TAHR_E_UNSUPPORTED, function, "callbacks.flags", "has an unknown bit");
     }
     status = new_world(function, desc, sizeof *callbacks, &world);
     if (status < 0) {
@@ -325,7 +325,8 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     }
     world->self = world + 1;
     memcpy(world->self, callbacks, sizeof *callbacks);
-    world->backend = &tahr__callbacks_backend;
+    world->backend = callbacks->flags & TAHR_CALLBACKS_NO_MARGIN ? &tahr__callbacks_without_margin
+                                                                 : &tahr__callbacks_backend;
     world->has |= callbacks->body ? (uint32_t)TAHR__HAS_BASES : 0u;
     world->has |= callbacks->sensors ? TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS : 0u;
     world->has |= callbacks->fluid ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
@@ -337,7 +338,7 @@ void tahr_world_close(tahr_world *world)
 {
     if (world) {
         world->backend->close(world->self);
-        free_world(world, world->backend == &tahr__callbacks_backend ? sizeof(tahr_callbacks) : 0);
+        free_world(world, is_callbacks(world->backend) ? sizeof(tahr_callbacks) : 0);
     }
 }
 

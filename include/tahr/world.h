@@ -156,14 +156,22 @@ typedef tahr_status (*tahr_body_fn)(void *user, uint32_t body, tahr_body_motion 
  * within 0..1, friction within 0..1e4, |velocity| up to 1e4. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_fluid_fn)(void *user, const tahr_fluid_query *query, tahr_fluid *fluid);
 
+/* NO_MARGIN: the sweep does not know tahr_sweep.margin, it is always 0: the shape comes larger by it on all sides, and
+ * what that overlaps by less is taken as near. Such a sweep must report overlaps at the start with depth and normal, and
+ * honour TAHR_SWEEP_LEAVE_OVERLAP (look past what the motion leaves), for the larger shape of who stands on a floor
+ * overlaps it by a hair in every query. Lost is what a grown shape does not tell: where it overlaps two surfaces at
+ * once only the deepest is known; the corners of a grown box are sharp, so beside an edge or corner it keeps up to 1.73
+ * margins; distances are as good as the engine's depths of a few millimetres. */
+enum { TAHR_CALLBACKS_NO_MARGIN = 1 };
+
 /* Your own collision engine. Only sweep is required; sensors missing: there are none; body missing: nothing moves;
  * fluid missing: there is none; contacts missing: depenetration uses the depth and normal of a
  * sweep that starts in overlap, one surface at a time, and nothing is ever found to be a wedge; ray missing: a sphere
- * of 1 mm is swept. Copied; user must stay valid until the world is closed. The sweep must honour tahr_sweep.margin and
- * every shape that a mover has. */
+ * of 1 mm is swept. Copied; user must stay valid until the world is closed. The sweep must honour tahr_sweep.margin
+ * (unless flags say otherwise) and every shape that a mover has. */
 typedef struct tahr_callbacks {
     uint32_t struct_size;
-    uint32_t flags; /* 0 */
+    uint32_t flags; /* TAHR_CALLBACKS_* */
     void *user;
     tahr_sweep_fn sweep;
     tahr_contacts_fn contacts;

@@ -66,7 +66,7 @@ static void broken_bodies_and_options_are_refused(void **state)
         if (n == 1) body.half_height = 0.4;
         if (n == 2) body.pose.position.y = INFINITY;
         if (n == 3) body.pose.orientation.w = 2;
-        if (n == 4) body.type = 9;
+        if (n == 4) body.type = 7;
         if (n == 5) options.precision = 7;
         if (n == 6) options.cache_triangles = 5000;
         if (n == 7) options.cache_margin = NAN;
