@@ -277,7 +277,7 @@ double depth_in(game_world &game, const tahr_config &c, const tahr_vec3 &at)
     self.setWorldTransform(btTransform(btQuaternion::getIdentity(), to_bullet(at)));
     overlap.self = &self;
     game.world.contactTest(&self, overlap);
-    return -double(overlap.distance);
+    return 0 - double(overlap.distance);
 }
 
 walked walk(game_world &game, tahr_world *world)
