@@ -316,7 +316,7 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     if (!callbacks->sweep) {
         return tahr__complain(log, TAHR_E_NULL, function, "callbacks.sweep", "is NULL");
     }
-    if (callbacks->flags & ~(uint32_t)TAHR_CALLBACKS_NO_MARGIN) {
+    if (callbacks->flags & ~(uint32_t)(TAHR_CALLBACKS_NO_MARGIN | TAHR_CALLBACKS_PROBE)) {
         return tahr__complain(log, TAHR_E_UNSUPPORTED, function, "callbacks.flags", "has an unknown bit");
     }
     status = new_world(function, desc, sizeof *callbacks, &world);
@@ -325,8 +325,8 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     }
     world->self = world + 1;
     memcpy(world->self, callbacks, sizeof *callbacks);
-    world->backend = callbacks->flags & TAHR_CALLBACKS_NO_MARGIN ? &tahr__callbacks_without_margin
-                                                                 : &tahr__callbacks_backend;
+    world->backend =
+        callbacks->flags & TAHR_CALLBACKS_NO_MARGIN ? &tahr__callbacks_without_margin : &tahr__callbacks_backend;
     world->has |= callbacks->body ? (uint32_t)TAHR__HAS_BASES : 0u;
     world->has |= callbacks->sensors ? TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS : 0u;
     world->has |= callbacks->fluid ? (uint32_t)TAHR__HAS_FLUIDS : 0u;

@@ -12,9 +12,10 @@
 /* Y up, as most programs expect of such files, and `tahr run --level` too. */
 static void write_level(FILE *file, const struct level *level)
 {
-    fputs("# Tahr's bundled playground: meshes and boxes that stand still; no water, round pillars or things that move.\n"
-          "# Metres, Y up, faces counter-clockwise.\n",
-          file);
+    fputs(
+        "# Tahr's bundled playground: meshes and boxes that stand still; no water, round pillars or things that move.\n"
+        "# Metres, Y up, faces counter-clockwise.\n",
+        file);
     for (size_t i = 0; i < 3 * level->triangle_count; i++) {
         const tahr_vec3 *c = &level->corners[i];
         /* Nine digits tell all floats apart; + 0.0: no minus zero. */

@@ -19,7 +19,8 @@
 #include <tahr/native.h>
 #include <tahr/tahr.h>
 
-namespace {
+namespace
+{
 
 btVector3 to_bullet(const tahr_vec3 &v)
 {
@@ -32,9 +33,12 @@ tahr_vec3 to_tahr(const btVector3 &v)
 }
 
 /* The user's game: a level of one mesh and some boxes, in Bullet. */
-class game_world {
+class game_world
+{
   public:
-    game_world() : dispatcher(&configuration), world(&dispatcher, &broadphase, &configuration) {}
+    game_world() : dispatcher(&configuration), world(&dispatcher, &broadphase, &configuration)
+    {
+    }
 
     void quad(btVector3 a, btVector3 b, btVector3 c, btVector3 d)
     {
@@ -200,7 +204,10 @@ struct hand_over : btTriangleCallback {
         out->add(out, &t);
     }
 
-    void processTriangle(btVector3 *corners, int, int index) override { give(corners, uint32_t(index)); }
+    void processTriangle(btVector3 *corners, int, int index) override
+    {
+        give(corners, uint32_t(index));
+    }
 };
 
 /* The twelve triangles of a box. */
@@ -234,7 +241,7 @@ tahr_status bullet_gather(void *user, const tahr_bounds *box, uint32_t, tahr_gat
         to.at = object->getWorldTransform().getOrigin();
         if (shape->isConcave()) {
             static_cast<const btConcaveShape *>(shape)->processAllTriangles(&to, to_bullet(box->min) - to.at,
-                                                                             to_bullet(box->max) - to.at);
+                                                                            to_bullet(box->max) - to.at);
         } else {
             give_box(to, *static_cast<const btBoxShape *>(shape));
         }
@@ -249,14 +256,10 @@ struct waypoint {
     double x, y, seconds;
     const char *name;
 };
-const waypoint COURSE[] = {{-24, 14.75, 4, "top of the stairs"},
-                           {-19, 14.75, 4, "foot of the stairs"},
-                           {-13.5, 11.05, 4, "before the ramp"},
-                           {-8, 11.05, 4, "top of the ramp"},
-                           {-2, 11.05, 4, "behind the ramp"},
-                           {0.5, 7.5, 3, "beside the rough ground"},
-                           {0.5, -7.5, 5, "south of it"},
-                           {13, -8, 5, "before the wall"},
+const waypoint COURSE[] = {{-24, 14.75, 4, "top of the stairs"}, {-19, 14.75, 4, "foot of the stairs"},
+                           {-13.5, 11.05, 4, "before the ramp"}, {-8, 11.05, 4, "top of the ramp"},
+                           {-2, 11.05, 4, "behind the ramp"},    {0.5, 7.5, 3, "beside the rough ground"},
+                           {0.5, -7.5, 5, "south of it"},        {13, -8, 5, "before the wall"},
                            {13, -12, 2, "behind the wall"}};
 enum { STOPS = sizeof COURSE / sizeof COURSE[0] };
 
