@@ -13,8 +13,9 @@ extern const tahr_backend tahr__callbacks_backend, tahr__callbacks_without_margi
 tahr_status tahr__sweep_solids(const tahr_callbacks *user, tahr_query_context *context, const tahr_sweep *query,
                                tahr_hit *hits, uint32_t *count);
 
-/* derived.c: contacts from sweeps alone; at most so many of them for one answer. */
-enum { TAHR__MOST_PROBES = 18 };
+/* derived.c: contacts from sweeps alone; at most so many of them for one answer, without TAHR_CALLBACKS_PROBE and with
+ * it. */
+enum { TAHR__MOST_OVERLAPS = 4, TAHR__MOST_PROBES = 46 };
 tahr_status tahr__derive_contacts(const tahr_callbacks *user, tahr_query_context *context,
                                   const tahr_contact_query *query, tahr_contact *out, uint32_t capacity,
                                   uint32_t *count);

@@ -8,11 +8,15 @@
 
 #include "vec.h"
 
-/* Overlaps that are looked for; of a room's corner there are three, and one more is a wedge. */
-enum { OVERLAPS = 4, DIRECTIONS = TAHR__MOST_PROBES - OVERLAPS };
+/* Of the overlaps of a room's corner there are three, and one more is a wedge; each of the directions may be turned
+ * aside twice. */
+enum { DIRECTIONS = (TAHR__MOST_PROBES - TAHR__MOST_OVERLAPS) / 3 };
 
 /* Contact normals this near to each other are one surface's: what a float is off by, ten times. */
 static const double SAME = 1e-6;
+
+/* Of the margin: what is kept from a surface that is felt along, so that rounding is no overlap. */
+static const double OFF = 0.01;
 
 typedef struct felt {
     const tahr_callbacks *user;
@@ -34,10 +38,10 @@ static int is_known(const felt *f, vec3 normal)
     return 0;
 }
 
-/* distance: of the moved shape. */
+/* distance: of the shape where the query has it. */
 static void note(felt *f, const tahr_hit *hit, double distance)
 {
-    f->contacts[f->count++] = (tahr_contact){.distance = distance - dot(hit->normal, f->moved),
+    f->contacts[f->count++] = (tahr_contact){.distance = distance,
                                              .normal = hit->normal,
                                              .surface_normal = hit->surface_normal,
                                              .point = hit->point,
@@ -54,10 +58,11 @@ static int is_sound(const tahr_hit *hit)
     return is_finite(hit->depth) && vec_is_finite(hit->normal) && length_squared(hit->normal) < 4;
 }
 
-static tahr_status feel_overlaps(felt *f)
+/* off: how much farther out than just out. */
+static tahr_status feel_overlaps(felt *f, double off)
 {
     const vec3 nowhere = {0, 0, 0};
-    for (int i = 0; i < OVERLAPS; i++) {
+    for (int i = 0; i < TAHR__MOST_OVERLAPS; i++) {
         tahr_hit hit;
         uint32_t found = 0;
         f->sweep.motion = nowhere;
@@ -65,12 +70,12 @@ static tahr_status feel_overlaps(felt *f)
         if (status < 0 || !found || !hit.start_overlap || hit.sensor || is_known(f, hit.normal)) {
             return status;
         }
-        note(f, &hit, -hit.depth);
+        note(f, &hit, -hit.depth - dot(hit.normal, f->moved));
         if (!is_sound(&hit)) {
             return TAHR_OK;
         }
-        f->moved = add_scaled(f->moved, hit.normal, hit.depth);
-        f->sweep.position = add_scaled(f->sweep.position, hit.normal, hit.depth);
+        f->moved = add_scaled(f->moved, hit.normal, hit.depth + off);
+        f->sweep.position = add_scaled(f->sweep.position, hit.normal, hit.depth + off);
     }
     return TAHR_OK;
 }
@@ -89,29 +94,64 @@ static vec3 direction(const tahr_contact_query *q, int i)
     return add_scaled(d, front, i & 4 ? third : -third);
 }
 
-/* As far as it takes to meet a plane at the margin, 36.2 degrees aside: 1 / cos is 1.24. */
-static tahr_status feel_around(felt *f, const tahr_contact_query *q)
+/* One short sweep from a place that lies `off` from the query's. Returns its status; hit->blocking: it met something. */
+static tahr_status feel(felt *f, const tahr_contact_query *q, vec3 off, vec3 motion, tahr_hit *hit)
 {
-    double way = 1.25 * q->margin;
-    f->sweep.flags = TAHR_SWEEP_LEAVE_OVERLAP;
-    for (int i = 0; i < DIRECTIONS; i++) {
-        tahr_hit hit;
-        uint32_t found = 0;
-        vec3 along = direction(q, i);
-        f->sweep.motion = scale(along, way);
-        tahr_status status = tahr__sweep_solids(f->user, f->context, &f->sweep, &hit, &found);
-        if (status < 0) {
-            return status;
-        }
-        if (!found || !hit.blocking || hit.unknown || hit.start_overlap || is_known(f, hit.normal)) {
-            continue;
-        }
-        double gap = -hit.fraction * way * dot(along, hit.normal);
-        if (!(gap - dot(hit.normal, f->moved) > q->margin)) {
-            note(f, &hit, gap);
+    uint32_t found = 0;
+    f->sweep.position = add(q->position, off);
+    f->sweep.motion = motion;
+    tahr_status status = tahr__sweep_solids(f->user, f->context, &f->sweep, hit, &found);
+    hit->blocking &= status >= 0 && found && !hit->unknown && !hit->start_overlap && is_sound(hit);
+    if (hit->blocking && !is_known(f, hit->normal)) {
+        double gap = -hit->fraction * dot(motion, hit->normal), distance = gap - dot(hit->normal, off);
+        if (!(distance > q->margin)) {
+            note(f, hit, distance);
         }
     }
-    return TAHR_OK;
+    return status;
+}
+
+/* The way along all that it has met: a plane, or the crease of two. */
+static vec3 deflected(vec3 motion, const vec3 met[2], int count)
+{
+    vec3 crease = count == 2 ? cross(met[0], met[1]) : met[0];
+    if (count == 1) {
+        return reject(motion, met[0]);
+    }
+    double l2 = length_squared(crease);
+    return l2 > 0 ? scale(crease, dot(crease, motion) / l2) : vec(0, 0, 0);
+}
+
+/* As far as it takes to meet a plane at the margin, 36.2 degrees aside: 1 / cos is 1.24. What is met first hides what is
+ * behind it: the rest of the way goes along it, and again along two. */
+static tahr_status feel_along(felt *f, const tahr_contact_query *q, vec3 begin, vec3 way)
+{
+    vec3 met[2], off = begin, motion = way;
+    tahr_status status = TAHR_OK;
+    double left = 1;
+    for (int k = 0; k < 3 && status >= 0; k++) {
+        tahr_hit hit;
+        status = feel(f, q, off, motion, &hit);
+        if (status < 0 || !hit.blocking || k == 2) {
+            break;
+        }
+        met[k] = hit.normal;
+        off = add_scaled(add_scaled(off, motion, hit.fraction), hit.normal, OFF * q->margin);
+        left *= 1 - hit.fraction;
+        motion = deflected(scale(way, left), met, k + 1);
+    }
+    return status;
+}
+
+static tahr_status feel_around(felt *f, const tahr_contact_query *q)
+{
+    const vec3 begin = f->moved;
+    tahr_status status = TAHR_OK;
+    f->sweep.flags = TAHR_SWEEP_LEAVE_OVERLAP;
+    for (int i = 0; i < DIRECTIONS && status >= 0; i++) {
+        status = feel_along(f, q, begin, scale(direction(q, i), 1.25 * q->margin));
+    }
+    return status;
 }
 
 static int is_before(const tahr_contact *a, const tahr_contact *b)
@@ -146,8 +186,9 @@ tahr_status tahr__derive_contacts(const tahr_callbacks *user, tahr_query_context
                         .orientation = query->orientation,
                         .mask = query->mask,
                         .ignore_body = query->ignore_body}};
-    tahr_status status = feel_overlaps(&f);
-    if (status >= 0 && query->margin > 0 && (user->flags & TAHR_CALLBACKS_PROBE)) {
+    int probes = query->margin > 0 && (user->flags & TAHR_CALLBACKS_PROBE);
+    tahr_status status = feel_overlaps(&f, probes ? OFF * query->margin : 0);
+    if (status >= 0 && probes) {
         status = feel_around(&f, query);
     }
     sort(&f);

@@ -42,6 +42,11 @@ static const tahr_callbacks *derives_contacts(const tahr_world *world)
     return user && !user->contacts ? user : NULL;
 }
 
+static uint32_t most_sweeps(const tahr_callbacks *derived)
+{
+    return derived->flags & TAHR_CALLBACKS_PROBE ? TAHR__MOST_PROBES : TAHR__MOST_OVERLAPS;
+}
+
 static int has_room(tahr__step *step, uint32_t queries)
 {
     int room = step->queries + queries <= TAHR_MAX_QUERIES_PER_STEP;
@@ -136,7 +141,7 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
 {
     uint32_t count = 0, kept = 0;
     const tahr_callbacks *derived = derives_contacts(step->world);
-    if (!may_ask(step) || (derived && !has_room(step, TAHR__MOST_PROBES))) {
+    if (!may_ask(step) || (derived && !has_room(step, most_sweeps(derived) - 1))) {
         return 0;
     }
     uint64_t before = step->context.narrow_tests;

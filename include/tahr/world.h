@@ -162,9 +162,9 @@ typedef tahr_status (*tahr_fluid_fn)(void *user, const tahr_fluid_query *query, 
  * overlaps it by a hair in every query. Lost is what a grown shape does not tell: where it overlaps two surfaces at
  * once only the deepest is known; the corners of a grown box are sharp, so beside an edge or corner it keeps up to 1.73
  * margins; distances are as good as the engine's depths of a few millimetres.
- * PROBE: without a contacts function, what is near is felt for by 14 sweeps, each of which counts as a query: every plane
- * within the margin is found that nothing else hides; a surface may be missed behind another one, and an edge or corner
- * is taken for the plane across its normal. */
+ * PROBE: without a contacts function, what is near is felt for by 14 to 42 short sweeps, each of which counts as a
+ * query. Of up to three planes within the margin at right angles all are found; others may be hidden behind nearer ones,
+ * and an edge or corner is taken for the plane across its normal. */
 enum { TAHR_CALLBACKS_NO_MARGIN = 1, TAHR_CALLBACKS_PROBE = 2 };
 
 /* Your own collision engine. Only sweep is required; sensors missing: there are none; body missing: nothing moves;
