@@ -292,7 +292,8 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
     world->backend = backend;
     world->has |= backend->body_motion ? (uint32_t)TAHR__HAS_BASES : 0u;
     /* A backend that brings its own scene may have fluids in it that nobody described. */
-    world->has |= backend->fluid && desc->body_count == 0 ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
+    int brings_own = backend->body_motion && desc->body_count == 0;
+    world->has |= backend->fluid && brings_own ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
     *out = world;
     return TAHR_OK;
 }
@@ -349,8 +350,10 @@ tahr_status tahr_world_touch(tahr_world *world)
     }
     tahr__move_revision(world, 1);
     world->last_revision = 0;
-    /* A backend may have caches of geometry that is not described. */
-    return world->backend->place ? world->backend->place(world->self, NULL, 0) : TAHR_OK;
+    if (world->backend->place) { /* a backend may have caches of geometry that is not described */
+        (void)world->backend->place(world->self, NULL, 0);
+    }
+    return TAHR_OK;
 }
 
 uint64_t tahr_world_revision(const tahr_world *world)

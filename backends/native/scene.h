@@ -86,7 +86,8 @@ enum {
     TAHR__OF_BOX = 8,    /* or of a hull: a solid answers for its inside */
     /* A triangle of the user's, kept in the cache (item is its index) or the head of a tahr__loose. */
     TAHR__GATHERED = 64,
-    TAHR__FRESH = 128
+    TAHR__FRESH = 128,
+    TAHR__FACELESS = 256 /* of a field of heights: its normal is made where it is asked for */
 };
 
 /* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. Three lines of
