@@ -11,7 +11,8 @@
 
 #include "../../backends/native/orient.h"
 #include "../../backends/native/scene.h"
-#include "native_world.h"
+#include "rig.h"
+#include "soup.h"
 
 enum { POINTS = 256 };
 
@@ -304,6 +305,73 @@ static void coplanar_triangles_of_a_hull_are_one_face(void **state)
     tahr__mesh_free(&f.host, &mesh);
 }
 
+static void caches_and_lanes_change_no_bit_of_hulls(void **state)
+{
+    (void)state;
+    enum { HULLS = 24 };
+    static tahr_vec3 points[HULLS][POINTS];
+    static native_grid grid;
+    oracle_random r = {88};
+    tahr_body_desc bodies[HULLS + 1];
+    soup s; /* says where to ask */
+    for (int i = 0; i < HULLS; i++) {
+        uint32_t count = make_points(&r, i % 2, points[i]);
+        bodies[i] = hull_of(points[i], count < 8 ? 8 : count);
+        for (uint32_t k = count; k < 8; k++)
+            points[i][k] = dice_vec(&r, -1, 1);
+        bodies[i].pose.position = v_make(oracle_uniform(&r, 0, 12), oracle_uniform(&r, 0, 12), 0.5);
+        if (i % 3) bodies[i].pose.orientation = (tahr_quat){0.1, 0.2, 0.3, 0.9273618495495704};
+        if (i % 4 == 0) bodies[i].flags = TAHR_BODY_MOVABLE;
+    }
+    bodies[HULLS] = native_grid_body(&grid, NATIVE_CELLS, 0.5, NULL);
+    soup_make(&s, &bodies[HULLS], HULLS);
+    for (uint32_t precision = 0; precision < 2; precision++) {
+        fixture worlds[4];
+        for (uint32_t i = 0; i < 4; i++) {
+            tahr_native_desc o = fixture_options(precision);
+            o.no_cache = i == 0;
+            o.no_simd = i == 2;
+            o.cache_triangles = i == 3 ? 64 : 4096;
+            fixture_init(&worlds[i]);
+            assert_int_equal(fixture_open(&worlds[i], bodies, HULLS + 1, &o, 1), TAHR_OK);
+        }
+        assert_true(soup_compare(worlds, 4, &s, 600) > 300);
+        for (int i = 0; i < 4; i++)
+            native_close(&worlds[i]);
+    }
+    soup_free(&s);
+}
+
+/* On a slab whose top is at z = 0.3 and on a roof of 20 degrees: the foot keeps 1 to 1.5 skins along the normal. */
+static void a_character_stands_and_walks_on_hulls(void **state)
+{
+    (void)state;
+    const double rise = 4 * 0.3639702342662024; /* over 4 m, at 20 degrees */
+    tahr_vec3 p[14];
+    for (int i = 0; i < 8; i++)
+        p[i] = v_make(i & 1 ? 2 : -2, i & 2 ? 2 : -2, i & 4 ? 0.3 : 0);
+    for (int i = 0; i < 6; i++)
+        p[8 + i] = v_make(i < 2 ? 2 : 6, i % 2 ? 2 : -2, i >= 4 ? 0.3 + rise : i < 2 ? 0.3 : 0);
+    tahr_body_desc bodies[2] = {hull_of(p, 8), hull_of(p + 8, 6)};
+    rig r;
+    rig_open_bodies(&r, bodies, 2, NULL, v_make(-1, 0, 1.3));
+    rig_settle(&r);
+    double gap = r.state.position.z - r.config.shape.half_height - 0.3;
+    assert_true(gap > r.config.skin - 1e-9 && gap < 1.5 * r.config.skin + 1e-9);
+    assert_int_equal(r.state.floor.body, 0);
+    r.input.move = v_make(1, 0, 0);
+    for (int i = 0; i < 240 && r.state.position.x < 4; i++)
+        rig_step(&r, 1.0 / 60);
+    assert_true(r.state.position.x >= 4);
+    assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
+    assert_int_equal(r.state.floor.body, 1);
+    /* The lower end of the axis to the plane z = 0.3 + (x - 2) tan 20. */
+    double low = r.state.position.z - r.config.shape.half_height + r.config.shape.radius - 0.3;
+    double away = (low - (r.state.position.x - 2) * 0.3639702342662024) * 0.9396926207859084 - r.config.shape.radius;
+    assert_true(away > r.config.skin - 1e-6 && away < 1.5 * r.config.skin + 1e-6);
+    rig_close(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -314,6 +382,8 @@ int main(void)
         cmocka_unit_test(the_way_out_of_a_hull_is_the_shortest),
         cmocka_unit_test(distances_to_a_hull_are_those_to_its_faces),
         cmocka_unit_test(coplanar_triangles_of_a_hull_are_one_face),
+        cmocka_unit_test(caches_and_lanes_change_no_bit_of_hulls),
+        cmocka_unit_test(a_character_stands_and_walks_on_hulls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
