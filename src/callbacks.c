@@ -91,8 +91,8 @@ static tahr_status sensors(const tahr_callbacks *user, const tahr_sweep *query, 
     return status < 0 || status == TAHR_TRUNCATED ? status : TAHR_OK;
 }
 
-static tahr_status sweep_solids(const tahr_callbacks *user, tahr_query_context *context, const tahr_sweep *query,
-                                tahr_hit *hits, uint32_t *count)
+tahr_status tahr__sweep_solids(const tahr_callbacks *user, tahr_query_context *context, const tahr_sweep *query,
+                               tahr_hit *hits, uint32_t *count)
 {
     context->narrow_tests++;
     memset(&hits[0], 0, sizeof hits[0]);
@@ -123,9 +123,9 @@ static tahr_status sweep(void *self, tahr_query_context *context, const tahr_swe
         return sensors(user, query, 1, hits, capacity, count);
     }
     if (capacity < 2 || !user->sensors) {
-        return sweep_solids(user, context, query, hits, count);
+        return tahr__sweep_solids(user, context, query, hits, count);
     }
-    tahr_status status = sweep_solids(user, context, query, &wall, &found);
+    tahr_status status = tahr__sweep_solids(user, context, query, &wall, &found);
     if (status < 0) {
         return status;
     }
@@ -137,48 +137,27 @@ static tahr_status sweep(void *self, tahr_query_context *context, const tahr_swe
     return status;
 }
 
-/* Without a contacts function a sweep that goes nowhere tells the deepest overlap. */
+static tahr_status users_contacts(const tahr_callbacks *user, tahr_query_context *context,
+                                  const tahr_contact_query *query, tahr_contact *out, uint32_t capacity,
+                                  uint32_t *count)
+{
+    context->narrow_tests++;
+    memset(out, 0, capacity * sizeof out[0]);
+    tahr_status status = user->contacts(user->user, query, out, capacity, count);
+    for (uint32_t i = 0; i < *count && i < capacity; i++) {
+        if (length_squared(out[i].surface_normal) == 0) {
+            out[i].surface_normal = out[i].normal;
+        }
+    }
+    return status < 0 || status == TAHR_TRUNCATED ? status : TAHR_OK;
+}
+
 static tahr_status contacts(void *self, tahr_query_context *context, const tahr_contact_query *query, tahr_contact *out,
                             uint32_t capacity, uint32_t *count)
 {
     const tahr_callbacks *user = self;
-    tahr_hit hit;
-    uint32_t found = 0;
-    if (user->contacts) {
-        context->narrow_tests++;
-        memset(out, 0, capacity * sizeof out[0]);
-        tahr_status status = user->contacts(user->user, query, out, capacity, count);
-        for (uint32_t i = 0; i < *count && i < capacity; i++) {
-            if (length_squared(out[i].surface_normal) == 0) {
-                out[i].surface_normal = out[i].normal;
-            }
-        }
-        return status < 0 || status == TAHR_TRUNCATED ? status : TAHR_OK;
-    }
-    tahr_sweep q = {.shape = query->shape,
-                    .position = query->position,
-                    .up = query->up,
-                    .orientation = query->orientation,
-                    .margin = query->margin,
-                    .mask = query->mask,
-                    .ignore_body = query->ignore_body};
-    tahr_status status = sweep_solids(user, context, &q, &hit, &found);
-    *count = 0;
-    if (status < 0 || !found || !hit.start_overlap || capacity == 0) {
-        return status;
-    }
-    tahr_contact c = {.distance = -hit.depth,
-                      .normal = hit.normal,
-                      .surface_normal = hit.surface_normal,
-                      .point = hit.point,
-                      .walkable_angle = hit.walkable_angle,
-                      .walkable_rule = hit.walkable_rule,
-                      .surface = hit.surface,
-                      .body = hit.body,
-                      .feature = hit.feature};
-    out[0] = c;
-    *count = 1;
-    return TAHR_OK;
+    return user->contacts ? users_contacts(user, context, query, out, capacity, count)
+                          : tahr__derive_contacts(user, context, query, out, capacity, count);
 }
 
 static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
@@ -204,7 +183,7 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
                     .motion = query->motion,
                     .mask = query->mask,
                     .ignore_body = query->ignore_body};
-    tahr_status status = sweep_solids(user, context, &q, hit, count);
+    tahr_status status = tahr__sweep_solids(user, context, &q, hit, count);
     *count = hit->blocking != 0;
     return status;
 }
@@ -222,19 +201,14 @@ static tahr_status fluid(void *self, tahr_query_context *context, const tahr_flu
     return user->fluid ? user->fluid(user->user, query, answer) : TAHR_OK;
 }
 
-const tahr_backend tahr__callbacks_backend = {
-    .struct_size = sizeof(tahr_backend),
-    .abi_major = TAHR_ABI_MAJOR,
-    .abi_minor = TAHR_ABI_MINOR,
-    /* Every shape: the user's sweep must honour those that its movers have. */
-    .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
-                    TAHR_CAP_BOX | TAHR_CAP_CYLINDER | TAHR_CAP_CONE | TAHR_CAP_ELLIPSOID | TAHR_CAP_HULL,
-    .name = "callbacks",
-    .version = "user",
-    .close = close_callbacks,
-    .sweep = sweep,
-    .contacts = contacts,
-    .ray = ray,
-    .body_motion = body_motion,
-    .fluid = fluid,
-};
+/* Every shape: the user's sweep must honour those that its movers have. */
+#define CAPABILITIES                                                                                            \
+    (TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE | TAHR_CAP_BOX | TAHR_CAP_CYLINDER | \
+     TAHR_CAP_CONE | TAHR_CAP_ELLIPSOID | TAHR_CAP_HULL)
+#define SLOTS                                                                                               \
+    .struct_size = sizeof(tahr_backend), .abi_major = TAHR_ABI_MAJOR, .abi_minor = TAHR_ABI_MINOR,          \
+    .name = "callbacks", .version = "user", .close = close_callbacks, .sweep = sweep, .contacts = contacts, \
+    .ray = ray, .body_motion = body_motion, .fluid = fluid
+
+const tahr_backend tahr__callbacks_backend = {.capabilities = CAPABILITIES | TAHR_CAP_MARGIN, SLOTS};
+const tahr_backend tahr__callbacks_without_margin = {.capabilities = CAPABILITIES, SLOTS};

@@ -3,6 +3,7 @@
 #include "query.h"
 
 #include "answer.h"
+#include "callbacks.h"
 #include "drop.h"
 #include "plane.h"
 #include "query_record.h"
@@ -33,6 +34,25 @@ static int may_ask(tahr__step *step)
     }
     step->queries++;
     return 1;
+}
+
+/* A user's callbacks, if contacts are derived from their sweep. */
+static const tahr_callbacks *derives_contacts(const tahr_world *world)
+{
+    const tahr_callbacks *user = is_callbacks(world->backend) ? world->self : NULL;
+    return user && !user->contacts ? user : NULL;
+}
+
+static uint32_t most_sweeps(const tahr_callbacks *derived)
+{
+    return derived->flags & TAHR_CALLBACKS_PROBE ? TAHR__MOST_PROBES : TAHR__MOST_OVERLAPS;
+}
+
+static int has_room(tahr__step *step, uint32_t queries)
+{
+    int room = step->queries + queries <= TAHR_MAX_QUERIES_PER_STEP;
+    step->report.flags |= room ? 0u : (uint32_t)TAHR_REPORT_QUERY_CAP;
+    return room;
 }
 
 static void blocked_here(const tahr__step *step, tahr_hit *hit)
@@ -146,9 +166,11 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
                            tahr_contact *contacts, uint32_t capacity)
 {
     uint32_t count = 0, kept = 0;
-    if (!may_ask(step)) {
+    const tahr_callbacks *derived = derives_contacts(step->world);
+    if (!may_ask(step) || (derived && !has_room(step, most_sweeps(derived) - 1))) {
         return 0;
     }
+    uint64_t before = step->context.narrow_tests;
     tahr_contact_query q = {.shape = *shape,
                             .position = position,
                             .up = step->state.up,
@@ -159,6 +181,11 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
                             .flags = TAHR_CONTACTS_SOLID | (is_dropping(step) ? (uint32_t)TAHR_CONTACTS_DROP : 0u)};
     step->report.contact_queries++;
     tahr_status status = tahr__answer_contacts(step->world, &step->context, &q, contacts, capacity, &count);
+    if (derived && step->context.narrow_tests > before) { /* one for each sweep; the first is the query itself */
+        uint32_t more = (uint32_t)(step->context.narrow_tests - before) - 1;
+        step->queries += more;
+        step->report.sweeps += more;
+    }
     if (status < 0) {
         step->error = status;
         return 0;

@@ -283,8 +283,9 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
     world->backend = backend;
     world->has |= backend->body_motion ? (uint32_t)TAHR__HAS_BASES : 0u;
     /* A backend that brings its own scene may have fluids and sensors in it that nobody described. */
-    world->has |= backend->fluid && desc->body_count == 0 ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
-    if (backend->body_motion && (backend->capabilities & TAHR_CAP_SENSORS) && desc->body_count == 0) {
+    int brings_own = backend->body_motion && desc->body_count == 0;
+    world->has |= backend->fluid && brings_own ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
+    if (brings_own && (backend->capabilities & TAHR_CAP_SENSORS)) {
         world->has |= TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS;
     }
     *out = world;
@@ -310,8 +311,8 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     if (!callbacks->sweep) {
         return tahr__complain(log, TAHR_E_NULL, function, "callbacks.sweep", "is NULL");
     }
-    if (callbacks->flags) {
-        return tahr__complain(log, TAHR_E_UNSUPPORTED, function, "callbacks.flags", "is not 0");
+    if (callbacks->flags & ~(uint32_t)(TAHR_CALLBACKS_NO_MARGIN | TAHR_CALLBACKS_PROBE)) {
+        return tahr__complain(log, TAHR_E_UNSUPPORTED, function, "callbacks.flags", "has an unknown bit");
     }
     status = new_world(function, desc, sizeof *callbacks, &world);
     if (status < 0) {
@@ -319,7 +320,8 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     }
     world->self = world + 1;
     memcpy(world->self, callbacks, sizeof *callbacks);
-    world->backend = &tahr__callbacks_backend;
+    world->backend =
+        callbacks->flags & TAHR_CALLBACKS_NO_MARGIN ? &tahr__callbacks_without_margin : &tahr__callbacks_backend;
     world->has |= callbacks->body ? (uint32_t)TAHR__HAS_BASES : 0u;
     world->has |= callbacks->sensors ? TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS : 0u;
     world->has |= callbacks->fluid ? (uint32_t)TAHR__HAS_FLUIDS : 0u;
@@ -331,7 +333,7 @@ void tahr_world_close(tahr_world *world)
 {
     if (world) {
         world->backend->close(world->self);
-        free_world(world, world->backend == &tahr__callbacks_backend ? sizeof(tahr_callbacks) : 0);
+        free_world(world, is_callbacks(world->backend) ? sizeof(tahr_callbacks) : 0);
     }
 }
 
@@ -342,8 +344,10 @@ tahr_status tahr_world_touch(tahr_world *world)
     }
     tahr__move_revision(world, 1);
     world->last_revision = 0;
-    /* A backend may have caches of geometry that is not described. */
-    return world->backend->place ? world->backend->place(world->self, NULL, 0) : TAHR_OK;
+    if (world->backend->place) { /* a backend may have caches of geometry that is not described */
+        (void)world->backend->place(world->self, NULL, 0);
+    }
+    return TAHR_OK;
 }
 
 uint64_t tahr_world_revision(const tahr_world *world)

@@ -153,14 +153,13 @@ void tahr__prim_round(const tahr__map *map, const tahr__body *body, tahr__prim *
 void tahr__prim_heights(const tahr__map *map, const tahr__body *body, uint32_t triangle, const tahr_vec3 v[3],
                         tahr__prim *prim)
 {
-    tahr_vec3 n = tahr__heights_normal(v);
     uint32_t thin = body->heights.may_be_thin && tahr__slimness(v[0], v[1], v[2]) < TAHR__THIN;
     for (int i = 0; i < 3; i++)
         prim->facet.v[i] = tahr__map_point(map, v[i]);
     tahr__facet_finish(&prim->facet);
-    prim->face = map->turned ? m_apply(&map->turn, n) : n;
+    prim->face = v_make(0, 0, 0);
     prim->item = prim->feature = triangle;
-    prim->kind = (prim->kind & ~(uint32_t)TAHR__PLANELESS) | (thin ? TAHR__PLANELESS : 0u);
+    prim->kind = (prim->kind & ~(uint32_t)TAHR__PLANELESS) | TAHR__FACELESS | (thin ? TAHR__PLANELESS : 0u);
 }
 
 void tahr__prim_solid(const tahr__map *map, const tahr__body *body, tahr__prim *prim)

@@ -105,15 +105,29 @@ static void store(tahr__search *search, const tahr__prim *prim)
     g->cache->count = n + 1;
 }
 
+/* Has a triangle been handed over before? */
+static int is_known(const tahr__corners *c, const tahr__prim *prims, const tahr__loose *loose)
+{
+    const tahr_vec3 *v = loose->corner;
+    uint32_t i = c->first[tahr__corner_bucket(c, v[0])];
+    for (; i != TAHR__NONE; i = c->next[i]) {
+        const tahr__prim *p = &prims[i / 3];
+        int same = p->body == loose->prim.body && p->feature == loose->prim.feature && i % 3 == 0;
+        if (same && memcmp(c->exact + i, v, 3 * sizeof *v) == 0) return 1;
+    }
+    return 0;
+}
+
 /* The same of a triangle of the user's, with its corners and where they are found. */
 static void store_loose(tahr__search *search, const tahr__loose *loose)
 {
     gather *g = (gather *)search;
     const tahr__native *world = search->query->world;
     uint32_t n = g->cache->count;
+    tahr__corners c = tahr__cache_corners(world, g->cache);
+    if (is_known(&c, g->prims, loose)) return;
     store(search, &loose->prim);
     if (g->cache->overflow) return;
-    tahr__corners c = tahr__cache_corners(world, g->cache);
     g->prims[n].item = TAHR__ITEM_LOOSE | n;
     g->prims[n].kind &= ~(uint32_t)TAHR__FRESH;
     for (uint32_t i = 3 * n; i < 3 * n + 3; i++) {

@@ -12,36 +12,50 @@
 /* Half a cell more than rounding could be wrong by. */
 #define OUTWARD 0.5
 
+static size_t samples_of(const tahr__heights *h)
+{
+    return (size_t)h->columns * h->rows;
+}
+
 static size_t bytes_of(const tahr__heights *h)
 {
-    return (size_t)h->columns * h->rows * sizeof *h->z;
+    return (samples_of(h) + h->columns + h->rows) * sizeof *h->z;
 }
 
-/* Exact at both ends, so that fields side by side fit. */
 static double place(uint32_t i, uint32_t count, double half)
 {
-    return (2.0 * i / (count - 1) - 1) * half;
-}
-
-static tahr_vec3 corner_at(const tahr__heights *h, uint32_t column, uint32_t row)
-{
-    return v_make(place(column, h->columns, h->half_x) + 0.0, place(row, h->rows, h->half_y) + 0.0,
-                  h->z[(size_t)row * h->columns + column] + 0.0);
+    return (2.0 * i / (count - 1) - 1) * half + 0.0;
 }
 
 /* Column and row of a corner of a triangle, seen from its cell: counter-clockwise from above. */
 static const uint8_t CORNERS[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
 
-int tahr__heights_triangle(const tahr__heights *h, uint32_t triangle, tahr_vec3 v[3])
+void tahr__heights_cell(const tahr__heights *h, uint32_t column, uint32_t row, tahr_vec3 corners[4])
 {
-    uint32_t cell = triangle / 2, row = cell / (h->columns - 1), column = cell % (h->columns - 1);
-    for (int i = 0; i < 3; i++) {
-        const uint8_t *at = CORNERS[triangle % 2][i];
-        v[i] = corner_at(h, column + at[0], row + at[1]);
-    }
+    const double *low = h->z + (size_t)row * h->columns + column, *high = low + h->columns;
+    double x0 = h->x[column], x1 = h->x[column + 1], y0 = h->y[row], y1 = h->y[row + 1];
+    corners[0] = v_make(x0, y0, low[0] + 0.0); /* no minus zero, as in a mesh */
+    corners[1] = v_make(x1, y0, low[1] + 0.0);
+    corners[2] = v_make(x1, y1, high[1] + 0.0);
+    corners[3] = v_make(x0, y1, high[0] + 0.0);
+}
+
+int tahr__heights_half(const tahr__heights *h, const tahr_vec3 corners[4], uint32_t k, tahr_vec3 v[3])
+{
+    v[0] = corners[0];
+    v[1] = corners[1 + k];
+    v[2] = corners[2 + k];
     double sum = v[0].z + v[1].z + v[2].z;
     if (!(sum == sum)) return 0;
     return !h->may_be_thin || tahr__slimness(v[0], v[1], v[2]) > TAHR__NO_AREA;
+}
+
+int tahr__heights_triangle(const tahr__heights *h, uint32_t triangle, tahr_vec3 v[3])
+{
+    tahr_vec3 corners[4];
+    uint32_t cell = triangle / 2;
+    tahr__heights_cell(h, cell % (h->columns - 1), cell / (h->columns - 1), corners);
+    return tahr__heights_half(h, corners, triangle % 2, v);
 }
 
 uint32_t tahr__heights_around(const tahr__heights *h, uint32_t triangle, uint32_t corner, uint32_t around[6])
@@ -101,7 +115,8 @@ static int find_bounds(const tahr__heights *h, tahr_bounds *bounds)
 tahr_status tahr__heights_open(const tahr_host *host, const tahr_body_desc *d, uint32_t body, tahr__heights *heights,
                                tahr_bounds *bounds)
 {
-    tahr__heights h = {NULL, d->columns, d->rows, 0, 0, d->half_extents.x, d->half_extents.y};
+    tahr__heights h = {
+        .columns = d->columns, .rows = d->rows, .half_x = d->half_extents.x, .half_y = d->half_extents.y};
     double low = INFINITY, high = -INFINITY;
     if ((uint64_t)(h.columns - 1) * (h.rows - 1) > MOST_CELLS) {
         tahr__log_body(host, body, "columns times rows is above 2^27");
@@ -109,8 +124,14 @@ tahr_status tahr__heights_open(const tahr_host *host, const tahr_body_desc *d, u
     }
     h.z = host->allocator.alloc(host->allocator.user, bytes_of(&h), 64);
     if (!h.z) return TAHR_E_MEMORY;
-    memcpy(h.z, d->heights, bytes_of(&h));
-    for (size_t i = 0; i < (size_t)h.columns * h.rows; i++) {
+    h.x = h.z + samples_of(&h);
+    h.y = h.x + h.columns;
+    for (uint32_t i = 0; i < h.columns; i++)
+        h.x[i] = place(i, h.columns, h.half_x);
+    for (uint32_t i = 0; i < h.rows; i++)
+        h.y[i] = place(i, h.rows, h.half_y);
+    memcpy(h.z, d->heights, samples_of(&h) * sizeof *h.z);
+    for (size_t i = 0; i < samples_of(&h); i++) {
         low = d_min(h.z[i], low);
         high = d_max(h.z[i], high);
     }

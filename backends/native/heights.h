@@ -11,7 +11,8 @@
 #include <tahr/backend.h>
 
 typedef struct tahr__heights {
-    double *z; /* rows * columns; NULL: no field */
+    double *z;     /* rows * columns; NULL: no field */
+    double *x, *y; /* of columns and rows: exact at both ends, so that fields side by side fit */
     uint32_t columns, rows;
     uint32_t may_be_thin, reserved; /* 0: no triangle of it is thin or without area */
     double half_x, half_y;
@@ -31,6 +32,9 @@ void tahr__heights_close(const tahr_host *host, tahr__heights *heights);
 tahr__heights_range tahr__heights_cells(const tahr__heights *heights, const tahr_bounds *box);
 /* Exact corners of a triangle; 0: it is not there. */
 int tahr__heights_triangle(const tahr__heights *heights, uint32_t triangle, tahr_vec3 v[3]);
+/* The same of the four corners of a cell, counter-clockwise from the lowest, and of its triangle k out of them. */
+void tahr__heights_cell(const tahr__heights *heights, uint32_t column, uint32_t row, tahr_vec3 corners[4]);
+int tahr__heights_half(const tahr__heights *heights, const tahr_vec3 corners[4], uint32_t k, tahr_vec3 v[3]);
 /* The triangles, there or not, at a corner of a triangle; returns how many, at most 6. */
 uint32_t tahr__heights_around(const tahr__heights *heights, uint32_t triangle, uint32_t corner, uint32_t around[6]);
 

@@ -274,13 +274,23 @@ static void look_around(work *w, const tahr__witness *witness)
     }
 }
 
+static tahr_vec3 heights_face(const tahr__query *query, const tahr__prim *prim)
+{
+    const tahr__body *body = &query->world->bodies[prim->body];
+    tahr__map map = tahr__map_make(query->frame, body);
+    tahr_vec3 v[3], n;
+    tahr__heights_triangle(&body->heights, prim->item, v);
+    n = tahr__heights_normal(v);
+    return map.turned ? m_apply(&map.turn, n) : n;
+}
+
 int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
                   tahr_vec3 motion, int measure, tahr__contact_normals *out)
 {
     out->normal = out->face = witness->normal;
     out->closer = witness->distance;
     if (prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) return TAHR__ACCEPTED;
-    tahr_vec3 own = prim->face;
+    tahr_vec3 own = prim->kind & TAHR__FACELESS ? heights_face(query, prim) : prim->face;
     double facing = v_dot(own, witness->normal);
     if (facing < -BEHIND) {
         if (!(prim->kind & TAHR__TWO_SIDED)) return TAHR__REJECTED;

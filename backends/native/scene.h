@@ -28,9 +28,9 @@ typedef struct tahr__body {
     tahr__mesh mesh;        /* meshes; hulls and boxes as triangles whose sources are their faces; of heights, bounds */
     tahr_vec3 half_extents; /* boxes; of hulls, half their local bounds */
     tahr__heights heights;
-    double radius;          /* spheres and capsules */
-    double reach;           /* capsules: half the length of the axis */
-    tahr_bounds bounds;     /* world */
+    double radius;      /* spheres and capsules */
+    double reach;       /* capsules: half the length of the axis */
+    tahr_bounds bounds; /* world */
 } tahr__body;
 
 /* A tree over some of the bodies. */
@@ -83,11 +83,12 @@ enum {
     TAHR__TWO_SIDED = 1,
     TAHR__SENSOR = 2,
     TAHR__PLANELESS = 4, /* round, solid, or so thin that the direction of its plane may be rounding */
-    TAHR__OF_BOX = 8, /* or of a hull: a solid answers for its inside */
+    TAHR__OF_BOX = 8,    /* or of a hull: a solid answers for its inside */
     TAHR__ONE_WAY = 16,
     /* A triangle of the user's, kept in the cache (item is its index) or the head of a tahr__loose. */
     TAHR__GATHERED = 64,
-    TAHR__FRESH = 128
+    TAHR__FRESH = 128,
+    TAHR__FACELESS = 256 /* of a field of heights: its normal is made where it is asked for */
 };
 
 /* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. Three lines of

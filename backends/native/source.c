@@ -248,6 +248,9 @@ static int is_at_corner(const ring *r, const tahr_vec3 v[3])
 static void keep_near(ring *r, const tahr__prim *prim, const tahr_vec3 corner[3])
 {
     uint32_t at = r->count;
+    for (uint32_t i = 0; i < r->count; i++) {
+        if (r->near[i].feature == prim->feature && is_twin(r->near[i].corner, corner)) return; /* handed over twice */
+    }
     if (at == r->most) {
         at = 0;
         for (uint32_t i = 1; i < r->most; i++)

@@ -58,34 +58,80 @@ static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
     }
 }
 
-/* The same straight from the grid of a field of heights. */
+/* Is a cell wholly below or above a box? With a hole at a corner the triangles themselves are asked. */
+static int cell_beside(const double *low, const double *high, const tahr_bounds *box)
+{
+    double sum = low[0] + low[1] + high[0] + high[1];
+    if (!(sum == sum)) return 0;
+    return d_max(d_max(low[0], low[1]), d_max(high[0], high[1])) < box->min.z ||
+           d_min(d_min(low[0], low[1]), d_min(high[0], high[1])) > box->max.z;
+}
+
+static uint32_t clamp(uint32_t x, uint32_t low, uint32_t high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+typedef struct field_search {
+    tahr__search *search;
+    const tahr__body *body;
+    const tahr__map *map;
+    tahr_bounds box, around; /* what is searched for, in the field's coordinates; grown by the reach */
+    double reach;
+    tahr__prim prim;
+} field_search;
+
+static void set_field_box(field_search *f)
+{
+    const tahr_vec3 grow = {f->reach, f->reach, f->reach};
+    f->box = to_mesh(f->map, &f->search->box);
+    f->around.min = v_sub(f->box.min, grow);
+    f->around.max = v_add(f->box.max, grow);
+}
+
+static void search_cell(field_search *f, uint32_t column, uint32_t row)
+{
+    const tahr__heights *h = &f->body->heights;
+    const double *low = h->z + (size_t)row * h->columns + column;
+    tahr_vec3 corners[4], v[3];
+    if (cell_beside(low, low + h->columns, &f->around)) return;
+    tahr__heights_cell(h, column, row, corners);
+    for (uint32_t k = 0; k < 2; k++) {
+        if (!tahr__heights_half(h, corners, k, v) || !within(&f->box, f->reach, v[0], v[1], v[2])) continue;
+        tahr__prim_heights(f->map, f->body, 2 * (row * (h->columns - 1) + column) + k, v, &f->prim);
+        f->search->narrowed = 0;
+        f->search->visit(f->search, &f->prim);
+        if (f->search->narrowed) set_field_box(f);
+    }
+}
+
+/* i-th of first..end - 1, from `middle` outward. */
+static uint32_t outward(uint32_t first, uint32_t end, uint32_t middle, uint32_t i)
+{
+    uint32_t below = middle - first, above = end - 1 - middle, both = 2 * (below < above ? below : above);
+    if (i <= both) return i % 2 ? middle + (i + 1) / 2 : middle - i / 2;
+    return below < above ? middle + i - below : middle + above - i;
+}
+
+/* The same straight from the grid of a field of heights, from the cell of the query's start outward. */
 static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
 {
-    const tahr__body *body = &s->query->world->bodies[id];
-    const tahr__heights *h = &body->heights;
-    double reach = s->reach + TAHR__SLACK;
-    const tahr_vec3 grow = {reach, reach, reach};
-    tahr_bounds box = to_mesh(map, &s->box), around = {v_sub(box.min, grow), v_add(box.max, grow)};
-    tahr__heights_range range = tahr__heights_cells(h, &around);
-    tahr__prim prim;
-    tahr__prim_begin(body, id, &prim);
-    for (uint32_t row = range.row; row < range.row_end; row++) {
-        for (uint32_t column = range.column; column < range.column_end; column++) {
-            const double *low = h->z + (size_t)row * h->columns + column, *high = low + h->columns;
-            /* Of a hole nothing is known, and all comparisons are false. */
-            if (d_max(d_max(low[0], low[1]), d_max(high[0], high[1])) < around.min.z) continue;
-            if (d_min(d_min(low[0], low[1]), d_min(high[0], high[1])) > around.max.z) continue;
-            for (uint32_t k = 0; k < 2; k++) {
-                tahr_vec3 v[3];
-                uint32_t triangle = 2 * (row * (h->columns - 1) + column) + k;
-                if (!tahr__heights_triangle(h, triangle, v)) continue;
-                if (!within(&box, reach, v[0], v[1], v[2])) continue;
-                tahr__prim_heights(map, body, triangle, v, &prim);
-                s->narrowed = 0;
-                s->visit(s, &prim);
-                if (s->narrowed) box = to_mesh(map, &s->box);
-            }
-        }
+    field_search f;
+    f.search = s;
+    f.body = &s->query->world->bodies[id];
+    f.map = map;
+    f.reach = s->reach + TAHR__SLACK;
+    set_field_box(&f);
+    tahr_vec3 near = v_sub(s->query->start, map->offset);
+    if (map->turned) near = m_unapply(&map->turn, near);
+    tahr__heights_range r = tahr__heights_cells(&f.body->heights, &f.around);
+    tahr__heights_range m = tahr__heights_cells(&f.body->heights, &(tahr_bounds){near, near});
+    if (r.column >= r.column_end || r.row >= r.row_end) return;
+    uint32_t column = clamp(m.column, r.column, r.column_end - 1), row = clamp(m.row, r.row, r.row_end - 1);
+    tahr__prim_begin(f.body, id, &f.prim);
+    for (uint32_t i = 0; i < r.row_end - r.row; i++) {
+        for (uint32_t k = 0; k < r.column_end - r.column; k++)
+            search_cell(&f, outward(r.column, r.column_end, column, k), outward(r.row, r.row_end, row, i));
     }
 }
 

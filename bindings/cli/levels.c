@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * levels.c: the files that the shell brings along; the build compiles them in. */
+ * levels.c: the files that the shell brings along: the build compiles them in, or they are made when asked for. */
 #include "levels.h"
 
+#include "export.h"
 #include "say.h"
 
 #include <stdio.h>
@@ -14,12 +15,15 @@ static const struct {
     const char *name, *about;
     const unsigned char *bytes;
     const unsigned long *size;
+    void (*write)(FILE *file); /* instead of bytes */
 } levels[] = {
     [LEVEL_SIDE] = {"side.tmj", "the level of `tahr run --2d`, to be opened with Tiled", level_side_tmj,
-                    &level_side_tmj_size},
-    [LEVEL_TILES] = {"side.png", "how its tiles look there", level_side_png, &level_side_png_size},
+                    &level_side_tmj_size, NULL},
+    [LEVEL_TILES] = {"side.png", "how its tiles look there", level_side_png, &level_side_png_size, NULL},
     [LEVEL_TOUR] = {"tour.json", "the route of `tahr run --2d --tour` through it", level_tour_json,
-                    &level_tour_json_size},
+                    &level_tour_json_size, NULL},
+    {"playground.obj", "what stands still of the level of `tahr run`, for other engines", NULL, NULL,
+     export_playground},
 };
 
 const char *level_text(int level)
@@ -33,16 +37,20 @@ int level_command(int argc, char **argv)
     if (argc < 2) {
         puts("usage: tahr level NAME >FILE\n");
         for (size_t i = 0; i < count; i++) {
-            printf("  %-12s %s\n", levels[i].name, levels[i].about);
+            printf("  %-16s %s\n", levels[i].name, levels[i].about);
         }
         return EXIT_GOOD;
     }
     for (size_t i = 0; i < count; i++) {
         if (strcmp(levels[i].name, argv[1]) == 0) {
-            fwrite(levels[i].bytes, 1, *levels[i].size, stdout);
+            if (levels[i].write) {
+                levels[i].write(stdout);
+            } else {
+                fwrite(levels[i].bytes, 1, *levels[i].size, stdout);
+            }
             return EXIT_GOOD;
         }
     }
-    say_error("level '%s': expected side.tmj, side.png or tour.json", argv[1]);
+    say_error("level '%s': expected side.tmj, side.png, tour.json or playground.obj", argv[1]);
     return EXIT_USAGE;
 }

@@ -96,7 +96,8 @@ typedef struct tahr_backend {
     /* The first blocking hit of a segment; *count is 0 or 1. */
     tahr_status (*ray)(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count);
 
-    /* Optional (NULL): bytes of cache per character; the announcement; placing bodies anew. */
+    /* Optional (NULL): bytes of cache per character; the announcement; placing bodies anew (count 0: tahr_world_touch,
+     * what is not described may have changed). */
     size_t (*cache_size)(void *self);
     tahr_status (*prepare)(void *self, tahr_query_context *context, const tahr_prepare *announcement);
     tahr_status (*place)(void *self, const tahr_body_pose *poses, uint32_t count);

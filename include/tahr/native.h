@@ -15,15 +15,15 @@ enum { TAHR_NATIVE_FLOAT = 0, TAHR_NATIVE_DOUBLE = 1 };
 /* One triangle of yours, in the world frame. Name it by body and feature, the same name whenever it is handed over and no
  * other with it: ties between surfaces go by it. */
 typedef struct tahr_triangle {
-    tahr_vec3 corners[3];     /* m, counter-clockwise seen from the front, finite, |x| <= 1e7. Where two triangles of a
+    tahr_vec3 corners[3];   /* m, counter-clockwise seen from the front, finite, |x| <= 1e7. Where two triangles of a
                                * body meet they have exactly the same corners: then their edge is not felt */
-    double walkable_angle;    /* rad, with INCREASE and DECREASE */
-    uint32_t body;            /* at least tahr_world_desc.body_count: the lower ones are the described bodies */
-    uint32_t feature;         /* handed back in hits and contacts */
-    uint32_t surface;         /* likewise */
-    uint32_t walkable_rule;   /* TAHR_WALKABLE_* */
-    uint32_t flags;           /* 0 or TAHR_BODY_TWO_SIDED */
-    uint32_t mask;            /* 0: all bits */
+    double walkable_angle;  /* rad, with INCREASE and DECREASE */
+    uint32_t body;          /* at least tahr_world_desc.body_count: the lower ones are the described bodies */
+    uint32_t feature;       /* handed back in hits and contacts */
+    uint32_t surface;       /* likewise */
+    uint32_t walkable_rule; /* TAHR_WALKABLE_* */
+    uint32_t flags;         /* 0 or TAHR_BODY_TWO_SIDED */
+    uint32_t mask;          /* 0: all bits */
 } tahr_triangle;
 
 /* Takes triangles. Call add(out, &triangle) for each; it copies what it needs. It answers 0 when no more are needed,
@@ -34,7 +34,8 @@ struct tahr_gather {
 };
 
 /* Your geometry. [in] box, world, whole cells of 4 m; mask; [out] out: hand over every triangle that touches the box and
- * that mask concerns; more do not harm. A triangle that touches two boxes must be handed over for both, with the same
+ * that mask concerns; more do not harm, nor does one
+ * twice. A triangle that touches two boxes must be handed over for both, with the same
  * bits, and a box must give the same triangles in the same order until tahr_world_touch. Called from every thread that
  * steps or asks, several at once, never from within itself. Return TAHR_OK, or a negative status to end the step with
  * TAHR_E_BACKEND, state untouched; so does a triangle that breaks a rule above (the log names triangle and field). */

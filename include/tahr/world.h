@@ -156,14 +156,26 @@ typedef tahr_status (*tahr_body_fn)(void *user, uint32_t body, tahr_body_motion 
  * within 0..1, friction within 0..1e4, |velocity| up to 1e4. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_fluid_fn)(void *user, const tahr_fluid_query *query, tahr_fluid *fluid);
 
+/* NO_MARGIN: the sweep does not know tahr_sweep.margin, it is always 0: the shape comes larger by it on all sides, and
+ * what that overlaps by less is taken as near. Such a sweep must report overlaps at the start with depth and normal, and
+ * honour TAHR_SWEEP_LEAVE_OVERLAP (look past what the motion leaves), for the larger shape of who stands on a floor
+ * overlaps it by a hair in every query. Lost is what a grown shape does not tell: where it overlaps two surfaces at
+ * once only the deepest is known; the corners of a grown box are sharp, so beside an edge or corner it keeps up to 1.73
+ * margins; distances are as good as the engine's depths of a few millimetres.
+ * PROBE: without a contacts function, what is near is felt for by 14 to 42 short sweeps, each of which counts as a
+ * query. Of up to three planes within the margin at right angles all are found; others may be hidden behind nearer ones,
+ * and an edge or corner is taken for the plane across its normal. */
+enum { TAHR_CALLBACKS_NO_MARGIN = 1, TAHR_CALLBACKS_PROBE = 2 };
+
 /* Your own collision engine. Only sweep is required; sensors missing: there are none; body missing: nothing moves;
- * fluid missing: there is none; contacts missing: depenetration uses the depth and normal of a
- * sweep that starts in overlap, one surface at a time, and nothing is ever found to be a wedge; ray missing: a sphere
- * of 1 mm is swept. Copied; user must stay valid until the world is closed. The sweep must honour tahr_sweep.margin and
- * every shape that a mover has. */
+ * fluid missing: there is none; contacts missing: overlaps are those of sweeps that go nowhere, from the shape's place and
+ * then from out of each overlap found, up to 4 of them, each told by its plane; what is near and not overlapped is not
+ * known (but see PROBE); each of these sweeps counts as a query; ray missing: a sphere of 1 mm is swept, which meets
+ * what passes within 1 mm and ends up to that much early. Copied; user must stay valid until the world is closed. The sweep must honour tahr_sweep.margin
+ * (unless flags say otherwise) and every shape that a mover has. */
 typedef struct tahr_callbacks {
     uint32_t struct_size;
-    uint32_t flags; /* 0 */
+    uint32_t flags; /* TAHR_CALLBACKS_* */
     void *user;
     tahr_sweep_fn sweep;
     tahr_contacts_fn contacts;

@@ -53,7 +53,7 @@ static void moved_bodies_are_found_where_they_are(void **state)
 static void broken_bodies_and_options_are_refused(void **state)
 {
     const char *const named[] = {"radius is -1", "half_height",       "pose.position",     "pose.orientation",
-                                 "type is 9",    "options.precision", "options.cache_tri", "options.cache_m",
+                                 "type is 7",    "options.precision", "options.cache_tri", "options.cache_m",
                                  "flags is 256", "options.no_cache",  "options.no_simd",   "options.reserved"};
     (void)state;
     fixture f;
@@ -66,7 +66,7 @@ static void broken_bodies_and_options_are_refused(void **state)
         if (n == 1) body.half_height = 0.4;
         if (n == 2) body.pose.position.y = INFINITY;
         if (n == 3) body.pose.orientation.w = 2;
-        if (n == 4) body.type = 9;
+        if (n == 4) body.type = 7;
         if (n == 5) options.precision = 7;
         if (n == 6) options.cache_triangles = 5000;
         if (n == 7) options.cache_margin = NAN;
