@@ -57,6 +57,8 @@ struct tahr_world {
     uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a
                              * motion */
     tahr__body_note *bodies;
+    struct tahr__recording *recording; /* who watches it (record.h), or NULL */
+    uint32_t record_round;             /* number of the last recording */
 };
 
 /* Gravity and what follows from it. */
@@ -131,6 +133,8 @@ struct tahr_mover {
     uint32_t busy;
     uint32_t plain; /* 1: neither world nor config hold anything that a state remembers */
     tahr__custom custom;
+    uint32_t record_round;  /* of the recording that has numbered it, */
+    uint32_t record_number; /* and the number */
     tahr__sleep sleep;
 };
 

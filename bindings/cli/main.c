@@ -2,6 +2,7 @@
  * main.c: `tahr`, the library's shell. */
 #include "info.h"
 #include "options.h"
+#include "replay.h"
 #include "run.h"
 #include "say.h"
 
@@ -18,6 +19,7 @@ static int help_command(int argc, char **argv)
     puts("usage: tahr COMMAND [options]\n"
          "\n"
          "  run              characters walk through a level; see `tahr run --help`\n"
+         "  replay FILE      repeats a run from the file that `tahr run --trace FILE` or a program left\n"
          "  info [--json]    version, ABI, collision engines and what they can do\n"
          "  help [run]       this text, or the options of run\n"
          "  --version\n");
@@ -36,7 +38,7 @@ static const struct {
     const char *name;
     int (*call)(int argc, char **argv);
 } commands[] = {
-    {"run", run_command},     {"info", info_command}, {"help", help_command},
+    {"run", run_command},     {"replay", replay_command}, {"info", info_command}, {"help", help_command},
     {"--help", help_command}, {"-h", help_command},   {"--version", version_command},
 };
 
@@ -60,6 +62,6 @@ int main(int argc, char **argv)
             return code;
         }
     }
-    say_error("unknown command '%s'; known are run, info, help, --version", argv[1]);
+    say_error("unknown command '%s'; known are run, replay, info, help, --version", argv[1]);
     return EXIT_USAGE;
 }

@@ -24,6 +24,7 @@ enum {
     OPTION_ROUTE,
     OPTION_CSV,
     OPTION_PLOT,
+    OPTION_TRACE,
     OPTION_CHECK,
     OPTION_JSON,
     OPTION_HELP
@@ -40,6 +41,7 @@ static const struct option known[] = {{"level", required_argument, NULL, OPTION_
                                       {"route", required_argument, NULL, OPTION_ROUTE},
                                       {"csv", required_argument, NULL, OPTION_CSV},
                                       {"plot", required_argument, NULL, OPTION_PLOT},
+                                      {"trace", required_argument, NULL, OPTION_TRACE},
                                       {"check", required_argument, NULL, OPTION_CHECK},
                                       {"json", no_argument, NULL, OPTION_JSON},
                                       {"help", no_argument, NULL, OPTION_HELP},
@@ -63,7 +65,8 @@ void options_help(void)
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
         printf("%s %s", i ? "," : "", backend_choice_at(i)->name);
     }
-    fputs(" (native)\n"
+    fputs(" (native);\n"
+          "                     or the path of a shared object with one in it: ./libtahr_mine.so\n"
           "  --route FILE       one character with timed inputs instead of wandering, as JSON:\n"
           "                     {\"start\": [x, y, z], \"inputs\": [{\"time\": 0, \"move\": [1, 0, 0], \"jump\": "
           "true}, ...]}\n"
@@ -72,6 +75,7 @@ void options_help(void)
           "                     capsule; once, when the entry begins: launch: velocity to add; mode: its name\n"
           "  --csv FILE         one row per character and step\n"
           "  --plot FILE        .svg or .png: the level from above with the paths, and the heights below\n"
+          "  --trace FILE       the whole run, for `tahr replay FILE`: what a bug report needs, in one file\n"
           "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling (from 5 Hz up)\n"
           "                     and overlaps\n"
           "  --json             the summary as one JSON object\n"
@@ -129,11 +133,16 @@ static int read_preset(const char *text, int32_t *preset)
     return bad_value("preset", text, wanted);
 }
 
-static int read_backend(const char *text, const struct backend_choice **choice)
+static int read_backend(const char *text, struct options *o)
 {
     char wanted[200] = "known are:";
-    *choice = backend_choice_find(text);
-    if (*choice != NULL) {
+    if (backend_is_path(text)) {
+        backend_unload(&o->loaded);
+        o->backend = &o->loaded.choice;
+        return backend_load(&o->loaded, text);
+    }
+    o->backend = backend_choice_find(text);
+    if (o->backend != NULL) {
         return 0;
     }
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
@@ -179,10 +188,11 @@ static int read_option(struct options *o, int option, const char *value)
     case OPTION_RATE: return read_number("rate", value, 1, 1e5, &o->rate);
     case OPTION_SEED: return read_whole("seed", value, 0, INT64_MAX, &o->seed);
     case OPTION_PRESET: return read_preset(value, &o->preset);
-    case OPTION_BACKEND: return read_backend(value, &o->backend);
+    case OPTION_BACKEND: return read_backend(value, o);
     case OPTION_ROUTE: o->route = value; return 0;
     case OPTION_CSV: o->csv = value; return 0;
     case OPTION_PLOT: o->plot = value; return 0;
+    case OPTION_TRACE: o->trace = value; return 0;
     case OPTION_CHECK: return read_check(value, &o->check);
     default: o->json = 1; return 0;
     }
@@ -220,6 +230,13 @@ static int check_together(struct options *o, int characters_given, int up_given)
     }
     if (o->csv != NULL && o->plot != NULL && strcmp(o->csv, o->plot) == 0) {
         say_error("--csv and --plot both write '%s'", o->csv);
+        return -1;
+    }
+    const char *other = o->csv != NULL && o->trace != NULL && strcmp(o->csv, o->trace) == 0     ? "csv"
+                        : o->plot != NULL && o->trace != NULL && strcmp(o->plot, o->trace) == 0 ? "plot"
+                                                                                                : NULL;
+    if (other != NULL) {
+        say_error("--%s and --trace both write '%s'", other, o->trace);
         return -1;
     }
     if (o->seconds * o->rate < 0.5 || o->seconds * o->rate > 4e9) {
@@ -262,4 +279,9 @@ int options_parse(struct options *options, int argc, char **argv)
         return -1;
     }
     return check_together(options, characters_given, up_given);
+}
+
+void options_close(struct options *options)
+{
+    backend_unload(&options->loaded);
 }

@@ -19,12 +19,17 @@ struct options {
     const char *route; /* NULL: wandering */
     const char *csv;
     const char *plot;
+    const char *trace;
     enum check_mode check;
     int json;
+    struct backend_plugin loaded; /* where backend comes from a shared object */
 };
 
 /* 0: go on; 1: help was asked for and shown; -1: wrong usage, said so. */
 int options_parse(struct options *options, int argc, char **argv);
+
+/* What parsing loaded. */
+void options_close(struct options *options);
 
 /* The help of `tahr run`. */
 void options_help(void);

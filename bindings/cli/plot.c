@@ -68,9 +68,9 @@ static const struct kind {
     {TAHR_EVENT_SHAPE, SHAPE_DOT, 2.6, {0.62, 0.62, 0.70}, "another height"},
     {TAHR_EVENT_LAUNCHED, SHAPE_UP, 4.6, {0.60, 0.22, 0.58}, "launched"},
     {TAHR_EVENT_CRUSHED, SHAPE_CROSS, 4, {0.4, 0.0, 0.4}, "crushed"},
-    {TRACE_FELL_OUT, SHAPE_CROSS, 5, {0.8, 0.05, 0.1}, "fell out"},
-    {TRACE_STUCK, SHAPE_RING, 6, {0.8, 0.05, 0.1}, "stuck for good"},
-    {TRACE_TUNNEL, SHAPE_RING, 9, {0.9, 0, 0.6}, "tunnelled"},
+    {TRACK_FELL_OUT, SHAPE_CROSS, 5, {0.8, 0.05, 0.1}, "fell out"},
+    {TRACK_STUCK, SHAPE_RING, 6, {0.8, 0.05, 0.1}, "stuck for good"},
+    {TRACK_TUNNEL, SHAPE_RING, 9, {0.9, 0, 0.6}, "tunnelled"},
 };
 
 #define KIND_COUNT (sizeof kinds / sizeof *kinds)
@@ -118,11 +118,11 @@ static void set_path_style(const struct picture *picture, uint32_t mode)
 /* One path in one of the two diagrams. Points closer than half a point of the picture are left out. */
 static void draw_path(const struct picture *picture, const struct axes *axes, uint32_t character)
 {
-    const struct trace_path *path = &picture->plot->trace->paths[character];
+    const struct track_path *path = &picture->plot->track->paths[character];
     double last_x = 0, last_y = 0;
     uint32_t mode = TAHR_MODE_NONE;
     for (size_t i = 0; i < path->count; i++) {
-        const struct trace_point *p = &path->points[i];
+        const struct track_point *p = &path->points[i];
         int map = axes == &picture->map;
         double x = axes_x(axes, (double)(map ? p->x : p->time));
         double y = axes_y(axes, map ? (double)p->y : (double)p->z);
@@ -150,12 +150,12 @@ static void draw_path(const struct picture *picture, const struct axes *axes, ui
 
 static void draw_marks(const struct picture *picture, const struct axes *axes)
 {
-    const struct trace *trace = picture->plot->trace;
+    const struct track *track = picture->plot->track;
     double factor = picture->path_count > 24 ? 0.6 : 1;
     size_t drawn = 0;
     for (size_t k = 0; k < KIND_COUNT; k++) {
-        for (size_t i = 0; i < trace->mark_count && drawn < MAX_MARKS_DRAWN; i++) {
-            const struct trace_mark *mark = &trace->marks[i];
+        for (size_t i = 0; i < track->mark_count && drawn < MAX_MARKS_DRAWN; i++) {
+            const struct track_mark *mark = &track->marks[i];
             if (mark->type != kinds[k].type || mark->character >= picture->path_count) {
                 continue;
             }
@@ -170,7 +170,7 @@ static void draw_marks(const struct picture *picture, const struct axes *axes)
 /* Where a character began. */
 static void draw_start(const struct picture *picture, const struct axes *axes, uint32_t character)
 {
-    const struct trace_path *path = &picture->plot->trace->paths[character];
+    const struct track_path *path = &picture->plot->track->paths[character];
     if (path->count > 0 && axes == &picture->map) {
         set_path_style(picture, TAHR_MODE_WALKING);
         cairo_arc(picture->cairo, axes_x(axes, (double)path->points[0].x), axes_y(axes, (double)path->points[0].y),
@@ -309,20 +309,20 @@ static double legend_patch(const struct picture *picture, double x, double y, co
     return y + 20;
 }
 
-static size_t count_marks(const struct trace *trace, uint32_t type)
+static size_t count_marks(const struct track *track, uint32_t type)
 {
     size_t count = 0;
-    for (size_t i = 0; i < trace->mark_count; i++) {
-        count += trace->marks[i].type == type;
+    for (size_t i = 0; i < track->mark_count; i++) {
+        count += track->marks[i].type == type;
     }
     return count;
 }
 
-static int has_mode(const struct trace *trace, uint32_t mode)
+static int has_mode(const struct track *track, uint32_t mode)
 {
-    for (uint32_t c = 0; c < trace->character_count; c++) {
-        for (size_t i = 0; i < trace->paths[c].count; i++) {
-            if (trace->paths[c].points[i].mode == mode) {
+    for (uint32_t c = 0; c < track->character_count; c++) {
+        for (size_t i = 0; i < track->paths[c].count; i++) {
+            if (track->paths[c].points[i].mode == mode) {
                 return 1;
             }
         }
@@ -337,12 +337,12 @@ static void draw_legend(const struct picture *picture)
     double x = picture->map.left + picture->map.width + 18, y = picture->map.top + 12;
     char text[80];
     for (uint32_t mode = TAHR_MODE_WALKING; mode <= TAHR_MODE_CUSTOM; mode++) {
-        if (mode <= TAHR_MODE_FALLING || has_mode(picture->plot->trace, mode)) {
+        if (mode <= TAHR_MODE_FALLING || has_mode(picture->plot->track, mode)) {
             y = legend_line(picture, x, y, mode, tahr_mode_name(mode));
         }
     }
     for (size_t k = 0; k < KIND_COUNT; k++) {
-        size_t count = count_marks(picture->plot->trace, kinds[k].type);
+        size_t count = count_marks(picture->plot->track, kinds[k].type);
         if (count > 0) {
             draw_symbol(picture->cairo, &kinds[k], x + 13, y - 4, kinds[k].size);
             snprintf(text, sizeof text, "%s (%zu)", kinds[k].name, count);
@@ -361,8 +361,8 @@ static void draw_legend(const struct picture *picture)
     if (picture->plot->level->mover_count > 0) {
         y = legend_patch(picture, x, y, moving, "moving (dashed: to)");
     }
-    if (picture->path_count < picture->plot->trace->character_count) {
-        snprintf(text, sizeof text, "first %u of %u drawn", picture->path_count, picture->plot->trace->character_count);
+    if (picture->path_count < picture->plot->track->character_count) {
+        snprintf(text, sizeof text, "first %u of %u drawn", picture->path_count, picture->plot->track->character_count);
         text_at(picture->cairo, x, y + 8, 11, 0, text);
     }
 }
@@ -388,9 +388,9 @@ static void draw_picture(const struct picture *picture)
 static void profile_range(const struct plot *plot, double *low, double *high)
 {
     double floor_z = plot->level->bounds.min.z - 1, bottom = HUGE_VAL, top = -HUGE_VAL;
-    for (uint32_t c = 0; c < plot->trace->character_count; c++) {
-        for (size_t i = 0; i < plot->trace->paths[c].count; i++) {
-            double z = (double)plot->trace->paths[c].points[i].z;
+    for (uint32_t c = 0; c < plot->track->character_count; c++) {
+        for (size_t i = 0; i < plot->track->paths[c].count; i++) {
+            double z = (double)plot->track->paths[c].points[i].z;
             bottom = least(bottom, most(z, floor_z));
             top = most(top, z);
         }
@@ -431,7 +431,7 @@ static void lay_out(struct picture *picture)
     profile_range(plot, &picture->profile.y0, &picture->profile.y1);
     picture->width = MARGIN_LEFT + width + LEGEND_WIDTH;
     picture->height = picture->profile.top + PROFILE_HEIGHT + MARGIN_BOTTOM;
-    picture->path_count = plot->trace->character_count < MAX_PATHS ? plot->trace->character_count : MAX_PATHS;
+    picture->path_count = plot->track->character_count < MAX_PATHS ? plot->track->character_count : MAX_PATHS;
 }
 
 int plot_write(const struct plot *plot)

@@ -15,6 +15,7 @@
 #include "wander.h"
 
 #include <stdlib.h>
+#include <tahr/trace.h>
 #include <unistd.h>
 
 #define WANDER_SPEED 5.0    /* m/s, by the definition of wandering */
@@ -40,8 +41,9 @@ struct run {
     tahr_body_pose *poses; /* of the level's movers */
     struct route route;
     struct checker *checker; /* NULL: off */
-    struct trace trace;
-    FILE *csv; /* or NULL */
+    struct track track;
+    FILE *csv;         /* or NULL */
+    tahr_trace *trace; /* or NULL */
     uint64_t step_count;
     double dt;
     struct result result;
@@ -76,7 +78,7 @@ static int open_world(struct run *run)
     desc.log = &log;
     desc.options = o->backend->options;
     uint64_t before = clock_ns();
-    tahr_status status = tahr_world_open(o->backend->get(), &desc, &run->world);
+    tahr_status status = tahr_world_open(backend_table(o->backend), &desc, &run->world);
     run->result.open_seconds = (double)(clock_ns() - before) * 1e-9;
     if (status < 0) {
         say_error("level '%s' does not open on backend '%s': %s", run->level.name, o->backend->name,
@@ -114,11 +116,49 @@ static int create_characters(struct run *run)
     return failed;
 }
 
+/* Spawning is over: from here on the file tells everything. */
+static int open_trace(struct run *run)
+{
+    const tahr_log log = say_log();
+    const tahr_trace_desc desc = {
+        .struct_size = sizeof desc, .flags = TAHR_TRACE_STEPS_ONLY, .path = run->options->trace, .log = &log};
+    if (run->options->trace == NULL) {
+        return 0;
+    }
+    tahr_status status = tahr_trace_open(&desc, &run->trace);
+    if (status >= 0) {
+        status = tahr_world_record(run->world, tahr_trace_recorder(run->trace));
+    }
+    if (status < 0) {
+        say_error("--trace '%s': %s", run->options->trace, tahr_status_message(status));
+        return -1;
+    }
+    return 0;
+}
+
+/* Ends the recording, if there is one. */
+static int close_trace(struct run *run)
+{
+    tahr_trace *trace = run->trace;
+    run->trace = NULL;
+    if (trace == NULL) {
+        return 0;
+    }
+    tahr_world_record(run->world, NULL);
+    tahr_trace_size(trace, NULL, NULL, &run->result.trace_bytes);
+    if (tahr_trace_close(trace) < 0) {
+        say_error("--trace '%s': cannot write", run->options->trace);
+        return -1;
+    }
+    return 0;
+}
+
 static int open_run(struct run *run)
 {
     const struct options *o = run->options;
     uint64_t before = clock_ns();
-    if (output_probe("csv", o->csv) != 0 || output_probe("plot", o->plot) != 0) {
+    if (output_probe("csv", o->csv) != 0 || output_probe("plot", o->plot) != 0 ||
+        output_probe("trace", o->trace) != 0) {
         return -1;
     }
     if (o->route != NULL && route_load(&run->route, o->route) != 0) {
@@ -136,11 +176,11 @@ static int open_run(struct run *run)
         playground_feel(&run->config);
     }
     run->poses = memory_new(run->level.mover_count, sizeof *run->poses);
-    if (open_world(run) != 0 || create_characters(run) != 0) {
+    if (open_world(run) != 0 || create_characters(run) != 0 || open_trace(run) != 0) {
         return -1;
     }
     run->checker = o->check != CHECK_OFF ? checker_open(&run->level) : NULL;
-    trace_open(&run->trace, o->characters, run->step_count);
+    track_open(&run->track, o->characters, run->step_count);
     run->csv = o->csv != NULL ? output_open("csv", o->csv) : NULL;
     if (o->csv != NULL && run->csv == NULL) {
         return -1;
@@ -156,6 +196,7 @@ static int open_run(struct run *run)
 
 static void close_run(struct run *run)
 {
+    close_trace(run);
     for (uint32_t i = 0; run->characters != NULL && i < run->options->characters; i++) {
         tahr_mover_destroy(run->characters[i].mover);
     }
@@ -166,7 +207,7 @@ static void close_run(struct run *run)
     }
     tahr_world_close(run->world);
     checker_close(run->checker);
-    trace_close(&run->trace);
+    track_close(&run->track);
     times_close(&run->result.times);
     route_close(&run->route);
     level_close(&run->level);
@@ -194,7 +235,7 @@ static void count_events(struct run *run, const struct moment *m, const tahr_sta
         const tahr_event *event = &m->events[i];
         r->events[event->type < EVENT_TYPES ? event->type : 0]++;
         if (run->options->plot != NULL) {
-            trace_mark(&run->trace, m->index, event->type, m->time + event->time, foot_of(event->position, state));
+            track_mark(&run->track, m->index, event->type, m->time + event->time, foot_of(event->position, state));
         }
     }
 }
@@ -233,7 +274,7 @@ static void check_step(struct run *run, const struct moment *m, const tahr_state
     if (run->dt <= STRAIGHT_DT && checker_crosses(run->checker, m->before, state->position)) {
         r->tunnels++;
         add_finding(run, m, "tunnelled", m->before);
-        trace_mark(&run->trace, m->index, TRACE_TUNNEL, m->time, foot_of(state->position, state));
+        track_mark(&run->track, m->index, TRACK_TUNNEL, m->time, foot_of(state->position, state));
     }
     const tahr_shape shape = shape_now(&run->config, state);
     double clearance = checker_clearance(run->checker, &shape, state->position, state->up);
@@ -264,8 +305,8 @@ static void bring_back(struct run *run, const struct moment *m, struct character
     if (bad || fell) {
         run->result.bad_states += (uint64_t)bad;
         run->result.fell_out += (uint64_t)fell;
-        trace_mark(&run->trace, m->index, TRACE_FELL_OUT, m->time, foot_of(m->before, state));
-        trace_break(&run->trace, m->index);
+        track_mark(&run->track, m->index, TRACK_FELL_OUT, m->time, foot_of(m->before, state));
+        track_break(&run->track, m->index);
         place_character(run, character, m->time + run->dt);
     }
 }
@@ -277,7 +318,7 @@ static void watch_step(struct run *run, const struct moment *m, struct character
     count_report(run, m, state);
     check_step(run, m, state);
     if (run->options->plot != NULL) {
-        trace_point(&run->trace, m->index, m->step, end, state);
+        track_point(&run->track, m->index, m->step, end, state);
     }
     if (run->csv != NULL) {
         csv_write(run->csv, &(struct csv_row){m->step, end, m->index, state, &m->report});
@@ -285,7 +326,7 @@ static void watch_step(struct run *run, const struct moment *m, struct character
     if (progress_watch(&character->progress, run->world, &run->config, state, &m->input, m->heading_is_new, end)) {
         run->result.stuck++;
         add_finding(run, m, "stuck", state->position);
-        trace_mark(&run->trace, m->index, TRACE_STUCK, end, foot_of(state->position, state));
+        track_mark(&run->track, m->index, TRACK_STUCK, end, foot_of(state->position, state));
     }
     bring_back(run, m, character);
 }
@@ -392,7 +433,7 @@ static int write_plot(const struct run *run)
              o->characters == 1 ? "" : "s", o->seconds, o->rate, o->backend->name);
     return plot_write(&(struct plot){.path = o->plot,
                                      .level = &run->level,
-                                     .trace = &run->trace,
+                                     .track = &run->track,
                                      .seconds = o->seconds,
                                      .walkable_angle = run->config.walkable_angle,
                                      .caption = caption});
@@ -406,6 +447,9 @@ static int finish(struct run *run)
     r->world_bytes = tahr_world_memory(run->world);
     r->failed = r->tunnels > 0 || r->crushed_alone > 0 || r->bad_states > 0 || r->stuck > 0 ||
                 r->deepest > o->backend->penetration_allowed;
+    if (close_trace(run) != 0) {
+        return -1;
+    }
     FILE *csv = run->csv;
     run->csv = NULL;
     if (csv != NULL && output_close(csv, "csv", o->csv) != 0) {
@@ -427,6 +471,7 @@ int run_command(int argc, char **argv)
     struct options options;
     int parsed = options_parse(&options, argc, argv);
     if (parsed != 0) {
+        options_close(&options);
         return parsed > 0 ? EXIT_GOOD : EXIT_USAGE;
     }
     struct run run = {
@@ -436,5 +481,6 @@ int run_command(int argc, char **argv)
         code = walk(&run) == 0 && finish(&run) == 0 && !run.result.failed ? EXIT_GOOD : EXIT_CHECK_FAILED;
     }
     close_run(&run);
+    options_close(&options);
     return code;
 }
