@@ -384,6 +384,6 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "world",
                               "is recorded, and another step of it under way");
     }
-    tahr__record_step(mover, input, dt, state);
+    tahr__record_step(mover, input, dt, state, report);
     return tahr__record_done(mover, step_mover(mover, input, dt, state, report), state);
 }

@@ -174,7 +174,8 @@ void tahr__record_end(tahr_world *world)
     a.free(a.user, r, sizeof *r, 8);
 }
 
-void tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state)
+void tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
+                       const tahr_report *report)
 {
     tahr_world *world = mover->world;
     struct tahr__recording *r = world->recording;
@@ -184,8 +185,10 @@ void tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, co
     }
     mover->sleep.noted = 0; /* what happens is to be seen */
     const int custom = mover->custom.run && (state->mode == TAHR_MODE_CUSTOM || (input->flags & TAHR_INPUT_MODE));
+    const int events = report && report->events;
     const tahr_record_step s = {.mover = mover->record_number,
-                                .flags = custom ? (uint32_t)TAHR_RECORD_CUSTOM : 0u,
+                                .flags = (custom ? (uint32_t)TAHR_RECORD_CUSTOM : 0u) |
+                                         (events ? (uint32_t)TAHR_RECORD_EVENTS : 0u),
                                 .config = &mover->config,
                                 .input = input,
                                 .state = state,

@@ -17,7 +17,8 @@ struct tahr__recording {
 };
 
 /* Around every step of a watched world with valid arguments: tahr__record_done gets its status and hands it back. */
-void tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state);
+void tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
+                       const tahr_report *report);
 tahr_status tahr__record_done(const tahr_mover *mover, tahr_status status, const tahr_state *state);
 
 /* After a change of a watched world. */

@@ -33,7 +33,7 @@ enum {
 };
 
 /* Of a BEGIN. */
-enum { TAHR__TRACE_HAS_CONFIG = 1, TAHR__TRACE_HAS_STATE = 2, TAHR__TRACE_IS_CUSTOM = 4 };
+enum { TAHR__TRACE_HAS_CONFIG = 1, TAHR__TRACE_HAS_STATE = 2, TAHR__TRACE_IS_CUSTOM = 4, TAHR__TRACE_HAS_EVENTS = 8 };
 
 /* The head of a file. Sizes: of every struct that is in it, so that another version is recognised. */
 typedef struct tahr__trace_head {

@@ -96,7 +96,7 @@ static tahr_status read_move(tahr_trace_reader *r, tahr_trace_event *event)
 /* A mover is met with its config, and only then. */
 static tahr_status read_mover(tahr_trace_reader *r, uint64_t number, uint64_t has)
 {
-    if (number > r->mover_count || (number == r->mover_count) != ((has & TAHR__TRACE_HAS_CONFIG) != 0) || has > 7)
+    if (number > r->mover_count || (number == r->mover_count) != ((has & TAHR__TRACE_HAS_CONFIG) != 0) || has > 15)
         return tahr__trace_broken(r, "a mover that is known, or the next one with its config");
     if (number == r->mover_count) {
         void *more = tahr__trace_grow(r->inputs, r->mover_count, &r->mover_room, sizeof *r->inputs);
@@ -128,11 +128,12 @@ static tahr_status read_step(tahr_trace_reader *r, tahr_trace_event *event)
     event->kind = TAHR_TRACE_STEP;
     event->number = r->steps;
     s->mover = r->mover;
-    s->flags = has & TAHR__TRACE_IS_CUSTOM ? (uint32_t)TAHR_RECORD_CUSTOM : 0u;
+    s->flags = (has & TAHR__TRACE_IS_CUSTOM ? (uint32_t)TAHR_RECORD_CUSTOM : 0u) |
+               (has & TAHR__TRACE_HAS_EVENTS ? (uint32_t)TAHR_RECORD_EVENTS : 0u);
     s->config = has & TAHR__TRACE_HAS_CONFIG ? &r->config : NULL;
     s->state = has & TAHR__TRACE_HAS_STATE ? &r->state : NULL;
     s->input = &r->input;
-    r->in_step = s->flags ? 2 : 1;
+    r->in_step = s->flags & TAHR_RECORD_CUSTOM ? 2 : 1;
     r->asked = 0;
     return TAHR_OK;
 }

@@ -146,7 +146,8 @@ static void step(void *user, const tahr_record_step *s)
     input.struct_size = sizeof input;
     tahr__trace_put(out, s->mover);
     tahr__trace_put(out, (is_new ? TAHR__TRACE_HAS_CONFIG : 0u) | (jumped ? TAHR__TRACE_HAS_STATE : 0u) |
-                             (s->flags & TAHR_RECORD_CUSTOM ? TAHR__TRACE_IS_CUSTOM : 0u));
+                             (s->flags & TAHR_RECORD_CUSTOM ? TAHR__TRACE_IS_CUSTOM : 0u) |
+                             (s->flags & TAHR_RECORD_EVENTS ? TAHR__TRACE_HAS_EVENTS : 0u));
     tahr__trace_put_words(out, &s->dt, &trace->bases.dt, sizeof s->dt);
     tahr__trace_put_words(out, &input, &m->input, sizeof input);
     if (is_new) tahr__trace_put_words(out, s->config, &trace->bases.config, sizeof *s->config);

@@ -50,13 +50,14 @@ typedef struct tahr_record_move {
     double dt;                   /* s, MOVE */
 } tahr_record_move;
 
-/* CUSTOM: the step may run the caller's own mode, which nobody can run again without the caller. */
-enum { TAHR_RECORD_CUSTOM = 1 };
+/* CUSTOM: the step may run the caller's own mode, which nobody can run again without the caller. EVENTS: its report has
+ * room for events, for which some questions more are asked. */
+enum { TAHR_RECORD_CUSTOM = 1, TAHR_RECORD_EVENTS = 2 };
 
 /* A step that begins: all that it depends on but the world. The pointers are valid until it ends. Frozen. */
 typedef struct tahr_record_step {
     uint32_t mover; /* from 0, in the order of their first steps */
-    uint32_t flags; /* TAHR_RECORD_CUSTOM */
+    uint32_t flags; /* TAHR_RECORD_CUSTOM, _EVENTS */
     const tahr_config *config;
     const tahr_input *input;
     const tahr_state *state;

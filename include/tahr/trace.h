@@ -89,7 +89,7 @@ typedef struct tahr_trace_event {
     tahr_record_move move; /* MOVE */
     tahr_record_step step; /* STEP: config only where the mover is new, else NULL; state only where it is not what the
                             * mover's last step left, else NULL */
-    tahr_record_done done; /* DONE: state is NULL */
+    tahr_record_done done; /* DONE: state is NULL; TAHR_TRUNCATED counts as TAHR_OK: it tells of the report's room */
 } tahr_trace_event;
 
 /* The next event, skipping queries that were not asked. [out] event; what it points to is valid until the next call.
