@@ -180,7 +180,7 @@ static tahr_status read_head(tahr_trace_reader *r)
     if (memcmp(head.magic, wanted.magic, sizeof head.magic) != 0)
         return broken_at(r, 0, "no trace, expected the letters " TAHR__TRACE_MAGIC);
     if (head.checksum != tahr__trace_hash(0, &head, offsetof(tahr__trace_head, checksum)))
-        return broken_at(r, offsetof(tahr__trace_head, checksum), "the checksum of the head does not fit");
+        return broken_at(r, offsetof(tahr__trace_head, checksum), "the checksum of the head does not fit, expected that of what was written");
     if (memcmp(&head, &wanted, sizeof head) != 0) {
         snprintf(text, sizeof text, "recorded as version %lu of the format with ABI %lu.%lu, expected %d with %d.%d%s",
                  (unsigned long)head.version, (unsigned long)head.abi >> 16, (unsigned long)head.abi & 0xFFFF,

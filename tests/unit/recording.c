@@ -16,6 +16,13 @@ static void keep_message(void *user, int32_t level, const char *message)
     r->messages++;
 }
 
+static void keep_complaint(void *user, int32_t level, const char *message)
+{
+    recording *r = user;
+    (void)level;
+    snprintf(r->complaint, sizeof r->complaint, "%s", message);
+}
+
 static size_t take(void *user, const void *bytes, size_t size)
 {
     recording *r = user;
@@ -86,7 +93,7 @@ typedef struct theatre {
 
 static tahr_status open_world(theatre *t, recording *r)
 {
-    const tahr_log log = {r, keep_message};
+    const tahr_log log = {r, keep_complaint};
     uint32_t count = tahr_trace_bodies(t->reader);
     tahr_body_desc *bodies = calloc(count + 1, sizeof *bodies);
     tahr_world_desc desc;

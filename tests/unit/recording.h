@@ -11,7 +11,8 @@
 typedef struct recording {
     unsigned char *bytes;
     size_t size, room, at, chunk, fail_at;
-    char message[512]; /* the last one of the trace, its reader or the replay's world */
+    char message[512];   /* the last one of the trace or its reader, */
+    char complaint[512]; /* and of the replay's world */
     int messages;
 } recording;
 

@@ -210,7 +210,7 @@ static void what_a_backend_did_wrong_is_repeated_too(void **unused)
         assert_true(p.ended && !p.differs);
         assert_int_equal(p.status, TAHR_E_BACKEND);
         assert_true(tahr_state_hash(&p.state) == tahr_state_hash(&r.state));
-        assert_non_null(strstr(file.message, lie_fields[lie])); /* the replay's world complains of the same field */
+        assert_non_null(strstr(file.complaint, lie_fields[lie])); /* the replay's world complains of the same field */
         recording_free(&file);
         rig_close(&r);
     }
