@@ -41,8 +41,9 @@ enum {
 
 struct tahr_world {
     const tahr_backend *backend;
-    void *self;     /* the backend's */
-    tahr_host host; /* its log names the function that a backend complains in */
+    void *self;                        /* the backend's */
+    struct tahr__recording *recording; /* who watches it (record.h), or NULL */
+    tahr_host host;                    /* its log names the function that a backend complains in */
     tahr_log log;
     const char *calling; /* that function, while it has the world for itself; else NULL */
     uint32_t complaints; /* of the backend in it */
@@ -57,8 +58,7 @@ struct tahr_world {
     uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a
                              * motion */
     tahr__body_note *bodies;
-    struct tahr__recording *recording; /* who watches it (record.h), or NULL */
-    uint32_t record_round;             /* number of the last recording */
+    uint32_t record_round; /* number of the last recording */
 };
 
 /* Gravity and what follows from it. */
@@ -135,6 +135,7 @@ struct tahr_mover {
     tahr__custom custom;
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
+    uint32_t is_recorded;   /* 1: the step under way has been told of */
     tahr__sleep sleep;
 };
 

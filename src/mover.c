@@ -283,9 +283,22 @@ static void detect_stuck(tahr__step *step, const tahr_state *before)
     }
 }
 
-static tahr_status step_mover(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                              tahr_report *report)
+tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report)
 {
+    if (!mover) {
+        return TAHR_E_NULL;
+    }
+    if (!input || !state) {
+        return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
+    }
+    if (mover->busy) {
+        return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",
+                              "is being stepped already");
+    }
+    if (mover->world->recording && !mover->is_recorded) {
+        return tahr__record_step(mover, input, dt, state, report);
+    }
     int blank = state_is_blank(mover, state);
     int usual = arguments_are_usual(mover, input, dt, state, report);
     if (!blank || !usual) {
@@ -358,32 +371,4 @@ static tahr_status step_mover(tahr_mover *mover, const tahr_input *input, double
         *report = step.report;
     }
     return worst(step.report.flags);
-}
-
-tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                            tahr_report *report)
-{
-    if (!mover) {
-        return TAHR_E_NULL;
-    }
-    if (!input || !state) {
-        return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
-    }
-    if (mover->busy) {
-        return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",
-                              "is being stepped already");
-    }
-    if (!mover->world->recording) {
-        return step_mover(mover, input, dt, state, report);
-    }
-    tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
-    if (status < 0) {
-        return status;
-    }
-    if (mover->world->recording->busy) {
-        return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "world",
-                              "is recorded, and another step of it under way");
-    }
-    tahr__record_step(mover, input, dt, state, report);
-    return tahr__record_done(mover, step_mover(mover, input, dt, state, report), state);
 }

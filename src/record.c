@@ -4,6 +4,7 @@
 
 #include <string.h>
 
+#include "arguments.h"
 #include "message.h"
 #include "scene.h"
 #include "sized.h"
@@ -53,8 +54,8 @@ static int is_sane(const tahr_record_body *b)
 /* What was restored comes from outside, perhaps from a file. */
 static tahr_status restore(tahr_world *world, const tahr_record_world *w, const tahr_record_body *bodies)
 {
-    const uint32_t known = TAHR__HAS_SENSORS | TAHR__HAS_FLUIDS | TAHR__HAS_BASES | TAHR__HAS_MOVING_SENSORS |
-                           TAHR__HAS_SQUEEZERS;
+    const uint32_t known =
+        TAHR__HAS_SENSORS | TAHR__HAS_FLUIDS | TAHR__HAS_BASES | TAHR__HAS_MOVING_SENSORS | TAHR__HAS_SQUEEZERS;
     int bad = w->bodies != bodies || w->body_count != world->body_count || w->revision == 0 || w->has & ~known;
     for (uint32_t i = 0; i < world->body_count && !bad; i++) {
         bad = !is_sane(&bodies[i]);
@@ -174,8 +175,7 @@ void tahr__record_end(tahr_world *world)
     a.free(a.user, r, sizeof *r, 8);
 }
 
-void tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
-                       const tahr_report *report)
+static void tell_begin(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state, int events)
 {
     tahr_world *world = mover->world;
     struct tahr__recording *r = world->recording;
@@ -183,9 +183,7 @@ void tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, co
         mover->record_round = world->record_round;
         mover->record_number = r->movers++;
     }
-    mover->sleep.noted = 0; /* what happens is to be seen */
     const int custom = mover->custom.run && (state->mode == TAHR_MODE_CUSTOM || (input->flags & TAHR_INPUT_MODE));
-    const int events = report && report->events;
     const tahr_record_step s = {.mover = mover->record_number,
                                 .flags = (custom ? (uint32_t)TAHR_RECORD_CUSTOM : 0u) |
                                          (events ? (uint32_t)TAHR_RECORD_EVENTS : 0u),
@@ -193,19 +191,39 @@ void tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, co
                                 .input = input,
                                 .state = state,
                                 .dt = dt};
-    r->busy = 1;
     if (r->recorder.step) {
         r->recorder.step(r->recorder.user, &s);
     }
 }
 
-tahr_status tahr__record_done(const tahr_mover *mover, tahr_status status, const tahr_state *state)
+static void tell_end(const tahr_mover *mover, tahr_status status, const tahr_state *state)
+{
+    const tahr_recorder *recorder = &mover->world->recording->recorder;
+    const tahr_record_done d = {mover->record_number, status, tahr_state_hash(state), state};
+    if (recorder->done) {
+        recorder->done(recorder->user, &d);
+    }
+}
+
+tahr_status tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                              tahr_report *report)
 {
     struct tahr__recording *r = mover->world->recording;
-    const tahr_record_done d = {mover->record_number, status, tahr_state_hash(state), state};
-    if (r->recorder.done) {
-        r->recorder.done(r->recorder.user, &d);
+    tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
+    if (status < 0) {
+        return status;
     }
+    if (r->busy) {
+        return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "world",
+                              "is recorded, and another step of it under way");
+    }
+    r->busy = 1;
+    tell_begin(mover, input, dt, state, report && report->events);
+    mover->sleep.noted = 0; /* what happens is to be seen */
+    mover->is_recorded = 1;
+    status = tahr_mover_step(mover, input, dt, state, report);
+    mover->is_recorded = 0;
+    tell_end(mover, status, state);
     r->busy = 0;
     return status;
 }

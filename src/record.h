@@ -16,10 +16,9 @@ struct tahr__recording {
     uint32_t busy;               /* 1: inside a step */
 };
 
-/* Around every step of a watched world with valid arguments: tahr__record_done gets its status and hands it back. */
-void tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
-                       const tahr_report *report);
-tahr_status tahr__record_done(const tahr_mover *mover, tahr_status status, const tahr_state *state);
+/* The step of a mover in a watched world: tells of it, takes it and tells how it ended. Arguments not NULL. */
+tahr_status tahr__record_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                              tahr_report *report);
 
 /* After a change of a watched world. */
 void tahr__record_move(const tahr_world *world, uint32_t kind, const tahr_body_pose *poses, uint32_t count, double dt);

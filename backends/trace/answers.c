@@ -185,8 +185,6 @@ static tahr_status begin(void *user, tahr_record_world *world)
 
 void tahr__trace_answer(tahr_trace_reader *r)
 {
-    r->recorder = (tahr_recorder){.struct_size = sizeof r->recorder,
-                                  .flags = TAHR_RECORDER_RESTORES,
-                                  .user = r,
-                                  .begin = begin};
+    r->recorder =
+        (tahr_recorder){.struct_size = sizeof r->recorder, .flags = TAHR_RECORDER_RESTORES, .user = r, .begin = begin};
 }

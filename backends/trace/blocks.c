@@ -66,7 +66,8 @@ static tahr_status read_block(tahr_trace_reader *r)
         return broken_at(r, begin + sizeof frame + got, text);
     }
     if (tahr__trace_hash(tahr__trace_hash(0, &frame, 8), r->buffer, frame.size) != frame.checksum) {
-        snprintf(text, sizeof text, "the checksum of a block of %lu bytes does not fit, expected that of what was written",
+        snprintf(text, sizeof text,
+                 "the checksum of a block of %lu bytes does not fit, expected that of what was written",
                  (unsigned long)frame.size);
         return broken_at(r, begin + 8, text);
     }
@@ -180,7 +181,8 @@ static tahr_status read_head(tahr_trace_reader *r)
     if (memcmp(head.magic, wanted.magic, sizeof head.magic) != 0)
         return broken_at(r, 0, "no trace, expected the letters " TAHR__TRACE_MAGIC);
     if (head.checksum != tahr__trace_hash(0, &head, offsetof(tahr__trace_head, checksum)))
-        return broken_at(r, offsetof(tahr__trace_head, checksum), "the checksum of the head does not fit, expected that of what was written");
+        return broken_at(r, offsetof(tahr__trace_head, checksum),
+                         "the checksum of the head does not fit, expected that of what was written");
     if (memcmp(&head, &wanted, sizeof head) != 0) {
         snprintf(text, sizeof text, "recorded as version %lu of the format with ABI %lu.%lu, expected %d with %d.%d%s",
                  (unsigned long)head.version, (unsigned long)head.abi >> 16, (unsigned long)head.abi & 0xFFFF,

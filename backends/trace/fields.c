@@ -9,19 +9,35 @@ typedef struct field {
     uint32_t offset, size; /* 8: a double, 4: a whole number */
 } field;
 
-#define WHOLE(of, name) {#name, offsetof(of, name), 4}
-#define REAL(of, name) {#name, offsetof(of, name), 8}
+#define WHOLE(of, name)              \
+    {                                \
+#name, offsetof(of, name), 4 \
+    }
+#define REAL(of, name)               \
+    {                                \
+#name, offsetof(of, name), 8 \
+    }
 #define VECTOR(of, name) REAL(of, name.x), REAL(of, name.y), REAL(of, name.z)
 #define SHAPE(of)                                                                                      \
     WHOLE(of, shape.type), WHOLE(of, shape.hull), REAL(of, shape.radius), REAL(of, shape.half_height), \
         REAL(of, shape.half_x), REAL(of, shape.half_y)
 #define TURN(of) REAL(of, orientation.x), REAL(of, orientation.y), REAL(of, orientation.z), REAL(of, orientation.w)
-#define NONE {NULL, 0, 0}
+#define NONE       \
+    {              \
+        NULL, 0, 0 \
+    }
 
-static const field sweep_fields[] = {
-    SHAPE(tahr_sweep),         VECTOR(tahr_sweep, position), VECTOR(tahr_sweep, up),         TURN(tahr_sweep),
-    VECTOR(tahr_sweep, motion), REAL(tahr_sweep, margin),    WHOLE(tahr_sweep, mask),        WHOLE(tahr_sweep, ignore_body),
-    WHOLE(tahr_sweep, flags),  WHOLE(tahr_sweep, reserved),  NONE};
+static const field sweep_fields[] = {SHAPE(tahr_sweep),
+                                     VECTOR(tahr_sweep, position),
+                                     VECTOR(tahr_sweep, up),
+                                     TURN(tahr_sweep),
+                                     VECTOR(tahr_sweep, motion),
+                                     REAL(tahr_sweep, margin),
+                                     WHOLE(tahr_sweep, mask),
+                                     WHOLE(tahr_sweep, ignore_body),
+                                     WHOLE(tahr_sweep, flags),
+                                     WHOLE(tahr_sweep, reserved),
+                                     NONE};
 static const field contacts_fields[] = {SHAPE(tahr_contact_query),
                                         VECTOR(tahr_contact_query, position),
                                         VECTOR(tahr_contact_query, up),
@@ -34,9 +50,12 @@ static const field contacts_fields[] = {SHAPE(tahr_contact_query),
                                         NONE};
 static const field ray_fields[] = {VECTOR(tahr_ray, origin), VECTOR(tahr_ray, motion), WHOLE(tahr_ray, mask),
                                    WHOLE(tahr_ray, ignore_body), NONE};
-static const field fluid_fields[] = {VECTOR(tahr_fluid_query, position), VECTOR(tahr_fluid_query, up),
-                                     REAL(tahr_fluid_query, radius),     REAL(tahr_fluid_query, half_height),
-                                     WHOLE(tahr_fluid_query, mask),      WHOLE(tahr_fluid_query, reserved),
+static const field fluid_fields[] = {VECTOR(tahr_fluid_query, position),
+                                     VECTOR(tahr_fluid_query, up),
+                                     REAL(tahr_fluid_query, radius),
+                                     REAL(tahr_fluid_query, half_height),
+                                     WHOLE(tahr_fluid_query, mask),
+                                     WHOLE(tahr_fluid_query, reserved),
                                      NONE};
 
 static double value_of(const field *f, const void *object)

@@ -6,11 +6,21 @@
 
 void tahr__trace_head_fill(tahr__trace_head *head)
 {
-    const uint32_t sizes[16] = {sizeof(tahr_sweep),       sizeof(tahr_contact_query), sizeof(tahr_ray),
-                                sizeof(tahr_fluid_query), sizeof(tahr_hit),           sizeof(tahr_contact),
-                                sizeof(tahr_fluid),       sizeof(tahr_body_motion),   sizeof(tahr_body_pose),
-                                sizeof(tahr_record_body), sizeof(tahr_state),         sizeof(tahr_config),
-                                sizeof(tahr_input),       sizeof(tahr__trace_head),   0,
+    const uint32_t sizes[16] = {sizeof(tahr_sweep),
+                                sizeof(tahr_contact_query),
+                                sizeof(tahr_ray),
+                                sizeof(tahr_fluid_query),
+                                sizeof(tahr_hit),
+                                sizeof(tahr_contact),
+                                sizeof(tahr_fluid),
+                                sizeof(tahr_body_motion),
+                                sizeof(tahr_body_pose),
+                                sizeof(tahr_record_body),
+                                sizeof(tahr_state),
+                                sizeof(tahr_config),
+                                sizeof(tahr_input),
+                                sizeof(tahr__trace_head),
+                                0,
                                 0};
     memset(head, 0, sizeof *head);
     memcpy(head->magic, TAHR__TRACE_MAGIC, sizeof head->magic);

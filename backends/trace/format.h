@@ -11,7 +11,7 @@ enum {
     TAHR__TRACE_BLOCK = 1 << 16,  /* bytes after which a block is written */
     TAHR__TRACE_RECORD = 1 << 15, /* bytes that no record is longer than: 128 hits are 18 kB */
     TAHR__TRACE_BUFFER = TAHR__TRACE_BLOCK + TAHR__TRACE_RECORD,
-    TAHR__TRACE_FRAME = 16, /* bytes before a block: size, number, checksum */
+    TAHR__TRACE_FRAME = 16,   /* bytes before a block: size, number, checksum */
     TAHR__TRACE_ANSWERS = 128 /* of one query; the library asks for 64 at most */
 };
 

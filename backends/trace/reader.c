@@ -122,8 +122,7 @@ static tahr_status read_step(tahr_trace_reader *r, tahr_trace_event *event)
     tahr__trace_get_words(in, &r->input, &r->inputs[r->mover], sizeof r->input, "an input");
     if (has & TAHR__TRACE_HAS_CONFIG)
         tahr__trace_get_words(in, &r->config, &r->bases.config, sizeof r->config, "a config");
-    if (has & TAHR__TRACE_HAS_STATE)
-        tahr__trace_get_words(in, &r->state, &r->bases.state, sizeof r->state, "a state");
+    if (has & TAHR__TRACE_HAS_STATE) tahr__trace_get_words(in, &r->state, &r->bases.state, sizeof r->state, "a state");
     if (in->bad) return tahr__trace_broken(r, in->bad);
     event->kind = TAHR_TRACE_STEP;
     event->number = r->steps;

@@ -38,8 +38,8 @@ static const struct {
     const char *name;
     int (*call)(int argc, char **argv);
 } commands[] = {
-    {"run", run_command},     {"replay", replay_command}, {"info", info_command}, {"help", help_command},
-    {"--help", help_command}, {"-h", help_command},   {"--version", version_command},
+    {"run", run_command},     {"replay", replay_command}, {"info", info_command},         {"help", help_command},
+    {"--help", help_command}, {"-h", help_command},       {"--version", version_command},
 };
 
 int main(int argc, char **argv)

@@ -131,9 +131,9 @@ static int end_step(struct replay *r, const tahr_trace_event *event)
         return differ(r, what);
     }
     if (hash != event->done.hash) {
-        snprintf(what, sizeof what, "mover %" PRIu32 " came to (%.17g, %.17g, %.17g), hash %016" PRIx64
-                 ", recorded is %016" PRIx64, event->done.mover, state->position.x, state->position.y,
-                 state->position.z, hash, event->done.hash);
+        snprintf(what, sizeof what,
+                 "mover %" PRIu32 " came to (%.17g, %.17g, %.17g), hash %016" PRIx64 ", recorded is %016" PRIx64,
+                 event->done.mover, state->position.x, state->position.y, state->position.z, hash, event->done.hash);
         return differ(r, what);
     }
     r->found->steps++;
@@ -182,7 +182,8 @@ static void help(void)
 {
     puts("usage: tahr replay FILE\n"
          "\n"
-         "Repeats the run in a trace, without its collision engine and its level: every query has to be the one that was\n"
+         "Repeats the run in a trace, without its collision engine and its level: every query has to be the one that "
+         "was\n"
          "recorded, and every state the same to the bit. Such a file comes from `tahr run --trace FILE`, or from a\n"
          "program that calls tahr_world_record with the recorder of trace.h.\n"
          "\n"

@@ -45,7 +45,7 @@ typedef struct tahr_trace_desc {
  * highest byte first), TAHR_E_MEMORY, TAHR_E_FILE. Allocates by malloc. Since 0.1. */
 TAHR_API tahr_status tahr_trace_open(const tahr_trace_desc *desc, tahr_trace **trace);
 
-/* For tahr_world_record; of one world, once. It holds at most one block of 64 kB and what one record needs, and some 800
+/* For tahr_world_record; of one world, once. It holds at most one block of 64 kB and what one record needs, and some 700
  * bytes for each mover that it meets; allocates when it meets one. A write that fails ends it, and no step notices.
  * NULL for NULL. Valid until tahr_trace_close. Since 0.1. */
 TAHR_API const tahr_recorder *tahr_trace_recorder(tahr_trace *trace);

@@ -146,9 +146,10 @@ static void repeat(theatre *t, replay *p)
         switch (e.kind) {
         case TAHR_TRACE_MOVE:
             p->moves++;
-            p->differs = (e.move.kind == TAHR_RECORD_SET    ? tahr_world_set(t->world, e.move.poses, e.move.count)
-                          : e.move.kind == TAHR_RECORD_MOVE ? tahr_world_move(t->world, e.move.poses, e.move.count, e.move.dt)
-                                                            : tahr_world_touch(t->world)) < 0;
+            p->differs =
+                (e.move.kind == TAHR_RECORD_SET    ? tahr_world_set(t->world, e.move.poses, e.move.count)
+                 : e.move.kind == TAHR_RECORD_MOVE ? tahr_world_move(t->world, e.move.poses, e.move.count, e.move.dt)
+                                                   : tahr_world_touch(t->world)) < 0;
             break;
         case TAHR_TRACE_STEP: p->differs = !play(t, p, &e.step); break;
         case TAHR_TRACE_DONE:

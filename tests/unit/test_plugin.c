@@ -168,7 +168,8 @@ static void a_name_without_a_folder_is_the_one_in_the_working_directory(void **u
     tahr_plugin *plugin = NULL;
     (void)unused;
     assert_non_null(getcwd(before, sizeof before));
-    assert_int_equal(tahr_plugin_load("libm.so.6", NULL, &plugin), TAHR_E_NOT_FOUND); /* the system's is not looked for */
+    assert_int_equal(tahr_plugin_load("libm.so.6", NULL, &plugin),
+                     TAHR_E_NOT_FOUND); /* the system's is not looked for */
     assert_int_equal(chdir(TEST_PLUGIN_FOLDER), 0);
     assert_int_equal(tahr_plugin_load("libtahr_native" TEST_PLUGIN_SUFFIX, NULL, &plugin), TAHR_OK);
     assert_int_equal(chdir(before), 0);

@@ -19,7 +19,7 @@ typedef struct listener {
     uint32_t begun, ended, moves, steps, done, body_count, last_kind, mover;
     uint64_t hash;
     double dt;
-    tahr_status answer;       /* of begin */
+    tahr_status answer;                      /* of begin */
     void (*spoil)(tahr_record_world *world); /* in begin */
     const tahr_backend *backend;
 } listener;
@@ -68,8 +68,13 @@ static void end(void *user)
 
 static tahr_recorder recorder_of(listener *l)
 {
-    return (tahr_recorder){
-        .struct_size = sizeof(tahr_recorder), .user = l, .begin = begin, .move = hear_move, .step = hear_step, .done = hear_done, .end = end};
+    return (tahr_recorder){.struct_size = sizeof(tahr_recorder),
+                           .user = l,
+                           .begin = begin,
+                           .move = hear_move,
+                           .step = hear_step,
+                           .done = hear_done,
+                           .end = end};
 }
 
 static void a_recorder_hears_steps_and_placements_until_it_ends(void **unused)
@@ -214,8 +219,8 @@ static void spoil_count(tahr_record_world *w)
 
 static void what_no_world_can_be_is_not_restored(void **unused)
 {
-    void (*const ways[])(tahr_record_world *) = {spoil_pose,  spoil_turn, spoil_dt,   spoil_reach,
-                                                 spoil_has, spoil_revision, spoil_count};
+    void (*const ways[])(tahr_record_world *) = {spoil_pose, spoil_turn,     spoil_dt,   spoil_reach,
+                                                 spoil_has,  spoil_revision, spoil_count};
     rig r;
     tahr_body_desc ground = stage_ground();
     (void)unused;

@@ -23,8 +23,10 @@ static uint64_t record_little(recording *file, tahr_status *closed)
     tahr_trace *trace = recording_begin(file, r.world, TAHR_TRACE_FLUSH);
     for (int i = 0; i < STEPS; i++) {
         const tahr_body_pose pose = {1, 0, {fake_vec(3, 0, 0.02 * i), STAGE_LEVEL}};
-        assert_int_equal(i == 5 ? tahr_world_set(r.world, &pose, 1)
-                         : i == 6 ? tahr_world_touch(r.world) : tahr_world_move(r.world, &pose, 1, 1.0 / 60), TAHR_OK);
+        assert_int_equal(i == 5   ? tahr_world_set(r.world, &pose, 1)
+                         : i == 6 ? tahr_world_touch(r.world)
+                                  : tahr_world_move(r.world, &pose, 1, 1.0 / 60),
+                         TAHR_OK);
         r.input.move = fake_vec(1, 0, 0);
         r.input.jump = i == 9;
         rig_step(&r, 1.0 / 60);
@@ -160,7 +162,8 @@ static void another_version_or_no_trace_is_told_apart(void **unused)
     sign_head(&file);
     replay_run(&p, &file);
     assert_int_equal(p.opened, TAHR_E_ABI);
-    assert_non_null(strstr(file.message, "byte 8: recorded as version 2 of the format with ABI 0.1, expected 1 with 0.1"));
+    assert_non_null(
+        strstr(file.message, "byte 8: recorded as version 2 of the format with ABI 0.1, expected 1 with 0.1"));
     file.bytes[8] = 1, file.bytes[12] = 7;
     sign_head(&file);
     replay_run(&p, &file);
