@@ -42,8 +42,9 @@ enum {
 
 struct tahr_world {
     const tahr_backend *backend;
-    void *self;     /* the backend's */
-    tahr_host host; /* its log names the function that a backend complains in */
+    void *self;                        /* the backend's */
+    struct tahr__recording *recording; /* who watches it (record.h), or NULL */
+    tahr_host host;                    /* its log names the function that a backend complains in */
     tahr_log log;
     const char *calling; /* that function, while it has the world for itself; else NULL */
     uint32_t complaints; /* of the backend in it */
@@ -58,6 +59,7 @@ struct tahr_world {
     uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a
                              * motion */
     tahr__body_note *bodies;
+    uint32_t record_round; /* number of the last recording */
 };
 
 /* Gravity and what follows from it. */
@@ -132,6 +134,9 @@ struct tahr_mover {
     uint32_t busy;
     uint32_t plain; /* 1: neither world nor config hold anything that a state remembers */
     tahr__custom custom;
+    uint32_t record_round;  /* of the recording that has numbered it, */
+    uint32_t record_number; /* and the number */
+    uint32_t is_recorded;   /* 1: the step under way has been told of */
     tahr__sleep sleep;
 };
 

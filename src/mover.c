@@ -14,6 +14,7 @@
 #include "overlap.h"
 #include "plane.h"
 #include "query.h"
+#include "record.h"
 #include "report.h"
 #include "request.h"
 #include "sleep.h"
@@ -340,6 +341,9 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     if (mover->busy) {
         return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",
                               "is being stepped already");
+    }
+    if (mover->world->recording && !mover->is_recorded) {
+        return tahr__record_step(mover, input, dt, state, report);
     }
     int blank = state_is_blank(mover, state);
     int usual = arguments_are_usual(mover, input, dt, state, report);

@@ -7,6 +7,7 @@
 
 #include "body_motion.h"
 #include "message.h"
+#include "record.h"
 #include "scene.h"
 
 static tahr_status check_placement(const tahr_world *world, const char *function, const tahr_body_pose *p, uint32_t i,
@@ -110,6 +111,9 @@ tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint3
         unlist_resting(world);
         world->last_revision = 0;
     }
+    if (status >= 0 && world->recording) {
+        tahr__record_move(world, TAHR_RECORD_SET, poses, count, 0);
+    }
     return status;
 }
 
@@ -160,6 +164,9 @@ tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *poses, uint
         if (poses[i].flags & TAHR_POSE_TELEPORT) {
             world->last_revision = 0;
         }
+    }
+    if (world->recording) {
+        tahr__record_move(world, TAHR_RECORD_MOVE, poses, count, dt);
     }
     return status;
 }

@@ -9,6 +9,7 @@
 #include "float_mode.h"
 #include "message.h"
 #include "placing.h"
+#include "record.h"
 #include "scene.h"
 #include "sized.h"
 #include "world_memory.h"
@@ -332,6 +333,7 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
 void tahr_world_close(tahr_world *world)
 {
     if (world) {
+        tahr__record_end(world);
         world->backend->close(world->self);
         free_world(world, is_callbacks(world->backend) ? sizeof(tahr_callbacks) : 0);
     }
@@ -346,6 +348,9 @@ tahr_status tahr_world_touch(tahr_world *world)
     world->last_revision = 0;
     if (world->backend->place) { /* a backend may have caches of geometry that is not described */
         (void)world->backend->place(world->self, NULL, 0);
+    }
+    if (world->recording) {
+        tahr__record_move(world, TAHR_RECORD_TOUCH, NULL, 0, 0);
     }
     return TAHR_OK;
 }

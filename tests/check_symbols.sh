@@ -31,15 +31,15 @@ declarations=$(for header in include/tahr/*.h; do echo "#include <tahr/${header#
     sed -nE 's/.*visibility\("default"\).*\b(tahr_[a-z0-9_]+) ?\(.*/\1/p' | sort -u)
 exported=$(nm -D --defined-only "$library" | awk '{ print $NF }' | grep -vE '^_(init|fini)$' | sort -u)
 report "exported, but in no public header" "$(printf '%s\n' "$exported" | grep -vxF "$declarations" || true)"
-# The entries of other backends are in libraries of their own.
+# The entries of other backends, and what belongs to one of them, are in libraries of their own.
 report "declared, but not exported" "$(printf '%s\n' "$declarations" | grep -vxF "$exported" |
-    grep -vE '^tahr_backend_v1_' || true)"
+    grep -vE '^tahr_(backend_v1|trace)_' || true)"
 
 for plugin in "$BUILD"/lib/libtahr_*.so; do
     [ -e "$plugin" ] || continue
     name=${plugin##*/libtahr_}
-    report "exported by a backend beside its entries" "$(nm -D --defined-only "$plugin" |
-        awk '{ print $NF }' | grep -vxE "tahr_backend_v1(_${name%.so})?|_init|_fini" || true)"
+    report "exported by a backend beside its entries, and in no public header" "$(nm -D --defined-only "$plugin" |
+        awk '{ print $NF }' | grep -vxE "tahr_backend_v1(_${name%.so})?|_init|_fini" | grep -vxF "$declarations" || true)"
 done
 
 allowed='malloc|calloc|realloc|free|aligned_alloc|posix_memalign|mem(cpy|set|cmp|move|chr)|str(len|n?cmp|chr)|v?snprintf'

@@ -2,6 +2,8 @@
  * backends.c: the one table of collision engines that this shell was built with. */
 #include "backends.h"
 
+#include "say.h"
+
 #include <string.h>
 #include <tahr/box2d.h>
 #include <tahr/ccd.h>
@@ -48,6 +50,39 @@ static const struct {
     {TAHR_CAP_HEIGHTS, "heights"}, {TAHR_CAP_CHAINS, "chains"},
     {TAHR_CAP_ONE_WAY, "one_way"}, {TAHR_CAP_SENSORS, "sensors"},
 };
+
+int backend_is_path(const char *text)
+{
+    size_t length = strlen(text);
+    return strchr(text, '/') != NULL || (length > 3 && strcmp(text + length - 3, ".so") == 0);
+}
+
+int backend_load(struct backend_plugin *loaded, const char *path)
+{
+    const tahr_log log = say_log();
+    *loaded = (struct backend_plugin){0};
+    tahr_status status = tahr_plugin_load(path, &log, &loaded->plugin);
+    if (status < 0) {
+        say_error("--backend '%s': %s", path, tahr_status_message(status));
+        return -1;
+    }
+    const char *name = tahr_plugin_backend(loaded->plugin)->name;
+    const struct backend_choice *twin = backend_choice_find(name);
+    /* How deep it may go is not known of a stranger: as deep as any of ours. */
+    loaded->choice = (struct backend_choice){name, path, NULL, NULL, twin != NULL ? twin->penetration_allowed : 0.005};
+    return 0;
+}
+
+void backend_unload(struct backend_plugin *loaded)
+{
+    tahr_plugin_unload(loaded->plugin);
+    loaded->plugin = NULL;
+}
+
+const tahr_backend *backend_table(const struct backend_choice *choice)
+{
+    return choice->get != NULL ? choice->get() : tahr_plugin_backend(((const struct backend_plugin *)choice)->plugin);
+}
 
 const struct backend_choice *backend_choice_at(size_t index)
 {

@@ -31,7 +31,7 @@ static void info_words(void)
     puts("\nbackends:");
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
         const struct backend_choice *choice = backend_choice_at(i);
-        const tahr_backend *backend = choice->get();
+        const tahr_backend *backend = backend_table(choice);
         printf("  %-14s %s %s, ABI %u.%u: %s\n                ", choice->name, backend->name, backend->version,
                (unsigned)backend->abi_major, (unsigned)backend->abi_minor, choice->about);
         backend_capabilities(backend, print_capability, NULL);
@@ -49,7 +49,7 @@ static void info_json(void)
     }
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
         const struct backend_choice *choice = backend_choice_at(i);
-        const tahr_backend *backend = choice->get();
+        const tahr_backend *backend = backend_table(choice);
         json_t *entry = json_object(), *able = json_array();
         char backend_abi[32];
         snprintf(backend_abi, sizeof backend_abi, "%u.%u", (unsigned)backend->abi_major, (unsigned)backend->abi_minor);

@@ -3,6 +3,7 @@
 #include "info.h"
 #include "levels.h"
 #include "options.h"
+#include "replay.h"
 #include "run.h"
 #include "say.h"
 
@@ -19,6 +20,7 @@ static int help_command(int argc, char **argv)
     puts("usage: tahr COMMAND [options]\n"
          "\n"
          "  run              characters walk through a level; see `tahr run --help`\n"
+         "  replay FILE      repeats a run from the file that `tahr run --trace FILE` or a program left\n"
          "  level [NAME]     writes a bundled level to standard output\n"
          "  info [--json]    version, ABI, collision engines and what they can do\n"
          "  help [run]       this text, or the options of run\n"
@@ -38,8 +40,8 @@ static const struct {
     const char *name;
     int (*call)(int argc, char **argv);
 } commands[] = {
-    {"run", run_command},     {"info", info_command}, {"level", level_command},       {"help", help_command},
-    {"--help", help_command}, {"-h", help_command},   {"--version", version_command},
+    {"run", run_command},   {"replay", replay_command}, {"level", level_command}, {"info", info_command},
+    {"help", help_command}, {"--help", help_command},   {"-h", help_command},     {"--version", version_command},
 };
 
 int main(int argc, char **argv)
@@ -62,6 +64,6 @@ int main(int argc, char **argv)
             return code;
         }
     }
-    say_error("unknown command '%s'; known are run, info, level, help, --version", argv[1]);
+    say_error("unknown command '%s'; known are run, replay, info, level, help, --version", argv[1]);
     return EXIT_USAGE;
 }

@@ -41,7 +41,7 @@ static void count_events(struct run *run, const struct moment *m, const tahr_sta
         }
         if (run->options->plot != NULL) {
             int dropped = event->type == TAHR_EVENT_LEFT_GROUND && (m->input.flags & TAHR_INPUT_DROP);
-            trace_mark(&run->trace, m->index, dropped ? (uint32_t)TRACE_DROPPED : event->type, m->time + event->time,
+            track_mark(&run->track, m->index, dropped ? (uint32_t)TRACK_DROPPED : event->type, m->time + event->time,
                        foot_of(event->position, state));
         }
     }
@@ -85,7 +85,7 @@ static void check_step(struct run *run, const struct moment *m, const tahr_state
          (!dropped && checker_sinks(run->checker, &m->shape_before, m->before, &shape, state->position)))) {
         r->tunnels++;
         add_finding(run, m, "tunnelled", m->before);
-        trace_mark(&run->trace, m->index, TRACE_TUNNEL, m->time, foot_of(state->position, state));
+        track_mark(&run->track, m->index, TRACK_TUNNEL, m->time, foot_of(state->position, state));
     }
     double clearance = checker_clearance(run->checker, &shape, state->position, state->up);
     if (m->report.flags & TAHR_REPORT_CRUSHED) { /* there was no room, which only a mover can bring about */
@@ -116,8 +116,8 @@ static void bring_back(struct run *run, const struct moment *m, struct character
     if (bad || fell) {
         run->result.bad_states += (uint64_t)bad;
         run->result.fell_out += (uint64_t)fell;
-        trace_mark(&run->trace, m->index, TRACE_FELL_OUT, m->time, foot_of(m->before, state));
-        trace_break(&run->trace, m->index);
+        track_mark(&run->track, m->index, TRACK_FELL_OUT, m->time, foot_of(m->before, state));
+        track_break(&run->track, m->index);
         moment_place(run, character, m->time + run->dt);
     }
 }
@@ -129,7 +129,7 @@ void moment_watch(struct run *run, const struct moment *m, struct character *cha
     count_report(run, m, state);
     check_step(run, m, state);
     if (run->options->plot != NULL) {
-        trace_point(&run->trace, m->index, m->step, end, state);
+        track_point(&run->track, m->index, m->step, end, state);
     }
     if (run->csv != NULL) {
         csv_write(run->csv, &(struct csv_row){m->step, end, m->index, state, &m->report});
@@ -137,7 +137,7 @@ void moment_watch(struct run *run, const struct moment *m, struct character *cha
     if (progress_watch(&character->progress, run->world, &run->config, state, &m->input, m->heading_is_new, end)) {
         run->result.stuck++;
         add_finding(run, m, "stuck", state->position);
-        trace_mark(&run->trace, m->index, TRACE_STUCK, end, foot_of(state->position, state));
+        track_mark(&run->track, m->index, TRACK_STUCK, end, foot_of(state->position, state));
     }
     bring_back(run, m, character);
 }

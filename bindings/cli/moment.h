@@ -10,6 +10,7 @@
 #include "wander.h"
 
 #include <stdio.h>
+#include <tahr/trace.h>
 
 #define EVENT_CAPACITY 64 /* per step; more are counted as lost by the library */
 
@@ -30,8 +31,9 @@ struct run {
     tahr_body_pose *poses; /* of the level's movers */
     struct route route;
     struct checker *checker; /* NULL: off */
-    struct trace trace;
-    FILE *csv; /* or NULL */
+    struct track track;
+    FILE *csv;         /* or NULL */
+    tahr_trace *trace; /* or NULL */
     uint64_t step_count;
     double dt;
     struct result result;

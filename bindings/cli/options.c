@@ -26,6 +26,7 @@ enum {
     OPTION_ROUTE,
     OPTION_CSV,
     OPTION_PLOT,
+    OPTION_TRACE,
     OPTION_CHECK,
     OPTION_JSON,
     OPTION_2D,
@@ -47,6 +48,7 @@ static const struct option known[] = {{"level", required_argument, NULL, OPTION_
                                       {"route", required_argument, NULL, OPTION_ROUTE},
                                       {"csv", required_argument, NULL, OPTION_CSV},
                                       {"plot", required_argument, NULL, OPTION_PLOT},
+                                      {"trace", required_argument, NULL, OPTION_TRACE},
                                       {"check", required_argument, NULL, OPTION_CHECK},
                                       {"json", no_argument, NULL, OPTION_JSON},
                                       {"2d", no_argument, NULL, OPTION_2D},
@@ -81,7 +83,8 @@ void options_help(void)
         printf("%s %s", i ? "," : "", backend_choice_at(i)->name);
     }
     fputs(
-        " (native)\n"
+        " (native);\n"
+        "                     or the path of a shared object with one in it: ./libtahr_mine.so\n"
         "  --route FILE       one character with timed inputs instead of wandering, as JSON:\n"
         "                     {\"start\": [x, y, z], \"inputs\": [{\"time\": 0, \"move\": [1, 0, 0], \"jump\": "
         "true}, ...]}\n"
@@ -96,6 +99,7 @@ void options_help(void)
         "                     (joined)\n"
         "  --csv FILE         one row per character and step\n"
         "  --plot FILE        .svg or .png: the level from above with the paths, and the heights below\n"
+        "  --trace FILE       the whole run, for `tahr replay FILE`: what a bug report needs, in one file\n"
         "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling (from 5 Hz up)\n"
         "                     and overlaps\n"
         "  --json             the summary as one JSON object\n"
@@ -153,11 +157,16 @@ static int read_preset(const char *text, int32_t *preset)
     return bad_value("preset", text, wanted);
 }
 
-static int read_backend(const char *text, const struct backend_choice **choice)
+static int read_backend(const char *text, struct options *o)
 {
     char wanted[200] = "known are:";
-    *choice = backend_choice_find(text);
-    if (*choice != NULL) {
+    if (backend_is_path(text)) {
+        backend_unload(&o->loaded);
+        o->backend = &o->loaded.choice;
+        return backend_load(&o->loaded, text);
+    }
+    o->backend = backend_choice_find(text);
+    if (o->backend != NULL) {
         return 0;
     }
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
@@ -222,10 +231,11 @@ static int read_option(struct options *o, int option, const char *value)
     case OPTION_RATE: return read_number("rate", value, 1, 1e5, &o->rate);
     case OPTION_SEED: return read_whole("seed", value, 0, INT64_MAX, &o->seed);
     case OPTION_PRESET: return read_preset(value, &o->preset);
-    case OPTION_BACKEND: return read_backend(value, &o->backend);
+    case OPTION_BACKEND: return read_backend(value, o);
     case OPTION_ROUTE: o->route = value; return 0;
     case OPTION_CSV: o->csv = value; return 0;
     case OPTION_PLOT: o->plot = value; return 0;
+    case OPTION_TRACE: o->trace = value; return 0;
     case OPTION_CHECK: return read_check(value, &o->check);
     case OPTION_2D: o->side = 1; return 0;
     case OPTION_TOUR: o->tour = 1; return 0;
@@ -263,7 +273,7 @@ static int check_side(struct options *o, const char given[OPTION_HELP + 1])
             return -1;
         }
     }
-    if (!o->side && (o->backend->get()->capabilities & TAHR_CAP_PLANAR)) {
+    if (!o->side && (backend_table(o->backend)->capabilities & TAHR_CAP_PLANAR)) {
         say_error("--backend %s: has two dimensions; expected --2d with it", o->backend->name);
         return -1;
     }
@@ -306,6 +316,13 @@ static int check_together(struct options *o, const char given[OPTION_HELP + 1])
         say_error("--csv and --plot both write '%s'", o->csv);
         return -1;
     }
+    const char *other = o->csv != NULL && o->trace != NULL && strcmp(o->csv, o->trace) == 0     ? "csv"
+                        : o->plot != NULL && o->trace != NULL && strcmp(o->plot, o->trace) == 0 ? "plot"
+                                                                                                : NULL;
+    if (other != NULL) {
+        say_error("--%s and --trace both write '%s'", other, o->trace);
+        return -1;
+    }
     if (o->seconds * o->rate < 0.5 || o->seconds * o->rate > 4e9) {
         say_error("--seconds %g at --rate %g: that is %.3g steps; expected 1 to 4e9", o->seconds, o->rate,
                   o->seconds * o->rate);
@@ -346,4 +363,9 @@ int options_parse(struct options *options, int argc, char **argv)
         return -1;
     }
     return check_together(options, given);
+}
+
+void options_close(struct options *options)
+{
+    backend_unload(&options->loaded);
 }

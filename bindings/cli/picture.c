@@ -22,15 +22,15 @@ static const struct kind kinds[] = {
     {TAHR_EVENT_LANDED, SHAPE_DOWN, 3.4, {1, 1, 1}, "landing"},
     {TAHR_EVENT_JUMPED, SHAPE_UP, 3.9, {1, 0.85, 0.2}, "jump"},
     {TAHR_EVENT_WALL_JUMPED, SHAPE_UP, 4.4, {0.95, 0.45, 0.1}, "wall jump"},
-    {TRACE_DROPPED, SHAPE_DOWN, 4.4, {0.55, 0.33, 0.10}, "drop through"},
+    {TRACK_DROPPED, SHAPE_DOWN, 4.4, {0.55, 0.33, 0.10}, "drop through"},
     {TAHR_EVENT_GRABBED, SHAPE_SQUARE, 3.6, {0.75, 0.08, 0.24}, "hangs on an edge"},
     {TAHR_EVENT_BASE, SHAPE_SQUARE, 3.0, {0.35, 0.75, 0.35}, "another base"},
     {TAHR_EVENT_SHAPE, SHAPE_DOT, 2.6, {0.62, 0.62, 0.70}, "another height"},
     {TAHR_EVENT_LAUNCHED, SHAPE_UP, 4.6, {0.60, 0.22, 0.58}, "launched"},
     {TAHR_EVENT_CRUSHED, SHAPE_CROSS, 4, {0.4, 0.0, 0.4}, "crushed"},
-    {TRACE_FELL_OUT, SHAPE_CROSS, 5, {0.8, 0.05, 0.1}, "fell out"},
-    {TRACE_STUCK, SHAPE_RING, 6, {0.8, 0.05, 0.1}, "stuck for good"},
-    {TRACE_TUNNEL, SHAPE_RING, 9, {0.9, 0, 0.6}, "tunnelled"},
+    {TRACK_FELL_OUT, SHAPE_CROSS, 5, {0.8, 0.05, 0.1}, "fell out"},
+    {TRACK_STUCK, SHAPE_RING, 6, {0.8, 0.05, 0.1}, "stuck for good"},
+    {TRACK_TUNNEL, SHAPE_RING, 9, {0.9, 0, 0.6}, "tunnelled"},
 };
 
 #define KIND_COUNT (sizeof kinds / sizeof *kinds)
@@ -83,12 +83,12 @@ void picture_style(const struct picture *picture, uint32_t mode)
 /* One path in one of the two diagrams. Points closer than half a point of the picture are left out. */
 static void draw_path(const struct picture *picture, const struct axes *axes, uint32_t character)
 {
-    const struct trace_path *path = &picture->plot->trace->paths[character];
+    const struct track_path *path = &picture->plot->track->paths[character];
     double last_x = 0, last_y = 0;
     const int side = picture->plot->level->side != NULL;
     uint32_t mode = TAHR_MODE_NONE;
     for (size_t i = 0; i < path->count; i++) {
-        const struct trace_point *p = &path->points[i];
+        const struct track_point *p = &path->points[i];
         int map = axes != &picture->profile;
         double x = axes_x(axes, (double)(map ? p->x : p->time));
         double y = axes_y(axes, (double)(map || side ? p->y : p->z));
@@ -116,13 +116,13 @@ static void draw_path(const struct picture *picture, const struct axes *axes, ui
 
 static void draw_marks(const struct picture *picture, const struct axes *axes)
 {
-    const struct trace *trace = picture->plot->trace;
+    const struct track *track = picture->plot->track;
     double factor = picture->path_count > 24 ? 0.6 : 1;
     size_t drawn = 0;
     const int side = picture->plot->level->side != NULL;
     for (size_t k = 0; k < KIND_COUNT; k++) {
-        for (size_t i = 0; i < trace->mark_count && drawn < MAX_MARKS_DRAWN; i++) {
-            const struct trace_mark *mark = &trace->marks[i];
+        for (size_t i = 0; i < track->mark_count && drawn < MAX_MARKS_DRAWN; i++) {
+            const struct track_mark *mark = &track->marks[i];
             if (mark->type != kinds[k].type || mark->character >= picture->path_count) {
                 continue;
             }
@@ -137,7 +137,7 @@ static void draw_marks(const struct picture *picture, const struct axes *axes)
 /* Where a character began. */
 static void draw_start(const struct picture *picture, const struct axes *axes, uint32_t character)
 {
-    const struct trace_path *path = &picture->plot->trace->paths[character];
+    const struct track_path *path = &picture->plot->track->paths[character];
     if (path->count > 0 && axes != &picture->profile) {
         picture_style(picture, TAHR_MODE_WALKING);
         cairo_arc(picture->cairo, axes_x(axes, (double)path->points[0].x), axes_y(axes, (double)path->points[0].y),

@@ -153,20 +153,20 @@ double picture_patch(const struct picture *picture, double x, double y, const do
     return y + 20;
 }
 
-static size_t count_marks(const struct trace *trace, uint32_t type)
+static size_t count_marks(const struct track *track, uint32_t type)
 {
     size_t count = 0;
-    for (size_t i = 0; i < trace->mark_count; i++) {
-        count += trace->marks[i].type == type;
+    for (size_t i = 0; i < track->mark_count; i++) {
+        count += track->marks[i].type == type;
     }
     return count;
 }
 
-static int has_mode(const struct trace *trace, uint32_t mode)
+static int has_mode(const struct track *track, uint32_t mode)
 {
-    for (uint32_t c = 0; c < trace->character_count; c++) {
-        for (size_t i = 0; i < trace->paths[c].count; i++) {
-            if (trace->paths[c].points[i].mode == mode) {
+    for (uint32_t c = 0; c < track->character_count; c++) {
+        for (size_t i = 0; i < track->paths[c].count; i++) {
+            if (track->paths[c].points[i].mode == mode) {
                 return 1;
             }
         }
@@ -198,12 +198,12 @@ static void draw_legend(const struct picture *picture)
     char text[80];
     size_t index = 0;
     for (uint32_t mode = TAHR_MODE_WALKING; mode <= TAHR_MODE_CUSTOM; mode++) {
-        if (mode <= TAHR_MODE_FALLING || has_mode(picture->plot->trace, mode)) {
+        if (mode <= TAHR_MODE_FALLING || has_mode(picture->plot->track, mode)) {
             y = legend_line(picture, x, y, mode, tahr_mode_name(mode));
         }
     }
     for (const struct kind *kind = picture_kind(0); kind != NULL; kind = picture_kind(++index)) {
-        size_t count = count_marks(picture->plot->trace, kind->type);
+        size_t count = count_marks(picture->plot->track, kind->type);
         if (count > 0) {
             picture_symbol(picture->cairo, kind, x + 13, y - 4, kind->size);
             snprintf(text, sizeof text, "%s (%zu)", kind->name, count);
@@ -213,8 +213,8 @@ static void draw_legend(const struct picture *picture)
         }
     }
     y = picture->plot->level->side != NULL ? picture_side_legend(picture, x, y + 8) : relief_legend(picture, x, y + 8);
-    if (picture->path_count < picture->plot->trace->character_count) {
-        snprintf(text, sizeof text, "first %u of %u drawn", picture->path_count, picture->plot->trace->character_count);
+    if (picture->path_count < picture->plot->track->character_count) {
+        snprintf(text, sizeof text, "first %u of %u drawn", picture->path_count, picture->plot->track->character_count);
         text_at(picture->cairo, x, y + 8, 11, 0, text);
     }
 }
@@ -246,9 +246,9 @@ static void draw_picture(const struct picture *picture)
 static void profile_range(const struct plot *plot, double *low, double *high)
 {
     double floor_z = level_height(plot->level, plot->level->bounds.min) - 1, bottom = HUGE_VAL, top = -HUGE_VAL;
-    for (uint32_t c = 0; c < plot->trace->character_count; c++) {
-        for (size_t i = 0; i < plot->trace->paths[c].count; i++) {
-            const struct trace_point *p = &plot->trace->paths[c].points[i];
+    for (uint32_t c = 0; c < plot->track->character_count; c++) {
+        for (size_t i = 0; i < plot->track->paths[c].count; i++) {
+            const struct track_point *p = &plot->track->paths[c].points[i];
             double z = (double)(plot->level->side != NULL ? p->y : p->z);
             bottom = least(bottom, most(z, floor_z));
             top = most(top, z);
@@ -331,7 +331,7 @@ static void lay_out(struct picture *picture)
     profile_range(plot, &picture->profile.y0, &picture->profile.y1);
     picture->width = MARGIN_LEFT + picture->profile.width + LEGEND_WIDTH;
     picture->height = picture->profile.top + PROFILE_HEIGHT + MARGIN_BOTTOM;
-    picture->path_count = plot->trace->character_count < MAX_PATHS ? plot->trace->character_count : MAX_PATHS;
+    picture->path_count = plot->track->character_count < MAX_PATHS ? plot->track->character_count : MAX_PATHS;
 }
 
 int plot_write(const struct plot *plot)

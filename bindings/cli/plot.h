@@ -4,12 +4,12 @@
 #define TAHR_CLI_PLOT_H
 
 #include "level.h"
-#include "trace.h"
+#include "track.h"
 
 struct plot {
     const char *path; /* .svg or .png */
     const struct level *level;
-    const struct trace *trace;
+    const struct track *track;
     double seconds;
     double walkable_angle; /* rad */
     const char *caption;

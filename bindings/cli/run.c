@@ -14,6 +14,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <tahr/trace.h>
 #include <unistd.h>
 
 #define WANDER_SPEED 5.0 /* m/s, by the definition of wandering */
@@ -32,7 +33,7 @@ static int open_world(struct run *run)
         return -1;
     }
     uint64_t before = clock_ns();
-    tahr_status status = tahr_world_open(o->backend->get(), &desc, &run->world);
+    tahr_status status = tahr_world_open(backend_table(o->backend), &desc, &run->world);
     run->result.open_seconds = (double)(clock_ns() - before) * 1e-9;
     if (status < 0) {
         say_error("level '%s' does not open on backend '%s': %s", run->level.name, o->backend->name,
@@ -86,7 +87,7 @@ static int load_side(struct run *run)
                base != NULL       ? base + 1
                : o->level != NULL ? o->level
                                   : "side-scroller",
-               (o->backend->get()->capabilities & TAHR_CAP_PLANAR) != 0);
+               (backend_table(o->backend)->capabilities & TAHR_CAP_PLANAR) != 0);
     return 0;
 }
 
@@ -119,11 +120,49 @@ static void set_config(struct run *run)
     }
 }
 
+/* Spawning is over: from here on the file tells everything. */
+static int open_trace(struct run *run)
+{
+    const tahr_log log = say_log();
+    const tahr_trace_desc desc = {
+        .struct_size = sizeof desc, .flags = TAHR_TRACE_STEPS_ONLY, .path = run->options->trace, .log = &log};
+    if (run->options->trace == NULL) {
+        return 0;
+    }
+    tahr_status status = tahr_trace_open(&desc, &run->trace);
+    if (status >= 0) {
+        status = tahr_world_record(run->world, tahr_trace_recorder(run->trace));
+    }
+    if (status < 0) {
+        say_error("--trace '%s': %s", run->options->trace, tahr_status_message(status));
+        return -1;
+    }
+    return 0;
+}
+
+/* Ends the recording, if there is one. */
+static int close_trace(struct run *run)
+{
+    tahr_trace *trace = run->trace;
+    run->trace = NULL;
+    if (trace == NULL) {
+        return 0;
+    }
+    tahr_world_record(run->world, NULL);
+    tahr_trace_size(trace, NULL, NULL, &run->result.trace_bytes);
+    if (tahr_trace_close(trace) < 0) {
+        say_error("--trace '%s': cannot write", run->options->trace);
+        return -1;
+    }
+    return 0;
+}
+
 static int open_run(struct run *run)
 {
     const struct options *o = run->options;
     uint64_t before = clock_ns();
-    if (output_probe("csv", o->csv) != 0 || output_probe("plot", o->plot) != 0) {
+    if (output_probe("csv", o->csv) != 0 || output_probe("plot", o->plot) != 0 ||
+        output_probe("trace", o->trace) != 0) {
         return -1;
     }
     if (o->route != NULL && route_load(&run->route, o->route, o->side) != 0) {
@@ -138,11 +177,11 @@ static int open_run(struct run *run)
     run->result.load_seconds = (double)(clock_ns() - before) * 1e-9;
     set_config(run);
     run->poses = memory_new(run->level.mover_count, sizeof *run->poses);
-    if (open_world(run) != 0 || create_characters(run) != 0) {
+    if (open_world(run) != 0 || create_characters(run) != 0 || open_trace(run) != 0) {
         return -1;
     }
     run->checker = o->check != CHECK_OFF ? checker_open(&run->level) : NULL;
-    trace_open(&run->trace, o->characters, run->step_count);
+    track_open(&run->track, o->characters, run->step_count);
     run->csv = o->csv != NULL ? output_open("csv", o->csv) : NULL;
     if (o->csv != NULL && run->csv == NULL) {
         return -1;
@@ -158,6 +197,7 @@ static int open_run(struct run *run)
 
 static void close_run(struct run *run)
 {
+    close_trace(run);
     for (uint32_t i = 0; run->characters != NULL && i < run->options->characters; i++) {
         tahr_mover_destroy(run->characters[i].mover);
     }
@@ -168,7 +208,7 @@ static void close_run(struct run *run)
     }
     tahr_world_close(run->world);
     checker_close(run->checker);
-    trace_close(&run->trace);
+    track_close(&run->track);
     times_close(&run->result.times);
     route_close(&run->route);
     level_close(&run->level);
@@ -278,7 +318,7 @@ static int write_plot(const struct run *run)
              o->characters == 1 ? "" : "s", o->seconds, o->rate, o->backend->name);
     return plot_write(&(struct plot){.path = o->plot,
                                      .level = &run->level,
-                                     .trace = &run->trace,
+                                     .track = &run->track,
                                      .seconds = o->seconds,
                                      .walkable_angle = run->config.walkable_angle,
                                      .caption = caption});
@@ -292,6 +332,9 @@ static int finish(struct run *run)
     r->world_bytes = tahr_world_memory(run->world);
     r->failed = r->tunnels > 0 || r->crushed_alone > 0 || r->bad_states > 0 || r->stuck > 0 ||
                 r->deepest > o->backend->penetration_allowed;
+    if (close_trace(run) != 0) {
+        return -1;
+    }
     FILE *csv = run->csv;
     run->csv = NULL;
     if (csv != NULL && output_close(csv, "csv", o->csv) != 0) {
@@ -313,6 +356,7 @@ int run_command(int argc, char **argv)
     struct options options;
     int parsed = options_parse(&options, argc, argv);
     if (parsed != 0) {
+        options_close(&options);
         return parsed > 0 ? EXIT_GOOD : EXIT_USAGE;
     }
     struct run run = {
@@ -322,5 +366,6 @@ int run_command(int argc, char **argv)
         code = walk(&run) == 0 && finish(&run) == 0 && !run.result.failed ? EXIT_GOOD : EXIT_CHECK_FAILED;
     }
     close_run(&run);
+    options_close(&options);
     return code;
 }

@@ -6,7 +6,7 @@
 #include "level.h"
 #include "options.h"
 #include "stats.h"
-#include "trace.h"
+#include "track.h"
 
 /* Where something went wrong. */
 struct finding {
@@ -36,6 +36,7 @@ struct result {
     double deepest;                  /* m, deepest penetration of the true shape */
     uint64_t state_hash;
     uint64_t world_bytes;
+    uint64_t trace_bytes; /* written by --trace */
     double load_seconds, open_seconds, wall_seconds;
     int failed;                            /* a check did not hold */
     struct finding findings[MAX_FINDINGS]; /* the first ones */

@@ -116,6 +116,10 @@ void summary_words(const struct options *o, const struct level *level, const str
     if (o->plot != NULL) {
         printf("  wrote      %s\n", o->plot);
     }
+    if (o->trace != NULL) {
+        printf("  wrote      %s: %.2f MB, %.0f bytes per step\n", o->trace, (double)r->trace_bytes / 1e6,
+               per_step(r, r->trace_bytes));
+    }
     printf("%s\n", r->failed ? "FAILED" : "ok");
 }
 

@@ -21,7 +21,11 @@
 
 #ifdef TEST_PLUGINS
 
-/* The statically linked twins; what is not among them has none (trace, template). */
+#ifdef TAHR_HAVE_TEMPLATE
+TAHR_API const tahr_backend *tahr_backend_v1_template(void);
+#endif
+
+/* The statically linked twins of those that hold a world to walk in. */
 static const struct {
     const char *name;
     tahr_backend_fn get;
@@ -30,9 +34,15 @@ static const struct {
 #ifdef TAHR_HAVE_CCD
     {"ccd", tahr_backend_v1_ccd},
 #endif
+#ifdef TAHR_HAVE_FCL
+    {"fcl", tahr_backend_v1_fcl},
+#endif
+#ifdef TAHR_HAVE_TEMPLATE
+    {"template", tahr_backend_v1_template},
+#endif
 };
 
-/* Characters on a floor with a step and a wall; returns the hash of all that happened. */
+/* A character on a floor, and up a low box; returns the hash of all that happened. */
 static uint64_t walk(const tahr_backend *backend)
 {
     static const double vertices[] = {-20, -20, 0, 20, -20, 0, 20, 20, 0, -20, 20, 0};
@@ -49,6 +59,11 @@ static uint64_t walk(const tahr_backend *backend)
     tahr_body_desc_init(&bodies[1], sizeof bodies[1], TAHR_BODY_BOX);
     bodies[0].vertices = vertices, bodies[0].vertex_count = 4;
     bodies[0].indices = indices, bodies[0].triangle_count = 2;
+    if (!(backend->capabilities & TAHR_CAP_MESH)) {
+        tahr_body_desc_init(&bodies[0], sizeof bodies[0], TAHR_BODY_BOX);
+        bodies[0].pose.position.z = -1;
+        bodies[0].half_extents = (tahr_vec3){20, 20, 1};
+    }
     bodies[1].pose.position = (tahr_vec3){13, 0, 0};
     bodies[1].half_extents = (tahr_vec3){10, 15, 0.3};
     tahr_world_desc_init(&desc, sizeof desc);
@@ -153,7 +168,8 @@ static void a_name_without_a_folder_is_the_one_in_the_working_directory(void **u
     tahr_plugin *plugin = NULL;
     (void)unused;
     assert_non_null(getcwd(before, sizeof before));
-    assert_int_equal(tahr_plugin_load("libm.so.6", NULL, &plugin), TAHR_E_NOT_FOUND); /* the system's is not looked for */
+    assert_int_equal(tahr_plugin_load("libm.so.6", NULL, &plugin),
+                     TAHR_E_NOT_FOUND); /* the system's is not looked for */
     assert_int_equal(chdir(TEST_PLUGIN_FOLDER), 0);
     assert_int_equal(tahr_plugin_load("libtahr_native" TEST_PLUGIN_SUFFIX, NULL, &plugin), TAHR_OK);
     assert_int_equal(chdir(before), 0);

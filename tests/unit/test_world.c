@@ -149,10 +149,10 @@ static void open_checks_backend_and_description(void **unused)
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_ABI);
     b.table = table, b.table.sweep = NULL;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);
-    assert_string_equal(log.text, "tahr_world_open: backend.sweep is NULL");
+    assert_string_equal(log.text, "tahr_world_open: backend.sweep is NULL, expected a function");
     b.table = table, b.table.name = NULL;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);
-    assert_string_equal(log.text, "tahr_world_open: backend.name is NULL");
+    assert_string_equal(log.text, "tahr_world_open: backend.name is NULL, expected a text");
     tahr_allocator broken = {NULL, NULL, NULL};
     b.table = table, desc.allocator = &broken;
     assert_int_equal(tahr_world_open(&b.table, &desc, &world), TAHR_E_NULL);

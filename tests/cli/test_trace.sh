@@ -1,0 +1,85 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# test_trace.sh: a run recorded on one backend is repeated from its file alone; files that are no longer what they were are
+# told apart; backends are taken from shared objects.
+. "$(dirname "$0")/support.sh"
+plugins=$(dirname "$TAHR")/../lib
+
+"$TAHR" info >"$work/info"
+for backend in native native-double ccd fcl; do
+    grep -q "^  $backend " "$work/info" || { echo "not built, not recorded: $backend"; continue; }
+    tahr run --backend $backend --seconds 4 --characters 12 --check off --json
+    hash=$(value state_hash)
+    tahr run --backend $backend --seconds 4 --characters 12 --check off --json --trace "$work/$backend.trace"
+    expect 0
+    [ "$(value state_hash)" = "$hash" ] || fail "recording changed the state_hash on $backend"
+    (cd / && "$TAHR" replay "$work/$backend.trace") >"$work/out" 2>"$work/err" || fail "replay of $backend: $(cat "$work/err")"
+    grep -q "backend ${backend%-double} " "$work/out" || fail "the replay does not name its backend: $(cat "$work/out")"
+    grep -q "repeated   2880 steps of 12 characters" "$work/out" || fail "not all was repeated: $(cat "$work/out")"
+    bytes=$(wc -c <"$work/$backend.trace")
+    echo "trace: $backend: $((bytes / 2880)) bytes per step"
+    [ $((bytes / 2880)) -lt 1000 ] || fail "a step of $backend takes $((bytes / 2880)) bytes"
+done
+
+# A route, and what the summary says of the file.
+printf '[{"time": 0, "move": [1, 0, 0]}, {"time": 1, "jump": true}]' >"$work/route.json"
+tahr run --seconds 2 --route "$work/route.json" --trace "$work/route.trace"
+expect 0 "wrote" "$work/route.trace" "bytes per step"
+tahr replay "$work/route.trace"
+expect 0 "repeated   120 steps of 1 character," "ok"
+
+# Cut off, spoiled, no trace at all.
+size=$(wc -c <"$work/native.trace")
+head -c $((size / 2)) "$work/native.trace" >"$work/half.trace"
+tahr replay "$work/half.trace"
+expect 1 "the file is cut off, expected" "byte $((size / 2)):" "FAILED"
+head -c 50 "$work/native.trace" >"$work/head.trace"
+tahr replay "$work/head.trace"
+expect 2 "byte 50: the file is cut off, expected its head"
+{ head -c $((size / 2)) "$work/native.trace"; printf 'XXXXXXXX'; tail -c +$((size / 2 + 9)) "$work/native.trace"; } >"$work/spoiled.trace"
+tahr replay "$work/spoiled.trace"
+expect 1 "checksum" "expected" "broken     after step" "FAILED"
+echo 'not a trace' >"$work/text.trace"
+tahr replay "$work/text.trace"
+expect 2 "byte 0: no trace" "cannot replay '$work/text.trace'"
+: >"$work/empty.trace"
+tahr replay "$work/empty.trace"
+expect 2 "byte 0: "
+tahr replay "$work/nowhere.trace"
+expect 2 "$work/nowhere.trace"
+tahr replay "$work"
+expect 2 "$work"
+tahr replay
+expect 2 "expected the name of one file"
+tahr replay one two
+expect 2 "expected the name of one file"
+tahr replay --help
+expect 0 "usage: tahr replay FILE"
+
+# Files that cannot be written.
+tahr run --seconds 1 --trace "$work/none/a.trace"
+expect 2 "--trace '$work/none/a.trace'" "No such file"
+tahr run --seconds 1 --trace "$work/same" --csv "$work/same"
+expect 2 "both write '$work/same'"
+if [ -w /dev/full ]; then
+    tahr run --seconds 1 --trace /dev/full
+    expect 1 "--trace '/dev/full'" "cannot write"
+fi
+
+# Backends from shared objects: the same run as with the linked one, or a message that says why not.
+for backend in native ccd; do
+    [ -f "$plugins/libtahr_$backend.so" ] && grep -q "^  $backend " "$work/info" || continue
+    tahr run --backend $backend --seconds 1 --json
+    hash=$(value state_hash)
+    tahr run --backend "$plugins/libtahr_$backend.so" --seconds 1 --json --trace "$work/plugin.trace"
+    expect 0
+    [ "$(value state_hash)" = "$hash" ] || fail "libtahr_$backend.so walks differently from $backend"
+    [ "$(value backend)" = $backend ] || fail "the summary does not name the backend of libtahr_$backend.so"
+    tahr replay "$work/plugin.trace"
+    expect 0
+done
+tahr run --backend "$work/text.trace"
+expect 2 "does not load" "--backend '$work/text.trace'"
+tahr run --backend nowhere.so
+expect 2 "./nowhere.so does not load" "No such file"
+finish
