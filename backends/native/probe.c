@@ -11,6 +11,9 @@ enum { ITERATIONS = 64, TARGETS = 5 };
 
 /* Below this distance (m) the direction between two points is rounding; the last one that was clear is used instead. */
 #define BLURRED 1e-9
+/* Of the sizes of two boxes: nearer than this they touch. Their faces leave what they touch to the inside, so the inside
+ * must not call it outside by rounding. */
+#define TOUCHING 1e-12
 
 int tahr__named_before(const tahr__found *a, const tahr__found *b)
 {
@@ -42,7 +45,7 @@ static int outside_a_face(const tahr__core *core, const tahr__core *solid, tahr_
 {
     for (int i = 0; i < solid->axis_count; i++) {
         tahr_vec3 n = solid->axis[i];
-        if (fabs(v_dot(n, off)) > v_dot(n, n) + tahr__core_extent(core, n)) return 1;
+        if (fabs(v_dot(n, off)) > (v_dot(n, n) + tahr__core_extent(core, n)) * (1 + TOUCHING)) return 1;
     }
     return 0;
 }
@@ -62,9 +65,8 @@ static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__p
         solid.axis[i] = m_apply(&map.turn, solid.axis[i]);
     if (outside_a_face(&query->core, &solid, v_sub(centre, map.offset))) return 0;
     double depth = tahr__core_leave_solid(&query->core, centre, &solid, map.offset, &out->witness.normal);
-    /* In the plane of a face too: the faces leave what touches them to the inside. */
-    if (depth < 0) return 0;
     tahr_vec3 n = out->witness.normal;
+    if (depth < -TOUCHING * (tahr__core_extent(&solid, n) + tahr__core_extent(&query->core, n))) return 0;
     out->witness.distance = 0;
     out->witness.feature = TAHR__FACE;
     out->witness.reserved = 0;
