@@ -4,6 +4,7 @@
 #include "options.h"
 #include "run.h"
 #include "say.h"
+#include "selftest.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -15,11 +16,16 @@ static int help_command(int argc, char **argv)
         options_help();
         return EXIT_GOOD;
     }
+    if (argc > 1 && strcmp(argv[1], "selftest") == 0) {
+        selftest_help();
+        return EXIT_GOOD;
+    }
     puts("usage: tahr COMMAND [options]\n"
          "\n"
          "  run              characters walk through a level; see `tahr run --help`\n"
          "  info [--json]    version, ABI, collision engines and what they can do\n"
-         "  help [run]       this text, or the options of run\n"
+         "  selftest NAME    does a backend keep its promises? see `tahr selftest --help`\n"
+         "  help [COMMAND]   this text, or the options of run or selftest\n"
          "  --version\n");
     return EXIT_GOOD;
 }
@@ -36,7 +42,7 @@ static const struct {
     const char *name;
     int (*call)(int argc, char **argv);
 } commands[] = {
-    {"run", run_command},     {"info", info_command}, {"help", help_command},
+    {"run", run_command},     {"info", info_command}, {"selftest", selftest_command}, {"help", help_command},
     {"--help", help_command}, {"-h", help_command},   {"--version", version_command},
 };
 
@@ -60,6 +66,6 @@ int main(int argc, char **argv)
             return code;
         }
     }
-    say_error("unknown command '%s'; known are run, info, help, --version", argv[1]);
+    say_error("unknown command '%s'; known are run, info, selftest, help, --version", argv[1]);
     return EXIT_USAGE;
 }
