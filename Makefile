@@ -13,7 +13,7 @@ ARGS ?=
 WERROR ?=
 CMAKE_ARGS ?=
 
-.PHONY: build setup setup-run run run-2d test test-full asan bench install clean format help
+.PHONY: build setup setup-run run run-2d test test-full asan fuzz bench install clean format help
 
 # Ninja if it is there and the folder is not configured yet; a configured folder keeps its generator.
 # Of its talk only what is left out and why is shown, unless it fails.
@@ -70,6 +70,15 @@ asan: setup
 	@$(call compile,$(BUILD)/asan)
 	@$(call check,$(BUILD)/asan,-LE toolchain)
 
+# TIME seconds for each fuzzer; what they find is kept in $(BUILD)/fuzz/found.
+TIME ?= 60
+fuzz: setup
+	@command -v clang >/dev/null || { echo "fuzz: clang is not installed"; exit 1; }
+	@$(call configure,$(BUILD)/fuzz,-DTAHR_FUZZ=ON -DTAHR_TESTS=OFF -DTAHR_SHARED=OFF -DCMAKE_C_COMPILER=clang \
+		-DCMAKE_CXX_COMPILER=clang++)
+	@$(call compile,$(BUILD)/fuzz) --target fuzzers
+	@sh fuzz/run.sh $(BUILD)/fuzz $(TIME)
+
 bench: setup-run
 	@if ! ls tests/bench/*.c >/dev/null 2>&1; then echo "bench: tests/bench has no sources"; exit 1; fi
 	@$(call configure,$(BUILD),)
@@ -95,6 +104,7 @@ help:
 	@echo "make test         all tests but the long ones"
 	@echo "make test-full    all tests"
 	@echo "make asan         all tests under AddressSanitizer and UBSan, in $(BUILD)/asan"
+	@echo "make fuzz         every fuzzer for TIME=60 seconds each (clang), what they find in $(BUILD)/fuzz/found"
 	@echo "make bench        the benchmark; ARGS='options'"
 	@echo "make install      PREFIX=/usr/local"
 	@echo "make setup        install what is missing through apt-get (run, test and the others do it too)"

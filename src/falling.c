@@ -37,7 +37,8 @@ typedef struct fall {
     uint32_t plane_count;
     uint32_t look; /* 1: the edge of the wall that is touched has not been looked for */
     uint32_t has_edge;
-    tahr_hit edge; /* the top of a wall that is pushed against */
+    uint32_t apexes; /* met while it slid along something */
+    tahr_hit edge;   /* the top of a wall that is pushed against */
 } fall;
 
 /* The drive is the velocity, and gravity acts where the drive leaves falling alone. */
@@ -272,6 +273,10 @@ static double until_fluid(tahr__step *step, const arc *a, double duration)
     return m < line ? duration : tahr__passing_time(step, &way, duration, m, line, 1);
 }
 
+/* A slide may turn what falls upward again, and the next apex be a nanosecond away: so many are met, then a slice goes
+ * on over them. */
+enum { MOST_APEXES = 16 };
+
 /* One chord. Returns 1 if something was hit. */
 static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
 {
@@ -282,7 +287,7 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     }
     double apex = apex_time(&a);
     double duration = min_of(f->left, chord_time(step, &a));
-    int reaches_apex = apex > 0 && apex <= duration;
+    int reaches_apex = apex > 0 && apex <= duration && f->apexes < MOST_APEXES;
     vec3 v;
     if (reaches_apex) {
         duration = apex;
@@ -325,6 +330,7 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         if (f->plane_count == 0) { /* exactly zero, so that the apex is met once */
             step->state.velocity = add_scaled(step->state.velocity, a.axis, -dot(step->state.velocity, a.axis));
         }
+        f->apexes += f->plane_count > 0;
         tahr__event(step, TAHR_EVENT_APEX, NULL, 0);
         step->state.flags &= ~(uint32_t)TAHR_STATE_JUMPING;
     }
@@ -375,6 +381,7 @@ static tahr__next fall_slice(tahr__step *step, double time)
     f.plane_count = 0;
     f.look = 1;
     f.has_edge = 0;
+    f.apexes = 0;
     while (f.left > 0 && hits < step->config->max_slides && step->error >= 0 &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         tahr__planes_forget(step, f.planes, &f.plane_count);

@@ -64,6 +64,12 @@ void tahr__trail_reach(tahr__step *step)
     trail->swept = 0;
 }
 
+/* Ways so short that their squares are 0 take no time. */
+static double part_of(double gone, double all)
+{
+    return all > 0 ? gone / all : 1;
+}
+
 void tahr__trail_stamp(tahr__step *step, double begin, double end)
 {
     tahr__trail *trail = step->trail;
@@ -77,9 +83,9 @@ void tahr__trail_stamp(tahr__step *step, double begin, double end)
     }
     for (uint32_t i = trail->timed; i < trail->count; i++) {
         tahr__leg *leg = &trail->legs[i];
-        leg->begin = begin + (end - begin) * (gone / all);
+        leg->begin = begin + (end - begin) * part_of(gone, all);
         gone += length(sub(leg->to, leg->from));
-        leg->end = begin + (end - begin) * (gone / all);
+        leg->end = begin + (end - begin) * part_of(gone, all);
     }
     trail->timed = trail->count;
 }
@@ -127,7 +133,7 @@ void tahr__trail_cut(tahr__step *step, vec3 from, double part)
         last->stretch.last = part;
         last->end = stretch_time(&last->stretch, part);
     } else {
-        last->end = last->begin + (last->end - last->begin) * (length(sub(last->to, from)) / whole);
+        last->end = last->begin + (last->end - last->begin) * part_of(length(sub(last->to, from)), whole);
     }
 }
 

@@ -4,7 +4,7 @@
 #   src/         include/ and src/, libc
 #   backends/X/  include/, backends/common/ and X's own third party; never src/, never another backend
 #   bindings/, fuzz/, tests/: include/, their own folder and tests/support/; tests/unit also src/ and backends/, tests/cli
-#   also bindings/cli/
+#   and fuzz also bindings/cli/
 set -eu
 
 libc='assert|ctype|dlfcn|errno|fenv|float|inttypes|limits|math|stdalign|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|string'
@@ -69,7 +69,7 @@ for backend in backends/*/; do
         "<($libc)\\.h>|<tahr/[a-z0-9_]+\\.h>|\"((\\.\\./)?common/)?[a-z0-9_]+\\.h\"$third"
 done
 check "bindings/" bindings "<(tahr/)?[a-z0-9_/-]+\\.h>|$own"
-check "fuzz/" fuzz "<(tahr/)?[a-z0-9_/-]+\\.h>|\"(\\.\\./tests/support/)?[a-z0-9_]+\\.h\""
+check "fuzz/" fuzz "<(tahr/)?[a-z0-9_/-]+\\.h>|\"(\\.\\./(tests/support|bindings/cli)/)?[a-z0-9_]+\\.h\""
 for folder in tests/*/; do
     name=$(basename "$folder")
     case $name in

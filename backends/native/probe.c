@@ -12,6 +12,9 @@ enum { ITERATIONS = 64, TARGETS = 5 };
 
 /* Below this distance (m) the direction between two points is rounding; the last one that was clear is used instead. */
 #define BLURRED 1e-9
+/* Of the sizes of two boxes: nearer than this they touch. Their faces leave what they touch to the inside, so the inside
+ * must not call it outside by rounding. */
+#define TOUCHING 1e-12
 
 int tahr__named_before(const tahr__found *a, const tahr__found *b)
 {
@@ -43,7 +46,7 @@ static int outside_a_face(const tahr__core *core, const tahr__core *solid, tahr_
 {
     for (int i = 0; i < solid->axis_count; i++) {
         tahr_vec3 n = solid->axis[i];
-        if (fabs(v_dot(n, off)) > v_dot(n, n) + tahr__core_extent(core, n)) return 1;
+        if (fabs(v_dot(n, off)) > (v_dot(n, n) + tahr__core_extent(core, n)) * (1 + TOUCHING)) return 1;
     }
     return 0;
 }
@@ -66,7 +69,9 @@ static double leave_box(const tahr__query *query, const tahr__body *body, tahr_v
     for (int i = 0; i < 3 && map.turned; i++)
         solid.axis[i] = m_apply(&map.turn, solid.axis[i]);
     if (outside_a_face(&query->core, &solid, v_sub(centre, map.offset))) return -1;
-    return tahr__core_leave_solid(&query->core, centre, &solid, map.offset, normal);
+    double depth = tahr__core_leave_solid(&query->core, centre, &solid, map.offset, normal);
+    double extent = tahr__core_extent(&solid, *normal) + tahr__core_extent(&query->core, *normal);
+    return depth < -TOUCHING * extent ? -1 : d_max(depth, 0);
 }
 
 /* The way out of a box or hull that the core has entered, along one of its faces or across a pair of edges. */

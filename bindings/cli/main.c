@@ -6,6 +6,7 @@
 #include "replay.h"
 #include "run.h"
 #include "say.h"
+#include "selftest.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -17,13 +18,18 @@ static int help_command(int argc, char **argv)
         options_help();
         return EXIT_GOOD;
     }
+    if (argc > 1 && strcmp(argv[1], "selftest") == 0) {
+        selftest_help();
+        return EXIT_GOOD;
+    }
     puts("usage: tahr COMMAND [options]\n"
          "\n"
          "  run              characters walk through a level; see `tahr run --help`\n"
          "  replay FILE      repeats a run from the file that `tahr run --trace FILE` or a program left\n"
          "  level [NAME]     writes a bundled level to standard output\n"
          "  info [--json]    version, ABI, collision engines and what they can do\n"
-         "  help [run]       this text, or the options of run\n"
+         "  selftest NAME    does a backend keep its promises? see `tahr selftest --help`\n"
+         "  help [COMMAND]   this text, or the options of run or selftest\n"
          "  --version\n");
     return EXIT_GOOD;
 }
@@ -40,8 +46,9 @@ static const struct {
     const char *name;
     int (*call)(int argc, char **argv);
 } commands[] = {
-    {"run", run_command},   {"replay", replay_command}, {"level", level_command}, {"info", info_command},
-    {"help", help_command}, {"--help", help_command},   {"-h", help_command},     {"--version", version_command},
+    {"run", run_command},     {"replay", replay_command},     {"level", level_command},
+    {"info", info_command},   {"selftest", selftest_command}, {"help", help_command},
+    {"--help", help_command}, {"-h", help_command},           {"--version", version_command},
 };
 
 int main(int argc, char **argv)
@@ -64,6 +71,6 @@ int main(int argc, char **argv)
             return code;
         }
     }
-    say_error("unknown command '%s'; known are run, replay, info, level, help, --version", argv[1]);
+    say_error("unknown command '%s'; known are run, replay, level, info, selftest, help, --version", argv[1]);
     return EXIT_USAGE;
 }

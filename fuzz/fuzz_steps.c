@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: MIT
+ * fuzz_steps.c: any scene, any settings, any input, on the native backend: the invariants of a step hold, and no
+ * shortcut changes a bit. */
+#include "scene.h"
+#include "tape.h"
+#include "target.h"
+
+#include <math.h>
+#include <string.h>
+#include <tahr/native.h>
+
+enum { MOST_STEPS = 200, EVENTS = 64 };
+
+static const tahr_native_desc fast = {.struct_size = sizeof fast, .precision = TAHR_NATIVE_FLOAT};
+static const tahr_native_desc plain = {
+    .struct_size = sizeof plain, .precision = TAHR_NATIVE_FLOAT, .no_cache = 1, .no_simd = 1};
+
+/* The same step, in a world with and one without shortcuts. */
+typedef struct twin {
+    tahr_world *world[2];
+    tahr_mover *mover[2];
+    tahr_state state[2];
+} twin;
+
+static int is_number(tahr_vec3 v)
+{
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
+}
+
+static double length(tahr_vec3 v)
+{
+    return sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+static tahr_vec3 minus(tahr_vec3 a, tahr_vec3 b)
+{
+    return (tahr_vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+/* Everything that is a number is one, units are units, counts are in range. */
+static void check_state(const tahr_state *s)
+{
+    FUZZ_CHECK(is_number(s->position) && is_number(s->velocity) && is_number(s->up), "position %g %g %g", s->position.x,
+               s->position.y, s->position.z);
+    FUZZ_CHECK(fabs(length(s->up) - 1) < 1e-9, "%.17g", length(s->up));
+    tahr_quat q = s->orientation;
+    FUZZ_CHECK(fabs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) < 1e-6, "orientation");
+    FUZZ_CHECK(s->mode <= TAHR_MODE_CUSTOM && s->touched_count <= TAHR_MAX_TOUCHED, "mode %u, touched %u", s->mode,
+               s->touched_count);
+    if (s->floor.flags & TAHR_FLOOR_WALKABLE) {
+        FUZZ_CHECK(fabs(length(s->floor.normal) - 1) < 1e-6, "floor normal of length %.17g", length(s->floor.normal));
+    }
+    for (size_t i = 0; i < sizeof s->reserved; i++)
+        FUZZ_CHECK(s->reserved[i] == 0, "reserved[%u]", (unsigned)i);
+}
+
+/* Counts within their caps, events in order and inside the step. */
+static void check_report(const tahr_report *r, double dt)
+{
+    uint32_t asked = r->sweeps + r->contact_queries + r->rays + r->fluid_queries;
+    FUZZ_CHECK(asked <= TAHR_MAX_QUERIES_PER_STEP + TAHR_MAX_SENSOR_QUERIES_PER_STEP, "%u queries", asked);
+    double before = 0;
+    for (uint32_t i = 0; i < r->event_count; i++) {
+        const tahr_event *e = &r->events[i];
+        FUZZ_CHECK(e->time >= before && e->time <= dt, "event %u (%s) at %.17g after %.17g, of %.17g", i,
+                   tahr_event_name(e->type), e->time, before, dt);
+        FUZZ_CHECK(is_number(e->position) && is_number(e->normal) && isfinite(e->value), "event %u", i);
+        before = e->time;
+    }
+    FUZZ_CHECK(isfinite(r->residual) && isfinite(r->step_offset) && r->time_lost >= 0 && r->time_lost <= dt, "report");
+}
+
+/* How far a step may go at most: its speeds, and what steps, snaps, pushes and corrections add. Bodies that move carry
+ * and push on top of that. */
+static void check_travel(const tahr_config *c, const tahr_input *in, const tahr_state *a, const tahr_state *b,
+                         double dt)
+{
+    double speed = fmax(length(a->velocity), length(b->velocity)) + length(a->base.velocity) + length(b->base.velocity);
+    double own = c->max_speed + c->swim_speed + c->fly_speed + c->jump_speed + c->wall_jump_speed + c->water_exit_speed;
+    if (in->flags & TAHR_INPUT_LAUNCH) own += length(in->launch);
+    if (in->flags & TAHR_INPUT_IMPULSE) own += length(in->impulse) / c->mass;
+    if (in->flags & TAHR_INPUT_DRIVE) own += length(in->drive);
+    double gravity = in->flags & TAHR_INPUT_GRAVITY ? length(in->gravity) : length(c->gravity);
+    own += (gravity * 2 + c->acceleration) * dt;
+    double jumps = c->step_height + c->snap_distance + fmax(c->max_depenetration, c->max_depenetration_character);
+    jumps += 2 * c->ledge_grab + c->corner_correction + 10 * c->skin + 4 * fmax(c->shape.half_height, b->half_height);
+    double most = (speed + own) * dt * (1 + 1e-9) + 4 * jumps + c->max_substeps * c->max_depenetration;
+    double went = length(minus(b->position, a->position));
+    FUZZ_CHECK(went <= most, "went %g m in %g s, at most %g", went, dt, most);
+}
+
+static int open_twin(twin *t, const scene *s, const tahr_config *config, const tahr_vec3 *position)
+{
+    memset(t, 0, sizeof *t);
+    for (int i = 0; i < 2; i++) {
+        tahr_config c = *config;
+        c.sleep = i == 0 ? config->sleep : 0;
+        t->world[i] = scene_open(s, tahr_backend_v1_native(), i ? &plain : &fast);
+        if (!t->world[i] || tahr_mover_create(t->world[i], &c, &t->mover[i]) < 0 ||
+            tahr_state_init(&t->state[i], &c, position) < 0)
+            return 0;
+    }
+    return 1;
+}
+
+static void close_twin(twin *t)
+{
+    for (int i = 0; i < 2; i++) {
+        tahr_mover_destroy(t->mover[i]);
+        tahr_world_close(t->world[i]);
+    }
+}
+
+/* Moves what can be moved, the same in both worlds. */
+static void move_bodies(twin *t, const scene *s, bytes *b, double dt)
+{
+    tahr_body_pose poses[SCENE_BODIES];
+    uint32_t count = 0, how = bytes_u8(b);
+    if (s->movers == 0 || !(dt > 0) || how % 4 == 0) return;
+    for (uint32_t i = 0; i < s->body_count; i++) {
+        if (!(s->bodies[i].flags & TAHR_BODY_MOVABLE)) continue;
+        tahr_body_motion motion;
+        tahr_world_body(t->world[0], i, &motion);
+        tahr_body_pose pose = {i, how == 255 ? (uint32_t)TAHR_POSE_TELEPORT : 0u, motion.pose};
+        pose.pose.position.x += s->scale * 0.01 * ((double)(how % 16) - 8);
+        pose.pose.position.z += s->scale * 0.005 * ((double)(how / 16) - 8);
+        poses[count++] = pose;
+    }
+    for (int i = 0; i < 2; i++)
+        tahr_world_move(t->world[i], poses, count, dt);
+}
+
+/* A step that must be refused leaves everything as it was. */
+static void refuse(twin *t, const tahr_input *input, uint32_t how)
+{
+    tahr_input bad = *input;
+    tahr_state before = t->state[0], broken = t->state[0];
+    double dt = 1.0 / 60;
+    if (how % 3 == 0) bad.move.y = NAN;
+    if (how % 3 == 1) dt = how & 8 ? -1 : INFINITY;
+    if (how % 3 == 2) broken.position.x = broken.velocity.z = NAN;
+    tahr_state *state = how % 3 == 2 ? &broken : &t->state[0];
+    tahr_state given = *state;
+    tahr_status status = tahr_mover_step(t->mover[0], &bad, dt, state, NULL);
+    FUZZ_CHECK(status == TAHR_E_ARGUMENT, "%s", tahr_status_name(status));
+    FUZZ_CHECK(memcmp(state, &given, sizeof given) == 0, "state of a refused step");
+    FUZZ_CHECK(memcmp(&t->state[0], &before, sizeof before) == 0, "state");
+}
+
+static int step(twin *t, const tahr_config *config, const tahr_input *input, double dt, int moved)
+{
+    tahr_event events[2][EVENTS];
+    tahr_report report[2];
+    tahr_status status[2];
+    tahr_state before = t->state[0];
+    for (int i = 0; i < 2; i++) {
+        memset(&report[i], 0, sizeof report[i]);
+        report[i].struct_size = sizeof report[i];
+        report[i].events = events[i];
+        report[i].event_capacity = EVENTS;
+        status[i] = tahr_mover_step(t->mover[i], input, dt, &t->state[i], &report[i]);
+    }
+    FUZZ_CHECK(status[0] == status[1], "%s and %s", tahr_status_name(status[0]), tahr_status_name(status[1]));
+    FUZZ_CHECK(memcmp(&t->state[0], &t->state[1], sizeof before) == 0, "cache, lanes or sleep changed the state");
+    if (status[0] < 0) {
+        FUZZ_CHECK(status[0] != TAHR_E_BACKEND, "native gave an invalid answer");
+        FUZZ_CHECK(memcmp(&t->state[0], &before, sizeof before) == 0, "state after an error");
+        return 0;
+    }
+    check_state(&t->state[0]);
+    check_report(&report[1], dt);
+    if (!moved) check_travel(config, input, &before, &t->state[0], dt);
+    if (dt == 0) FUZZ_CHECK(memcmp(&t->state[0], &before, sizeof before) == 0, "dt = 0 changed the state");
+    return 1;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    bytes b = {data, data + size};
+    scene s;
+    twin t;
+    tahr_config config;
+    scene_read(&s, &b, SCENE_SENSORS | SCENE_MOVERS | SCENE_FLUIDS);
+    if (!scene_config(&s, &b, &config)) return 0;
+    tahr_vec3 position = scene_point(&s, &b);
+    position.z += 1.5 * s.scale;
+    if (open_twin(&t, &s, &config, &position)) {
+        for (int i = 0; i < MOST_STEPS && bytes_left(&b) > 0; i++) {
+            tahr_input input;
+            double dt;
+            tape_read(&b, s.scale, &config, &input, &dt);
+            if (i % 32 == 31) refuse(&t, &input, (uint32_t)i / 32);
+            uint32_t moves = s.movers;
+            if (moves) move_bodies(&t, &s, &b, dt);
+            if (!step(&t, &config, &input, dt, moves != 0)) break;
+        }
+    }
+    close_twin(&t);
+    return 0;
+}
