@@ -95,8 +95,9 @@ static void run_scene(scene *s, const char *only, tally *total)
         printf("%s: %s\n", s->name, reference.error);
         total->failures++;
     }
-    for (int i = 0; i < SCENE_BACKEND_COUNT && reference.error[0] == 0; i++) {
-        const scene_backend *b = &SCENE_BACKENDS[i];
+    int spatial = SCENE_BACKEND_COUNT, all = spatial + (s->planar ? SCENE_PLANAR_BACKEND_COUNT : 0);
+    for (int i = 0; i < all && reference.error[0] == 0; i++) {
+        const scene_backend *b = i < spatial ? &SCENE_BACKENDS[i] : &SCENE_PLANAR_BACKENDS[i - spatial];
         if (b != reference_backend() && (!only || strcmp(only, b->name) == 0)) {
             compare(s, b, &reference, total);
         }

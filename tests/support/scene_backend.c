@@ -25,7 +25,7 @@ const scene_backend SCENE_BACKENDS[] = {
     {"ccd", tahr_backend_v1_ccd, 0, 0, 1.0, 1e-5, 1e-4, 0, 5e-3, 2e-3, 1e-6, 0},
 #endif
 #ifdef TAHR_HAVE_FCL
-    {"fcl", tahr_backend_v1_fcl, 0, 0, 1.0, 1e-5, 1e-4, 0, 5e-3, 2e-3, 1e-6},
+    {"fcl", tahr_backend_v1_fcl, 0, 0, 1.0, 1e-5, 1e-4, 0, 5e-3, 2e-3, 1e-6, 0},
 #endif
 };
 const int SCENE_BACKEND_COUNT = (int)(sizeof SCENE_BACKENDS / sizeof SCENE_BACKENDS[0]);
