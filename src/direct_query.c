@@ -60,8 +60,8 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     if (!bad && !(vec_is_finite(query->motion) && length(query->motion) <= 1e6)) {
         bad = "motion";
     }
-    const uint32_t flags = TAHR_SWEEP_LEAVE_OVERLAP | TAHR_SWEEP_ONLY_BODY | TAHR_SWEEP_SENSORS | TAHR_SWEEP_DROP | TAHR_SWEEP_WHOLE |
-                           TAHR_SWEEP_PASS;
+    const uint32_t flags = TAHR_SWEEP_LEAVE_OVERLAP | TAHR_SWEEP_ONLY_BODY | TAHR_SWEEP_SENSORS | TAHR_SWEEP_DROP |
+                           TAHR_SWEEP_WHOLE | TAHR_SWEEP_PASS;
     if (!bad && (query->flags & ~flags || query->reserved)) {
         bad = query->reserved ? "reserved" : "flags";
     }

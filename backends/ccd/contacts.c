@@ -54,9 +54,8 @@ static void visit(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, co
     tahr__ccd_measure(probe, piece, v_make(0, 0, 0), &near);
     if (near.distance > probe->margin || !tahr__ccd_in_front(piece, &near)) return;
     if (!tahr__ccd_face(probe, piece, near.normal, &near, &contact.surface_normal)) return;
-    if (tahr__ccd_is_one_way(b) &&
-        (probe->flags || tahr__one_way_edge(near.normal, contact.surface_normal) ||
-         !tahr__one_way_blocks(probe->up, near.normal, near.distance, probe->margin, 0))) {
+    if (tahr__ccd_is_one_way(b) && (probe->flags || tahr__one_way_edge(near.normal, contact.surface_normal) ||
+                                    !tahr__one_way_blocks(probe->up, near.normal, near.distance, probe->margin, 0))) {
         return; /* dropped through, on an edge, or not from above */
     }
     contact.distance = near.distance;

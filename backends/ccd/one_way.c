@@ -44,7 +44,7 @@ int tahr__ccd_one_way_blocks(const tahr__ccd_probe *probe, const tahr__ccd_piece
         return v_dot(probe->motion, near->normal) < -TAHR__CCD_PARALLEL * probe->motion_length;
     }
     int inside = near->distance + probe->radius + piece->radius <= 0;
-    out->sinks = (drops || (fraction == 0 && start < 0)) &&
-                 tahr__one_way_sinks(probe->up, near->normal, start, margin, inside);
+    out->sinks =
+        (drops || (fraction == 0 && start < 0)) && tahr__one_way_sinks(probe->up, near->normal, start, margin, inside);
     return 0;
 }

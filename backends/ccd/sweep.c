@@ -108,8 +108,8 @@ static void report(search *s, const tahr__ccd_piece *piece, tahr__ccd_near *near
     const tahr__ccd_body *b = piece->body;
     tahr_hit hit = {0};
 
-    int felt = tahr__ccd_in_front(piece, near) &&
-               tahr__ccd_face(p, piece, v_scale(p->motion, -1), near, &hit.surface_normal);
+    int felt =
+        tahr__ccd_in_front(piece, near) && tahr__ccd_face(p, piece, v_scale(p->motion, -1), near, &hit.surface_normal);
     if (!felt && !unknown) return;
     tahr__ccd_one_way one_way;
     int there = tahr__ccd_one_way_blocks(p, piece, near, hit.surface_normal, fraction, &one_way);

@@ -43,7 +43,9 @@ static inline int tahr__one_way_sinks(tahr_vec3 up, tahr_vec3 normal, double dis
  * edges never count: they have no motion. */
 static inline int tahr__one_way_edge_holds(tahr_vec3 up, tahr_vec3 motion, double below, double margin, int sinks)
 {
-    return v_dot(motion, up) < 0 && (!sinks || below > 2 * margin);
+    double rise = v_dot(motion, up);
+    int comes_down = rise < 0 && rise * rise > 1e-18 * v_dot(motion, motion); /* flatter is the rounding of level */
+    return comes_down && (!sinks || below > 2 * margin);
 }
 
 #endif

@@ -334,9 +334,8 @@ int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double m
     if (!probe_start(query, prim, &probe) || probe.gap > margin) return 0;
     tahr_vec3 toward = v_scale(probe.witness.normal, -1);
     if (tahr__resolve(query, prim, query->start, &probe.witness, toward, 0, &normals) != TAHR__ACCEPTED) return 0;
-    if ((prim->kind & TAHR__ONE_WAY) &&
-        (!tahr__one_way_blocks(UP, normals.normal, probe.gap, margin, 0) ||
-         tahr__one_way_edge(normals.normal, normals.face))) {
+    if ((prim->kind & TAHR__ONE_WAY) && (!tahr__one_way_blocks(UP, normals.normal, probe.gap, margin, 0) ||
+                                         tahr__one_way_edge(normals.normal, normals.face))) {
         return 0;
     }
     out->t = 0;

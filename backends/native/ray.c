@@ -86,7 +86,8 @@ static void visit(tahr__search *search, const tahr__prim *prim)
         query->context->narrow_tests++;
         if (!probe_triangle(s, prim, &f)) return;
     }
-    if (prim->kind & TAHR__ONE_WAY && -v_dot(f.normal, query->motion) < TAHR__ONE_WAY_TOP * query->motion_length) return;
+    if (prim->kind & TAHR__ONE_WAY && -v_dot(f.normal, query->motion) < TAHR__ONE_WAY_TOP * query->motion_length)
+        return;
     if (s->found && !tahr__found_before(&f, &s->best)) return;
     s->best = f;
     s->found = 1;

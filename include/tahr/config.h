@@ -86,7 +86,8 @@ typedef struct tahr_config {
                        * of it is added to every push, where a shape larger by it fits */
     double max_depenetration; /* m [1.0 | 5.0] JOINT: longest way out of overlaps per step; SINGLE: longest push */
     double max_depenetration_character; /* m [1.0] SINGLE: the same, out of a body with TAHR_BODY_CHARACTER */
-    tahr_vec3 plane;   /* [0 || (0, 0, 1)] unit normal of the plane through the character that it stays in (a side-scroller); zero:
+    tahr_vec3
+        plane; /* [0 || (0, 0, 1)] unit normal of the plane through the character that it stays in (a side-scroller); zero:
                       * none. Wishes, gravity, launches and pushes count along it. Equal to up (seen from above):
                       * nothing falls, jumps, steps up or snaps down */
     double mass;       /* kg [80 | 100] */
@@ -166,8 +167,9 @@ typedef struct tahr_config {
     double fall_gravity;         /* of gravity [1 || 1.5] while falling */
     double wall_slide_speed;     /* m/s [0: off || 3] fastest fall while pushing against a wall */
     double wall_jump_speed;      /* m/s [0: off || 6] away from the wall, with jump_speed upward */
-    double wall_coyote_time; /* s [0 || 0.1] a wall jump still starts this long after the wall was more than 1.5 skin away */
-    double ledge_grab; /* m [0: off] falling and pushing into a wall, hangs (TAHR_MODE_HANGING) where its head passes
+    double
+        wall_coyote_time; /* s [0 || 0.1] a wall jump still starts this long after the wall was more than 1.5 skin away */
+    double ledge_grab;    /* m [0: off] falling and pushing into a wall, hangs (TAHR_MODE_HANGING) where its head passes
                                * an edge, or on one at most this far above it; a jump climbs, crouching or moving away
                                * lets go */
     double corner_correction; /* m [0: off || 0.25] a rising head is moved aside at most this far to clear a corner */

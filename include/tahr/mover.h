@@ -26,8 +26,9 @@ enum {
     TAHR_INPUT_DRIVE = 1 << 8,     /* drive is the velocity of this step (root motion); walking, its part across up */
     TAHR_INPUT_DRIVE_ADD = 1 << 9, /* with DRIVE: it comes on top of state.velocity, and is not kept in it */
     TAHR_INPUT_DRIVE_LEVEL = 1 << 10, /* with DRIVE: only across up; falling goes on */
-    TAHR_INPUT_DROP = 1 << 11         /* fall through the one-way body that it stands on; once per press: it must be off
-                                       * for a step before it counts again */
+    TAHR_INPUT_DROP = 1 << 11 /* fall through the one-way bodies that it stands on, one layer per press: it must be
+                                       * off for a step before it counts again. A press on another floor, where that
+                                       * holds too, or in the air is spent; a jump pressed with it does not start */
 };
 
 /* What the player or an AI wants during one step. */

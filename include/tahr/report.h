@@ -82,7 +82,7 @@ typedef struct tahr_event {
     X(TAHR_RULE_WALL_JUMP, 21, "wall_jump")          \
     X(TAHR_RULE_LEDGE_GRAB, 22, "ledge_grab")        \
     X(TAHR_RULE_CORNER, 23, "corner")                \
-    X(TAHR_RULE_PULL_BACK, 24, "pull_back")         \
+    X(TAHR_RULE_PULL_BACK, 24, "pull_back")          \
     X(TAHR_RULE_DROP, 25, "drop")
 
 enum {

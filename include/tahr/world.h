@@ -37,7 +37,9 @@ enum {
     TAHR_BODY_NO_STEP = 1 << 5,   /* not stepped up on */
     TAHR_BODY_CHARACTER = 1 << 6, /* stands for another character: see config.max_depenetration_character */
     /* Stood on from above, passed from everywhere else: it is there only for a shape that does not overlap it, where the
-     * contact normal is within 60 degrees of up (tahr_one_way_blocks). */
+     * contact normal is within 60 degrees of up (tahr_one_way_blocks), and its edges only for what comes down on them.
+     * No wall, no ceiling, no step, no ledge to hang on. Bodies side by side are one platform. Of bodies that the world
+     * did not describe tahr_body_motion.flags tells. */
     TAHR_BODY_ONE_WAY = 1 << 7,
     TAHR_BODY_LOOP = 1 << 8,    /* a chain: its last vertex is joined to the first */
     TAHR_BODY_TEMPLATE = 1 << 9 /* a hull: not there itself, it lends its vertices to TAHR_SHAPE_HULL */
@@ -249,7 +251,8 @@ TAHR_API tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, ta
 
 /* The rule of one-way bodies, for your own sweep, contacts and ray: 1 if such a body is there for a shape with this up
  * that is at this signed distance from it when the question is asked (for a sweep at its start), where the contact
- * normal is this; else 0. flags and margin are those of a sweep; of contacts with TAHR_CONTACTS_DROP none are there.
+ * normal is this; else 0. flags and margin are those of a sweep. Besides: an edge (where the contact normal is not that
+ * of the face) blocks only a sweep with motion . up < 0, and is no contact; with TAHR_CONTACTS_DROP nothing is.
  * NULL: 0. Allocates nothing; may run on several threads. Since 0.1. */
 TAHR_API int32_t tahr_one_way_blocks(const tahr_vec3 *up, const tahr_vec3 *normal, double distance, double margin,
                                      uint32_t flags);

@@ -158,10 +158,10 @@ int scene_config_read(scene *s)
     json_object_foreach(config, name, value)
     {
         int known =
-            strcmp(name, "preset") == 0 || (strcmp(name, "shape") == 0   ? read_shape(s, value)
-                                            : strcmp(name, "plane") == 0 ? scene_vec3(s, value, &s->config.plane)
+            strcmp(name, "preset") == 0 || (strcmp(name, "shape") == 0     ? read_shape(s, value)
+                                            : strcmp(name, "plane") == 0   ? scene_vec3(s, value, &s->config.plane)
                                             : strcmp(name, "gravity") == 0 ? scene_vec3(s, value, &s->config.gravity)
-                                                                         : read_field(s, name, value));
+                                                                           : read_field(s, name, value));
         if (!known) {
             return 0;
         }

@@ -11,7 +11,7 @@ enum { LAYER_BOX, LAYER_SHEET, LAYER_TILES, LAYER_BLOCKS, LAYER_KINDS };
 
 enum { LAYERS_MOST = 160 };
 typedef struct layers {
-    int up;                /* 1: y, 2: z */
+    int up; /* 1: y, 2: z */
     const tahr_backend *backend;
     tahr_body_desc bodies[LAYERS_MOST];
     double corners[LAYERS_MOST][12];

@@ -133,7 +133,7 @@ static void every_input_field_is_checked(void **unused)
     r.input.facing.x = NAN; /* without its flag it is not read */
     r.input.gravity.y = NAN;
     assert_int_equal(tahr_mover_step(r.mover, &r.input, 0.01, &r.state, NULL), TAHR_OK);
-    r.input.flags = 1u << 11;
+    r.input.flags = TAHR_INPUT_DROP << 1;
     expect(&r, 0.1, TAHR_E_ARGUMENT, "input.flags");
     r.input.flags = 0;
     r.input.reserved = 7;

@@ -54,7 +54,7 @@ static void broken_bodies_and_options_are_refused(void **state)
 {
     const char *const named[] = {"radius is -1", "half_height",       "pose.position",     "pose.orientation",
                                  "type is 9",    "options.precision", "options.cache_tri", "options.cache_m",
-                                 "flags is 128", "options.no_cache",  "options.no_simd",   "options.reserved"};
+                                 "flags is 256", "options.no_cache",  "options.no_simd",   "options.reserved"};
     (void)state;
     fixture f;
     for (int n = 0; n < 12; n++) {
@@ -70,7 +70,7 @@ static void broken_bodies_and_options_are_refused(void **state)
         if (n == 5) options.precision = 7;
         if (n == 6) options.cache_triangles = 5000;
         if (n == 7) options.cache_margin = NAN;
-        if (n == 8) body.flags = 128;
+        if (n == 8) body.flags = TAHR_BODY_ONE_WAY << 1;
         if (n == 9) options.no_cache = 2;
         if (n == 10) options.no_simd = 2;
         if (n == 11) options.reserved = 1;

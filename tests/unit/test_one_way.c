@@ -153,6 +153,74 @@ static void what_rises_past_the_end_of_a_platform_is_not_touched(void **unused)
     }
 }
 
+/* Between two tiles, partly below their tops: falls as if none were there, whichever way it drifts. */
+static void who_has_sunk_into_a_tile_is_not_caught_by_the_next(void **unused)
+{
+    (void)unused;
+    for (int world = 0; world < LAYERS_WORLDS; world++) {
+        oracle_random dice = {23};
+        for (int trial = 0; trial < (world < 2 ? 300 : 30); trial++) {
+            static layers l;
+            rig r;
+            if (!layers_begin(&l, world)) {
+                break;
+            }
+            layers_add(&l, trial % 2 ? LAYER_TILES : LAYER_BLOCKS, -6, 6, 0, TAHR_BODY_ONE_WAY);
+            tahr_config c = layers_config(&l, TAHR_PRESET_PRECISE);
+            if (trial % 3 == 2) {
+                c.shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.3, .half_y = 0.3};
+            }
+            layers_open(&l, &r, &c, oracle_uniform(&dice, -1, 1), -oracle_uniform(&dice, 0.001, 0.4));
+            double up = oracle_uniform(&dice, -3, 0.1), level = oracle_uniform(&dice, -8, 8), time = 0.3;
+            set_velocity(&l, &r, level, up);
+            double x = layers_x(&l, r.state.position), foot = layers_foot(&l, &r);
+            int steps = 1 + (int)oracle_below(&dice, 100);
+            for (int i = 0; i < steps; i++) {
+                rig_step(&r, time / steps);
+                assert_null(rig_event(&r, TAHR_EVENT_HIT));
+            }
+            assert_near(layers_x(&l, r.state.position), x + level * time, 1e-9);
+            assert_near(layers_foot(&l, &r), foot + up * time - G * time * time / 2, 1e-9);
+            rig_close(&r);
+        }
+    }
+}
+
+/* Straight down at the end of a platform: within the inner foot it stands, to where the contact leans by 60 degrees
+ * (0.36 sin 60 = 0.312 m off the axis) its round foot slides off the edge, and farther out there is nothing. */
+static void the_end_of_a_platform_holds_the_inner_foot_at_every_rate(void **unused)
+{
+    (void)unused;
+    static const double OFF[] = {-0.3, 0.05, 0.19, 0.24, 0.3, 0.32, 0.35};
+    for (int world = 0; world < LAYERS_WORLDS; world++) {
+        for (int k = 0; k < 7; k++) {
+            for (int i = 0; i < RIG_RATES; i += world < 2 ? 1 : 2) {
+                static layers l;
+                rig r;
+                if (!layers_begin(&l, world)) {
+                    break;
+                }
+                layers_add(&l, (k + i) % 2 ? LAYER_SHEET : LAYER_BOX, -4, 0, 0, TAHR_BODY_ONE_WAY);
+                layers_open(&l, &r, NULL, OFF[k], 0.7 + 0.013 * k);
+                double foot = layers_foot(&l, &r), time = 0;
+                for (; time < 0.7 - 1e-9; time += 1 / rig_rates[i]) {
+                    rig_step(&r, 1 / rig_rates[i]);
+                }
+                if (OFF[k] < 0.2) {
+                    assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
+                    assert_near(layers_x(&l, r.state.position), OFF[k], 1e-6);
+                } else if (OFF[k] > 0.312) {
+                    assert_near(layers_foot(&l, &r), foot - G * time * time / 2, 1e-9);
+                } else {
+                    assert_int_equal(r.state.mode, TAHR_MODE_FALLING);
+                    assert_true(layers_foot(&l, &r) < -0.2 && layers_x(&l, r.state.position) > OFF[k]);
+                }
+                rig_close(&r);
+            }
+        }
+    }
+}
+
 /* A foot that is below the top is not lifted by the platform, whatever the character does there. */
 static void walking_into_a_low_platform_passes_through_it(void **unused)
 {
@@ -217,6 +285,8 @@ int main(void)
         cmocka_unit_test(the_two_rules_agree),
         cmocka_unit_test(jumps_rise_through_all_layers_and_land_on_the_highest_below),
         cmocka_unit_test(what_rises_past_the_end_of_a_platform_is_not_touched),
+        cmocka_unit_test(who_has_sunk_into_a_tile_is_not_caught_by_the_next),
+        cmocka_unit_test(the_end_of_a_platform_holds_the_inner_foot_at_every_rate),
         cmocka_unit_test(walking_into_a_low_platform_passes_through_it),
         cmocka_unit_test(nobody_sinks_through_a_platform_by_standing),
     };

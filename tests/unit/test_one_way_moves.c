@@ -42,7 +42,7 @@ static void lifts_carry_and_are_landed_on(void **unused)
     static const double SPEEDS[] = {3, -3, -15, 8};
     for (int world = 0; world < LAYERS_WORLDS; world++) {
         for (int k = 0; k < 8; k++) {
-            for (int i = 0; i < RIG_RATES; i += world < 2 ? 1 : 2) {
+            for (int i = world < 2 ? 0 : k % 3; i < RIG_RATES; i += world < 2 ? 1 : 3) {
                 static layers l;
                 rig r;
                 double dt = 1 / rig_rates[i], speed = SPEEDS[k % 4], drop = k < 4 ? 0.05 : 1;
@@ -83,7 +83,7 @@ static void moving_platforms_are_passed_from_below(void **unused)
     static const double SPEEDS[][2] = {{0, 2}, {0, -4}, {3, 0}, {-5, -2}};
     for (int world = 0; world < LAYERS_WORLDS; world++) {
         for (int k = 0; k < 4; k++) {
-            for (int i = 0; i < RIG_RATES; i += world < 2 ? 1 : 2) {
+            for (int i = world < 2 ? 0 : k % 3; i < RIG_RATES; i += world < 2 ? 1 : 3) {
                 static layers l;
                 rig r;
                 double dt = 1 / rig_rates[i], launch = 9 + SPEEDS[k][1], top = 2.5;
@@ -126,7 +126,7 @@ static void slopes_between_flats_are_walked_over(void **unused)
     static const double ANGLES[] = {22.5, 45};
     for (int world = 0; world < LAYERS_WORLDS; world++) {
         for (int k = 0; k < 8; k++) {
-            for (int i = 0; i < RIG_RATES; i += world < 2 ? 1 : 2) {
+            for (int i = world < 2 ? 0 : k % 3; i < RIG_RATES; i += world < 2 ? 1 : 3) {
                 static layers l;
                 rig r;
                 double dt = 1 / rig_rates[i], angle = ANGLES[k % 2] * 0.017453292519943295;
