@@ -177,17 +177,17 @@ struct world_question {
     {
         const b2Filter &filter = fixture->GetFilterData();
         b2Body *body = fixture->GetBody();
+        const uint32_t id = id_of(desc, body);
         tahr_box2d_shape told = {};
         tahr__b2_piece piece;
 
         if (!tahr__b2_filter(desc, filter.categoryBits, filter.maskBits, filter.groupIndex)) return;
         told.shape = fixture;
-        told.body = id_of(desc, body);
+        told.body = id;
         told.flags = fixture->IsSensor() ? static_cast<uint32_t>(TAHR_BODY_SENSOR) : 0u;
         if (desc->shape) desc->shape(desc->user, &told);
         if (told.hidden) return;
-        piece.owner = {told.body,           told.flags, told.surface,       told.walkable_rule,
-                       filter.categoryBits, 0,          told.walkable_angle};
+        piece.owner = {id, told.flags, told.surface, told.walkable_rule, filter.categoryBits, 0, told.walkable_angle};
         piece.feature = ordinal_of(fixture) << 16 | static_cast<uint32_t>(child);
         piece.is_box = 0;
         piece.ghosts = TAHR__B2_NO_GHOST;

@@ -176,7 +176,7 @@ static bool take_shape(b2ShapeId shape, void *context)
     told.surface = (uint32_t)b2Shape_GetUserMaterial(shape);
     if (q->desc->shape) q->desc->shape(q->desc->user, &told);
     if (told.hidden) return true;
-    piece.owner = (tahr__b2_owner){.body = told.body,
+    piece.owner = (tahr__b2_owner){.body = id_of(body),
                                    .flags = told.flags,
                                    .surface = told.surface,
                                    .walkable_rule = told.walkable_rule,

@@ -254,7 +254,15 @@ static int is_near(const question *q, const tahr__flat *flat)
 static void found_piece(void *user, tahr__b2_piece *piece)
 {
     const question *q = user;
-    if (is_wanted(q->probe, &piece->owner) && is_near(q, &piece->flat)) q->take(q->user, piece);
+    tahr__flat *f = &piece->flat;
+
+    if (!is_wanted(q->probe, &piece->owner) || !is_near(q, f)) return;
+    if (f->count == 2 && f->corner[0].x == f->corner[1].x && f->corner[0].y == f->corner[1].y) {
+        f->count = 1; /* an edge from a point to itself has no sides */
+        f->one_sided = 0;
+        piece->ghosts = TAHR__B2_NO_GHOST;
+    }
+    q->take(q->user, piece);
 }
 
 static void found_item(void *user, uint32_t index)

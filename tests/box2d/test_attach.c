@@ -215,6 +215,23 @@ static void geometry_has_no_skin_near_or_far(void **unused)
     }
 }
 
+/* A corner alone, met by a circle as any corner. */
+static void an_edge_without_length_is_a_point(void **unused)
+{
+    (void)unused;
+    scene s = begin(yards[0]);
+    yard_body body = {.shape = YARD_EDGE, .a = 0};
+    tahr_hit hits[2];
+    if (strcmp(s.yard->name, "2.4") == 0) { /* 3 makes none */
+        s.yard->add(s.place, &body);
+        attach(&s);
+        tahr_sweep q = sweep_of(circle(0.5), -2, 0.3, 4, 0, 0);
+        assert_int_equal(ask(&s, &q, hits), 1);
+        close_to(hits[0].fraction * 4, 2 - 0.4, 2e-9);
+    }
+    end(&s);
+}
+
 static tahr_shape character(uint32_t type)
 {
     tahr_shape s = {type, 0, type == TAHR_SHAPE_BOX ? 0 : 0.35, type == TAHR_SHAPE_SPHERE ? 0.35 : 0.9, 0, 0};
@@ -452,6 +469,7 @@ int main(void)
         cmocka_unit_test(the_mask_of_a_query_chooses_among_categories),
         cmocka_unit_test(sensors_are_felt_on_the_way_and_never_block),
         cmocka_unit_test(geometry_has_no_skin_near_or_far),
+        cmocka_unit_test(an_edge_without_length_is_a_point),
         cmocka_unit_test(a_thousand_seams_of_a_users_world_are_none),
         cmocka_unit_test(chains_are_smooth_and_solid_from_one_side),
         cmocka_unit_test(a_function_may_say_more_of_shapes),

@@ -172,8 +172,9 @@ static tahr_body_desc body_of(const obstacle *o, double (*ramp)[3])
 }
 
 /* A wall behind the seams, and a slope of angle a that begins at one, are met where they are: a steep one at its
- * margin, where its foot is s = (r + m - (r + g) cos a) / sin a before the centre; a gentle one, which the centre's foot
- * on it reaches when it is within the margin already, at s = (r + g) tan a, though its corner was at the margin before. */
+ * margin, where its foot is s = (r + m - (r + g) cos a) / sin a before the centre; a gentle one, which the centre's
+ * foot on it reaches when it is within the margin already, at s = (r + g) tan a, though its corner was at the margin
+ * before. */
 static void what_lies_behind_a_seam_is_met(void **unused)
 {
     const double r = 0.35, margin = 0.01, steep = atan(0.5), near_margin = 0.01 - 1e-7;
