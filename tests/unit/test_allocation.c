@@ -285,9 +285,9 @@ static uint64_t heap_calls_of_solids(const tahr_ccd_desc *options)
 {
     static const double tetrahedron[] = {-1, -1, -1, 1, 1, -1, 1, -1, 1, -1, 1, 1};
     static const tahr_shape shapes[] = {
-        {TAHR_SHAPE_SPHERE, 0, 0.3, 0.3, 0, 0},   {TAHR_SHAPE_CAPSULE, 0, 0.3, 0.9, 0, 0},
-        {TAHR_SHAPE_BOX, 0, 0, 0.9, 0.3, 0.3},    {TAHR_SHAPE_CYLINDER, 0, 0.3, 0.9, 0, 0},
-        {TAHR_SHAPE_CONE, 0, 0.3, 0.9, 0, 0},     {TAHR_SHAPE_ELLIPSOID, 0, 0, 0.9, 0.3, 0.3},
+        {TAHR_SHAPE_SPHERE, 0, 0.3, 0.3, 0, 0}, {TAHR_SHAPE_CAPSULE, 0, 0.3, 0.9, 0, 0},
+        {TAHR_SHAPE_BOX, 0, 0, 0.9, 0.3, 0.3},  {TAHR_SHAPE_CYLINDER, 0, 0.3, 0.9, 0, 0},
+        {TAHR_SHAPE_CONE, 0, 0.3, 0.9, 0, 0},   {TAHR_SHAPE_ELLIPSOID, 0, 0, 0.9, 0.3, 0.3},
         {TAHR_SHAPE_HULL, 0, 0, 1, 1, 1},
     };
     enum { KINDS = 8 };
@@ -318,7 +318,8 @@ static uint64_t heap_calls_of_solids(const tahr_ccd_desc *options)
         q.motion = (tahr_vec3){0.2, 0.1, -3};
         q.mask = 0xFFFFFFFFu;
         q.ignore_body = TAHR_NO_BODY;
-        tahr_contact_query around = {q.shape, {0.1 * i / 7, 0, 0.2}, q.up, q.orientation, 0.1, q.mask, TAHR_NO_BODY, 0, 0};
+        tahr_contact_query around = {q.shape, {0.1 * i / 7, 0, 0.2}, q.up, q.orientation, 0.1, q.mask, TAHR_NO_BODY, 0,
+                                     0};
         assert_true(tahr_world_sweep(world, &q, hits, 4, &count) >= 0);
         found += count;
         assert_true(tahr_world_contacts(world, &around, contacts, 8, &count) >= 0);
