@@ -88,8 +88,8 @@ static int sweep_box(tahr__step *step, const tahr__foot *probe, vec3 from, doubl
 {
     const tahr_quat eighth = {0, 0, 0.3826834323650898, 0.9238795325112867}; /* of a turn about z: sin, cos of pi / 8 */
     const tahr_quat kept = step->state.orientation;
-    double radius = shape_is_round(&probe->shape) ? probe->shape.radius
-                                                  : min_of(probe->shape.half_x, probe->shape.half_y);
+    double radius =
+        shape_is_round(&probe->shape) ? probe->shape.radius : min_of(probe->shape.half_x, probe->shape.half_y);
     tahr_shape box = {.type = TAHR_SHAPE_BOX,
                       .half_height = probe->shape.half_height,
                       .half_x = max_of(FLAT * radius, TAHR__THINNEST)};

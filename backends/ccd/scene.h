@@ -65,13 +65,13 @@ enum { TAHR__CCD_SOLIDS = 1, TAHR__CCD_SENSORS = 2 };
 typedef struct tahr__ccd_probe {
     const tahr__ccd_scene *scene;
     tahr_query_context *context;
-    double unit;        /* of them in a metre: 1, or a power of two that makes the shape about 1 in size */
-    tahr__core core;    /* spheres, capsules, boxes */
-    tahr__convex shape; /* all: without the radius, around the start */
-    tahr__mat turn;     /* of its frame */
+    double unit;                /* of them in a metre: 1, or a power of two that makes the shape about 1 in size */
+    tahr__core core;            /* spheres, capsules, boxes */
+    tahr__convex shape;         /* all: without the radius, around the start */
+    tahr__mat turn;             /* of its frame */
     const tahr__ccd_body *hull; /* hulls: who lends the vertices; else NULL */
-    int is_core;        /* 1: core says it all */
-    double size;        /* half the longest extent of the shape */
+    int is_core;                /* 1: core says it all */
+    double size;                /* half the longest extent of the shape */
     double radius, margin;
     tahr_vec3 origin, motion;
     double motion_length;

@@ -52,8 +52,8 @@ static int passes(const tahr__ccd_walk *walk, const tahr__ccd_body *body)
     tahr_bounds world = {v_add(walk->box.min, walk->probe->origin), v_add(walk->box.max, walk->probe->origin)};
     uint32_t kind = body->flags & TAHR_BODY_SENSOR ? TAHR__CCD_SENSORS : TAHR__CCD_SOLIDS;
     return !(body->flags & TAHR_BODY_TEMPLATE) && walk->probe->leaves_out != kind &&
-           (body->mask & walk->probe->mask) != 0 &&
-           (body->id == walk->probe->ignore_body) == walk->probe->only_body && overlap(&world, &body->bounds);
+           (body->mask & walk->probe->mask) != 0 && (body->id == walk->probe->ignore_body) == walk->probe->only_body &&
+           overlap(&world, &body->bounds);
 }
 
 /* The query's box in the frame of the mesh. */

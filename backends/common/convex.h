@@ -45,10 +45,10 @@ typedef struct tahr__gap {
                        * distance; negative where no plane was found that passes between them */
     tahr_vec3 normal; /* unit, from b to a */
     tahr_vec3 on_a, on_b; /* not set where the distance is 0 */
-    double weight[3];    /* of the first three points of b, if it has so many: where on_b lies between them */
-    uint32_t iterations; /* support points asked for */
-    uint32_t given_up;   /* 1: the cap on iterations ended it; lower and distance hold all the same */
-    uint32_t clear;      /* 1: tahr__convex_clear ended it early */
+    double weight[3];     /* of the first three points of b, if it has so many: where on_b lies between them */
+    uint32_t iterations;  /* support points asked for */
+    uint32_t given_up;    /* 1: the cap on iterations ended it; lower and distance hold all the same */
+    uint32_t clear;       /* 1: tahr__convex_clear ended it early */
     uint32_t reserved;
 } tahr__gap;
 

@@ -37,13 +37,13 @@ typedef struct tahr_input {
     uint32_t flags;   /* TAHR_INPUT_*: which of the optional fields below count */
     uint32_t jump;    /* 1 while the button is held; a jump starts when it goes down */
     uint32_t crouch;  /* 1 while crouched: half height config.crouched_half_height, about the foot on ground, else about
-                      * the centre; not of spheres, not while hanging */
+                      * the centre; not of spheres and hulls, not while hanging */
     tahr_vec3 move;   /* world; length 0..1 of the mode's speed, longer is shortened to 1; the part along up counts only
                      * in
                         * swimming and flying */
     tahr_vec3 facing; /* with FACING: turn toward this direction */
     tahr_vec3 gravity;  /* m/s2, with GRAVITY: instead of config.gravity */
-    double radius;      /* m, with SHAPE; not of boxes */
+    double radius;      /* m, with SHAPE; 0 of boxes, ellipsoids and hulls */
     double half_height; /* m, with SHAPE */
     tahr_vec3 launch;   /* m/s, with LAUNCH */
     tahr_vec3 impulse;  /* N s, with IMPULSE */
@@ -57,8 +57,10 @@ typedef struct tahr_input {
  * [in] world, which must outlive the mover; config, copied. [out] mover, untouched on error; destroy it with
  * tahr_mover_destroy. Allocates from the world's allocator. May run on several threads, also while movers of the world
  * step, if that allocator and the log may be called so; not while the world is opened, changed or closed.
- * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (shape not among the backend's, unknown tail of
- * config not zero, a plane or a gravity that leaves the plane of a TAHR_CAP_PLANAR world), TAHR_E_ARGUMENT (the log names the field), TAHR_E_MEMORY. Since 0.1. */
+ * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (shape not among the backend's, a hull on
+ * one without the margin, unknown tail of config not zero, a plane or a gravity that leaves the plane of a
+ * TAHR_CAP_PLANAR world), TAHR_E_ARGUMENT (the log names the field; a hull must be a TAHR_BODY_TEMPLATE of a described
+ * world, and as large), TAHR_E_MEMORY. Since 0.1. */
 TAHR_API tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **mover);
 
 /* Frees a mover; its world must still be open and no step of it under way. NULL is allowed. Threads as for

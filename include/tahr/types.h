@@ -44,9 +44,12 @@ enum {
  * radius). Box: half extents half_x, half_y across the axis (in the frame of the orientation) and half_height along it;
  * radius 0. Cylinder: radius and half_height. Cone: radius of its base, which is below, and half_height. Ellipsoid: its
  * semi-axes are half_x, half_y and half_height; radius 0. Hull: the vertices of a body of the scene
- * (TAHR_BODY_HULL with TAHR_BODY_TEMPLATE) in the frame of the orientation; half_x, half_y and half_height are half its
- * extents, radius 0. Every size that counts lies within 1e-6..1e4 m. Which of them a backend sweeps its capabilities
- * say. In a plane (TAHR_CAP_PLANAR) a sphere is a circle and half_x is half the width; half_y does not count. */
+ * (TAHR_BODY_HULL with TAHR_BODY_TEMPLATE) in the frame of the orientation, the middle of their extents at the position;
+ * half_x, half_y and half_height are half those extents, radius 0; it keeps its size: it does not crouch. Boxes,
+ * cylinders, cones and hulls stand on a flat base, which holds on an edge as long as a part of it does; rules that ask
+ * how wide a hull is take its extents, and where a thinner one is asked for their box. Every size that counts lies within
+ * 1e-6..1e4 m. Which of the shapes a backend sweeps its capabilities say. In a plane (TAHR_CAP_PLANAR) a sphere is a
+ * circle and half_x is half the width; half_y does not count. */
 typedef struct tahr_shape {
     uint32_t type;      /* TAHR_SHAPE_* */
     uint32_t hull;      /* id of the body that lends its vertices, hulls only */
@@ -132,7 +135,7 @@ typedef struct tahr_hit {
     uint32_t walkable_rule;   /* TAHR_WALKABLE_* */
     uint32_t surface;         /* the user's id of the surface */
     uint32_t body;
-    uint32_t feature; /* triangle of a mesh, face of a box, 0 of round bodies */
+    uint32_t feature; /* triangle of a mesh, face of a box or a hull, 0 of round bodies */
 } tahr_hit;
 
 /* One feature near a shape. */

@@ -291,12 +291,20 @@ int main(void)
     static const tahr_native_desc in_double = {.struct_size = sizeof in_double, .precision = TAHR_NATIVE_DOUBLE};
     subject native_float = {"native float", tahr_backend_v1_native(), &in_float, limit_float, 0.1};
     subject native_double = {"native double", tahr_backend_v1_native(), &in_double, limit_double, 0.1};
+#ifdef TAHR_HAVE_CCD
+    static const tahr_ccd_desc by_gjk = {sizeof by_gjk, TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_GJK, 0, {0}};
+    static const tahr_ccd_desc by_mpr = {sizeof by_mpr, TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_MPR, 0, {0}};
+#endif
     const struct CMUnitTest tests[] = {
         {"native_float_agrees_with_truth", backend_agrees_with_truth, NULL, NULL, &native_float},
         {"native_double_agrees_with_truth", backend_agrees_with_truth, NULL, NULL, &native_double},
 #ifdef TAHR_HAVE_CCD
         {"ccd_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
-         &(subject){"ccd", tahr_backend_v1_ccd(), NULL, limit_library, 2}},
+         &(subject){"ccd", tahr_backend_v1_ccd(), NULL, limit_ccd, 2}},
+        {"ccd_by_gjk_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
+         &(subject){"ccd by GJK", tahr_backend_v1_ccd(), &by_gjk, limit_ccd, 2}},
+        {"ccd_by_mpr_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
+         &(subject){"ccd by MPR", tahr_backend_v1_ccd(), &by_mpr, limit_ccd, 2}},
 #endif
 #ifdef TAHR_HAVE_FCL
         {"fcl_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,

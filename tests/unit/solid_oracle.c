@@ -158,7 +158,8 @@ solid_real solid_point_distance(const solid *s, tahr_vec3 point)
     switch (s->type) {
     case TAHR_BODY_SPHERE: return fmaxl(0, sqrtl(dot(p, p)) - r);
     case TAHR_BODY_CAPSULE: return fmaxl(0, hypotl(level, outside(p.z, top - r)) - r);
-    case TAHR_BODY_BOX: return sqrtl(powl(outside(p.x, h.x), 2) + powl(outside(p.y, h.y), 2) + powl(outside(p.z, h.z), 2));
+    case TAHR_BODY_BOX:
+        return sqrtl(powl(outside(p.x, h.x), 2) + powl(outside(p.y, h.y), 2) + powl(outside(p.z, h.z), 2));
     case TAHR_BODY_CYLINDER: return hypotl(outside(level, r), outside(p.z, top));
     case TAHR_BODY_CONE: {
         solid_vec q = make(level, 0, p.z), rim = make(r, 0, -top), apex = make(0, 0, top), foot = make(0, 0, -top);

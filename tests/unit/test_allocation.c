@@ -279,6 +279,73 @@ static void no_step_of_any_backend_touches_the_heap(void **unused)
     }
 }
 
+#ifdef TAHR_HAVE_CCD
+/* Every convex kind of body and shape, with both of libccd's tests; through a wall of solids, so that all is met. */
+static uint64_t heap_calls_of_solids(const tahr_ccd_desc *options)
+{
+    static const double tetrahedron[] = {-1, -1, -1, 1, 1, -1, 1, -1, 1, -1, 1, 1};
+    static const tahr_shape shapes[] = {
+        {TAHR_SHAPE_SPHERE, 0, 0.3, 0.3, 0, 0}, {TAHR_SHAPE_CAPSULE, 0, 0.3, 0.9, 0, 0},
+        {TAHR_SHAPE_BOX, 0, 0, 0.9, 0.3, 0.3},  {TAHR_SHAPE_CYLINDER, 0, 0.3, 0.9, 0, 0},
+        {TAHR_SHAPE_CONE, 0, 0.3, 0.9, 0, 0},   {TAHR_SHAPE_ELLIPSOID, 0, 0, 0.9, 0.3, 0.3},
+        {TAHR_SHAPE_HULL, 0, 0, 1, 1, 1},
+    };
+    enum { KINDS = 8 };
+    tahr_body_desc bodies[KINDS];
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    tahr_hit hits[4];
+    tahr_contact contacts[8];
+    uint32_t count;
+    for (uint32_t i = 0; i < KINDS; i++) {
+        tahr_body_desc_init(&bodies[i], sizeof bodies[i], i == 0 ? TAHR_BODY_HULL : TAHR_BODY_MESH + i);
+        bodies[i].flags = i == 0 ? TAHR_BODY_TEMPLATE : 0;
+        bodies[i].pose.position.x = i * 1.5;
+        bodies[i].radius = bodies[i].half_height = 0.5;
+        bodies[i].half_extents = (tahr_vec3){0.5, 0.4, 0.3};
+        bodies[i].vertices = tetrahedron;
+        bodies[i].vertex_count = 4;
+    }
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = bodies;
+    desc.body_count = KINDS;
+    desc.options = options;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_ccd(), &desc, &world), TAHR_OK);
+    uint64_t before = heap_calls, found = 0;
+    for (uint32_t i = 0; i < 7 * 120; i++) {
+        tahr_sweep q = {.shape = shapes[i % 7], .position = {0.1 * i / 7, 0, 2}, .up = {0, 0, 1}, .margin = 0.01};
+        q.orientation.w = 1;
+        q.motion = (tahr_vec3){0.2, 0.1, -3};
+        q.mask = 0xFFFFFFFFu;
+        q.ignore_body = TAHR_NO_BODY;
+        tahr_contact_query around = {q.shape, {0.1 * i / 7, 0, 0.2}, q.up, q.orientation, 0.1, q.mask, TAHR_NO_BODY, 0,
+                                     0};
+        assert_true(tahr_world_sweep(world, &q, hits, 4, &count) >= 0);
+        found += count;
+        assert_true(tahr_world_contacts(world, &around, contacts, 8, &count) >= 0);
+        found += count;
+    }
+    uint64_t calls = heap_calls - before;
+    assert_true(found > 500);
+    tahr_world_close(world);
+    return calls;
+}
+
+static void no_query_of_any_convex_shape_touches_the_heap(void **unused)
+{
+    const tahr_ccd_desc by_gjk = {sizeof by_gjk, TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_GJK, 0, {0}};
+    const tahr_ccd_desc by_mpr = {sizeof by_mpr, TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_MPR, 0, {0}};
+    (void)unused;
+    if (!watch_heap()) {
+        print_message("SKIP: unit_allocation: no way to count this C library's allocations\n");
+        skip();
+    }
+    assert_int_equal(heap_calls_of_solids(NULL), 0);
+    assert_int_equal(heap_calls_of_solids(&by_gjk), 0);
+    assert_int_equal(heap_calls_of_solids(&by_mpr), 0);
+}
+#endif
+
 /* Every kind of body, request and mode, with full reports: see chaos.h. */
 static uint64_t heap_calls_of_chaos(const tahr_backend *backend, uint64_t seed, long modes[TAHR_MODE_CUSTOM + 1])
 {
@@ -452,6 +519,9 @@ int main(void)
                                        cmocka_unit_test(a_thousand_steps_allocate_nothing),
                                        cmocka_unit_test(no_step_of_any_backend_touches_the_heap),
                                        cmocka_unit_test(no_step_of_any_feature_touches_the_heap),
+#ifdef TAHR_HAVE_CCD
+                                       cmocka_unit_test(no_query_of_any_convex_shape_touches_the_heap),
+#endif
                                        cmocka_unit_test(a_large_mesh_stays_under_a_hundred_bytes_per_triangle),
                                        cmocka_unit_test(a_movers_cache_costs_what_the_header_says),
                                        cmocka_unit_test(world_memory_is_what_the_allocator_holds)};

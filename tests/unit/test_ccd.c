@@ -288,7 +288,8 @@ static void rays_meet_faces_and_never_start_inside(void **state)
 
 static void opening_returns_all_memory_when_any_allocation_fails(void **state)
 {
-    tahr_body_desc bodies[2] = {grid_body(0.2), box_body((tahr_vec3){0, 0, 5}, 1)};
+    static const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    tahr_body_desc bodies[3] = {grid_body(0.2), box_body((tahr_vec3){0, 0, 5}, 1), box_body((tahr_vec3){0, 0, 9}, 1)};
     const tahr_backend *b = tahr_backend_v1_ccd();
     tahr_world_desc desc;
     fake_memory memory = {.fail_once = 1};
@@ -298,8 +299,11 @@ static void opening_returns_all_memory_when_any_allocation_fails(void **state)
 
     (void)state;
     tahr_world_desc_init(&desc, sizeof desc);
+    bodies[2].type = TAHR_BODY_HULL;
+    bodies[2].vertices = corners;
+    bodies[2].vertex_count = 4;
     desc.bodies = bodies;
-    desc.body_count = 2;
+    desc.body_count = 3;
     for (memory.fail_at = 1; memory.fail_at < 100; memory.fail_at++) {
         memory.requests = 0;
         tahr_status status = b->open(&host, &desc, &self);
@@ -322,6 +326,15 @@ static void opening_returns_all_memory_when_any_allocation_fails(void **state)
     assert_int_equal(b->sweep(self, &context, &q, &hit, 1, &count), TAHR_E_ARGUMENT);
     assert_int_equal(count, 0);
     q.position.x = 0;
+    q.position.y = 1e300; /* libccd's products of it would be infinite */
+    assert_int_equal(b->sweep(self, &context, &q, &hit, 1, &count), TAHR_E_ARGUMENT);
+    q.position.y = 0;
+    q.motion.z = -1e200;
+    assert_int_equal(b->sweep(self, &context, &q, &hit, 1, &count), TAHR_E_ARGUMENT);
+    q.motion.z = -1;
+    q.shape = (tahr_shape){.type = TAHR_SHAPE_HULL, .hull = 7, .half_height = 1, .half_x = 1, .half_y = 1};
+    assert_int_equal(b->sweep(self, &context, &q, &hit, 1, &count), TAHR_E_ARGUMENT);
+    q.shape = fixture_shape(TAHR_SHAPE_CAPSULE, 0.35, 0.9);
     q.shape.radius = INFINITY;
     assert_int_equal(b->sweep(self, &context, &q, &hit, 1, &count), TAHR_E_ARGUMENT);
     q.shape.type = 77;

@@ -254,8 +254,8 @@ static void judge(pair *p, const tahr_sweep *q, tally *t)
 
 static void expect_none_wrong(const tally *t)
 {
-    print_message("    %d sweeps: %d hits, %d misses, %d overlaps; early by %.1Lg, late by %.1Lg of a metre\n", t->sweeps,
-                  t->hits, t->misses, t->overlaps, t->worst_early, t->worst_late);
+    print_message("    %d sweeps: %d hits, %d misses, %d overlaps; early by %.1Lg, late by %.1Lg of a metre\n",
+                  t->sweeps, t->hits, t->misses, t->overlaps, t->worst_early, t->worst_late);
     assert_int_equal(t->unknown, 0);
     assert_int_equal(t->late, 0);
     assert_int_equal(t->early, 0);
