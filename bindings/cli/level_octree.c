@@ -120,11 +120,8 @@ int level_load_octree(struct level *level, const char *path)
     const char *base = strrchr(path, '/');
     struct cells cells = {0};
     tahr_fcl_octree octree = {.path = path};
-    tahr_fcl_desc fcl = {.struct_size = sizeof fcl,
-                         .octree_count = 1,
-                         .octrees = &octree,
-                         .cell = take_cell,
-                         .cell_user = &cells};
+    tahr_fcl_desc fcl = {
+        .struct_size = sizeof fcl, .octree_count = 1, .octrees = &octree, .cell = take_cell, .cell_user = &cells};
     tahr_world_desc desc;
     tahr_world *world = NULL;
     *level = (struct level){0};
@@ -158,8 +155,7 @@ int level_options(const struct level *level, const struct backend_choice *backen
         return -1;
     }
     room->octree = (tahr_fcl_octree){.path = level->octree};
-    room->fcl =
-        (tahr_fcl_desc){.struct_size = sizeof room->fcl, .octree_count = 1, .octrees = &room->octree};
+    room->fcl = (tahr_fcl_desc){.struct_size = sizeof room->fcl, .octree_count = 1, .octrees = &room->octree};
     *options = &room->fcl;
     return 0;
 }

@@ -486,7 +486,7 @@ static void one_way_boxes_are_there_from_above_only(void **state)
     assert_int_equal(platform_contacts(&p, 0.9, 0, &contact), 0);
     assert_int_equal(p.backend->ray(p.self, &context, &ray, &hit, &count), TAHR_OK);
     assert_true(count == 1 && fabs(hit.fraction - 1.9 / 4) < 1e-9);
-    ray.origin = fake_vec(-2, 0, 0.6); /* within 60 degrees of its face only; it would leave above the far edge */
+    ray.origin = fake_vec(-2, 0, 0.6); /* onto the top, but 76 degrees off its normal */
     ray.motion = fake_vec(2.4, 0, -0.6);
     assert_int_equal(p.backend->ray(p.self, &context, &ray, &hit, &count), TAHR_OK);
     assert_int_equal(count, 0);
@@ -609,8 +609,8 @@ static void exact_touching_on_a_lattice_is_answered(void **state)
 {
     static const tahr_fcl_desc collide = {
         .struct_size = sizeof collide, .volumes = TAHR_FCL_OBBRSS, .search = TAHR_FCL_COLLIDE};
-    tahr_body_desc bodies[4] = {grid_body(0), box_body((tahr_vec3){0, 0, 0.5}, 0.5), box_body((tahr_vec3){1, 1, 0}, 0.25),
-                                box_body((tahr_vec3){-1, 0, 0}, 0.5)};
+    tahr_body_desc bodies[4] = {grid_body(0), box_body((tahr_vec3){0, 0, 0.5}, 0.5),
+                                box_body((tahr_vec3){1, 1, 0}, 0.25), box_body((tahr_vec3){-1, 0, 0}, 0.5)};
     int answered = 0;
 
     (void)state;
