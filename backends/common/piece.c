@@ -169,8 +169,7 @@ static void measure_half_space(const tahr__shape *shape, tahr_vec3 centre, const
     if (piece->two_sided && height < 0) n = v_scale(n, -1);
     near->normal = n;
     near->part = TAHR__FACE;
-    near->distance =
-        (piece->two_sided ? fabs(height) : height) - tahr__core_extent(&shape->core, n) - shape->radius;
+    near->distance = (piece->two_sided ? fabs(height) : height) - tahr__core_extent(&shape->core, n) - shape->radius;
     near->point = v_mad(centre, piece->solid.axis[0], -height);
 }
 
@@ -187,9 +186,8 @@ void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr_
         return;
     }
     if (piece->kind == TAHR__BOX && core->axis_count < 3)
-        tahr__core_box(
-            core, centre,
-            &(tahr__box){piece->middle, piece->half, piece->frame->turned ? &piece->frame->turn : NULL}, &w);
+        tahr__core_box(core, centre,
+                       &(tahr__box){piece->middle, piece->half, piece->frame->turned ? &piece->frame->turn : NULL}, &w);
     else if (piece->kind == TAHR__BOX)
         box_to_box(core, centre, piece, &w);
     else

@@ -20,7 +20,7 @@ typedef struct tahr__placement {
 
 typedef struct tahr__piece {
     uint32_t kind;
-    uint32_t two_sided;      /* triangles and half spaces (a plane) */
+    uint32_t two_sided; /* triangles and half spaces (a plane) */
     const tahr__placement *frame;
     const tahr__mesh *mesh;
     uint32_t triangle; /* in leaf order of the mesh */

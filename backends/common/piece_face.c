@@ -158,8 +158,10 @@ static int mesh_surface(const tahr__piece *piece, const tahr__near *near, tahr_v
     const tahr__triangle *t = &piece->mesh->triangles[piece->triangle];
     int is_corner = near->part >= TAHR__CORNER;
     uint32_t i = is_corner ? near->part - TAHR__CORNER : near->part - TAHR__EDGE;
-    fan f = {piece, near, t->vertex[i], is_corner ? t->vertex[i] : t->vertex[(i + 1) % 3], direction,
-             v_dot(*face, direction), face};
+    fan f = {piece,        near,
+             t->vertex[i], is_corner ? t->vertex[i] : t->vertex[(i + 1) % 3],
+             direction,    v_dot(*face, direction),
+             face};
 
     return is_corner ? corner_surface(&f) : edge_surface(&f, i);
 }

@@ -116,8 +116,7 @@ static void look_at(tahr__fcl_engine &engine, const Geometry &geometry, tahr__fc
     case fcl::GEOM_SPHERE:
     case fcl::GEOM_CAPSULE: return look_at_solid(geometry, g);
     case fcl::GEOM_CONVEX: return look_at_convex(engine, static_cast<const fcl::Convex<double> &>(geometry), g);
-    case fcl::GEOM_TRIANGLE:
-        return look_at_triangle(engine, static_cast<const fcl::TriangleP<double> &>(geometry), g);
+    case fcl::GEOM_TRIANGLE: return look_at_triangle(engine, static_cast<const fcl::TriangleP<double> &>(geometry), g);
     case fcl::GEOM_HALFSPACE: {
         const auto &h = static_cast<const fcl::Halfspace<double> &>(geometry);
         return look_at_half_space(TAHR__FCL_HALF_SPACE, h.n, h.d, g);
@@ -128,7 +127,7 @@ static void look_at(tahr__fcl_engine &engine, const Geometry &geometry, tahr__fc
     }
     case fcl::GEOM_OCTREE:
         g.kind = TAHR__FCL_OCTREE;
-        g.radius = static_cast<const fcl::OcTree<double> &>(geometry).getRootBV().width() / (2.0 * TAHR__FCL_ORIGIN);
+        g.radius = static_cast<const fcl::OcTree<double> &>(geometry).getRootBV().width() / (2.0 * ORIGIN);
         return;
     case fcl::GEOM_CYLINDER: g.name = "a Cylinder"; return;
     case fcl::GEOM_CONE: g.name = "a Cone"; return;

@@ -83,8 +83,7 @@ static tahr_status attach(tahr__fcl_scene *scene, uint32_t i)
     b->radius = g.radius;
     b->reach = g.reach;
     b->two_sided = g.kind == TAHR_BODY_MESH ? (desc.flags & TAHR_BODY_TWO_SIDED) != 0 : g.two_sided;
-    return g.kind == TAHR_BODY_MESH ? take_mesh(scene, i, &g, b)
-                                    : tahr__fcl_engine_adopt(scene->engine, i, &g, NULL);
+    return g.kind == TAHR_BODY_MESH ? take_mesh(scene, i, &g, b) : tahr__fcl_engine_adopt(scene->engine, i, &g, NULL);
 }
 
 tahr_status tahr__fcl_scene_attach(tahr__fcl_scene *scene)

@@ -10,7 +10,7 @@
 typedef struct cache {
     uint64_t revision; /* of the scene, plus 1; 0: nothing is in here */
     tahr_bounds box;   /* world */
-    uint32_t count; /* or TOO_MANY: they did not fit, and need not be tried again */
+    uint32_t count;    /* or TOO_MANY: they did not fit, and need not be tried again */
     uint32_t reserved;
     tahr__fcl_part parts[];
 } cache;
@@ -38,10 +38,10 @@ tahr_status tahr__fcl_prepare(void *self, tahr_query_context *context, const tah
     const tahr__fcl_scene *scene = self;
     const tahr_bounds *b = &announcement->bounds;
     double grow = scene->desc.cache_margin;
-    tahr__fcl_question question = {{{b->min.x - grow, b->min.y - grow, b->min.z - grow},
-                                    {b->max.x + grow, b->max.y + grow, b->max.z + grow}},
-                                   NULL,
-                                   NULL};
+    tahr__fcl_question question = {
+        {{b->min.x - grow, b->min.y - grow, b->min.z - grow}, {b->max.x + grow, b->max.y + grow, b->max.z + grow}},
+        NULL,
+        NULL};
     cache *c = context->cache;
     tahr__fcl_list list;
 

@@ -36,8 +36,7 @@ static std::shared_ptr<Geometry> make_geometry(const tahr_fcl_desc &desc, const 
         return std::make_shared<fcl::Box<double>>(2 * g.half_extents.x, 2 * g.half_extents.y, 2 * g.half_extents.z);
     case TAHR_BODY_SPHERE: return std::make_shared<fcl::Sphere<double>>(g.radius);
     case TAHR_BODY_CAPSULE: return std::make_shared<fcl::Capsule<double>>(g.radius, 2 * g.reach);
-    case TAHR__FCL_OCTREE:
-        return *static_cast<std::shared_ptr<Geometry> *>(const_cast<void *>(g.identity));
+    case TAHR__FCL_OCTREE: return *static_cast<std::shared_ptr<Geometry> *>(const_cast<void *>(g.identity));
     default: return nullptr;
     }
 }

@@ -44,7 +44,7 @@ typedef struct tahr__fcl_geometry {
 
 /* What to ask: everything that may reach into box, of the bodies for which wants(user, body) is not 0. */
 typedef struct tahr__fcl_question {
-    tahr_bounds box; /* world */
+    tahr_bounds box;                               /* world */
     int (*wants)(const void *user, uint32_t body); /* NULL: everything */
     const void *user;
 } tahr__fcl_question;

@@ -13,7 +13,11 @@
 #include <unordered_map>
 #include <vector>
 
-namespace tahr_fcl {
+namespace tahr_fcl
+{
+
+/* As a number: clang warns of enumerators among doubles. */
+constexpr int ORIGIN = TAHR__FCL_ORIGIN;
 
 using Manager = fcl::DynamicAABBTreeCollisionManager<double>;
 using Object = fcl::CollisionObject<double>;
@@ -40,8 +44,8 @@ using Find = void (*)(const Geometry &geometry, const tahr_bounds &box, const Si
 struct Body {
     std::shared_ptr<Geometry> geometry; /* own, or NULL */
     std::unique_ptr<Object> own;
-    const Object *object; /* own, or the user's */
-    Find find;            /* NULL: the body is one piece */
+    const Object *object;        /* own, or the user's */
+    Find find;                   /* NULL: the body is one piece */
     std::vector<uint32_t> order; /* FCL triangle to the triangle of the body; empty: the same */
     bool all;                    /* without a tree: every triangle is near (a polytope, a lone triangle) */
 };

@@ -34,7 +34,9 @@ static fcl::OBB<double> oriented(const tahr_bounds &b)
 
 template <> struct Volume<fcl::OBB<double>> {
     fcl::OBB<double> obb;
-    explicit Volume(const tahr_bounds &b) : obb(oriented(b)) {}
+    explicit Volume(const tahr_bounds &b) : obb(oriented(b))
+    {
+    }
     bool meets(const fcl::OBB<double> &node) const
     {
         return obb.overlap(node);
@@ -128,7 +130,8 @@ static tahr_bounds local_box(const Object &object, const tahr_bounds &b)
     return {{low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()}};
 }
 
-namespace {
+namespace
+{
 struct Search {
     const tahr__fcl_engine *engine;
     const tahr__fcl_question *question;
@@ -176,7 +179,8 @@ tahr_status tahr__fcl_engine_gather(const tahr__fcl_engine *engine, const tahr__
     });
 }
 
-namespace {
+namespace
+{
 struct Wish {
     const tahr__fcl_engine *engine;
     uint32_t body;

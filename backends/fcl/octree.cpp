@@ -7,7 +7,8 @@ using namespace tahr_fcl;
 using Octree = fcl::OcTree<double>;
 using Node = Octree::OcTreeNode;
 
-namespace {
+namespace
+{
 /* A cell: its lowest corner by key, its depth below the root. */
 struct Cell {
     uint32_t key[3];
@@ -37,8 +38,8 @@ struct Range {
     }
 };
 
-template <class Visit> void visit_cells(const Octree &tree, const Node *node, const Cell &cell, const Range &range,
-                                        Visit &&visit)
+template <class Visit>
+void visit_cells(const Octree &tree, const Node *node, const Cell &cell, const Range &range, Visit &&visit)
 {
     bool alone = true;
     for (uint32_t i = 0; i < 8 && cell.depth < TAHR__FCL_LEVELS; i++) {
@@ -52,21 +53,22 @@ template <class Visit> void visit_cells(const Octree &tree, const Node *node, co
 
 double resolution_of(const Octree &tree)
 {
-    return tree.getRootBV().width() / (2.0 * TAHR__FCL_ORIGIN);
+    return tree.getRootBV().width() / (2.0 * ORIGIN);
 }
 
 int64_t key_of(double x, double resolution)
 {
-    double key = floor(x / resolution) + TAHR__FCL_ORIGIN;
+    double key = floor(x / resolution) + ORIGIN;
     return key < -1 ? -1 : key > 2 * TAHR__FCL_ORIGIN ? 2 * TAHR__FCL_ORIGIN : static_cast<int64_t>(key);
 }
 
 tahr__fcl_part part_of(uint32_t body, const Cell &cell)
 {
-    return {body,
-            0,
-            {static_cast<uint16_t>(cell.key[0]), static_cast<uint16_t>(cell.key[1]), static_cast<uint16_t>(cell.key[2])},
-            static_cast<uint16_t>(cell.depth)};
+    return {
+        body,
+        0,
+        {static_cast<uint16_t>(cell.key[0]), static_cast<uint16_t>(cell.key[1]), static_cast<uint16_t>(cell.key[2])},
+        static_cast<uint16_t>(cell.depth)};
 }
 } // namespace
 

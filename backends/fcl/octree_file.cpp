@@ -10,7 +10,8 @@
 
 using namespace tahr_fcl;
 
-namespace {
+namespace
+{
 /* A complaint about a file, at a byte or a line. */
 struct Trouble {
     tahr_status status;
@@ -143,7 +144,7 @@ std::shared_ptr<octomap::OcTree> read_points(const tahr_fcl_octree &desc)
         const double *p = desc.points + 3 * i;
         octomap::OcTreeKey key;
         for (unsigned k = 0; k < 3; k++) {
-            double cell = floor(p[k] / desc.resolution) + TAHR__FCL_ORIGIN;
+            double cell = floor(p[k] / desc.resolution) + ORIGIN;
             if (!(cell >= 0 && cell < 2 * TAHR__FCL_ORIGIN))
                 throw Trouble{TAHR_E_GEOMETRY,
                               "points[" + std::to_string(i) + "] is not finite or beyond 32768 cells from the origin"};

@@ -80,9 +80,9 @@ static void enter_frame(tahr__fcl_query *q, uint32_t body)
 static int cell_within_reach(const tahr__fcl_query *q, tahr_vec3 middle, double half)
 {
     tahr_vec3 at = v_add(q->frame.base, middle);
-    return q->frame.turned || (at.x - half <= q->box.max.x && at.x + half >= q->box.min.x &&
-                               at.y - half <= q->box.max.y && at.y + half >= q->box.min.y &&
-                               at.z - half <= q->box.max.z && at.z + half >= q->box.min.z);
+    return q->frame.turned ||
+           (at.x - half <= q->box.max.x && at.x + half >= q->box.min.x && at.y - half <= q->box.max.y &&
+            at.y + half >= q->box.min.y && at.z - half <= q->box.max.z && at.z + half >= q->box.min.z);
 }
 
 static int within_reach(const tahr__fcl_query *q, const tahr__piece *piece)
@@ -112,9 +112,7 @@ int tahr__fcl_query_piece(tahr__fcl_query *q, uint32_t i, tahr__piece *piece)
     if (!wants(q, part->body)) return 0;
     enter_frame(q, part->body);
     switch (b->kind) {
-    case TAHR_BODY_MESH:
-        tahr__piece_triangle(&q->frame, &q->scene->meshes[b->mesh], part->triangle, piece);
-        break;
+    case TAHR_BODY_MESH: tahr__piece_triangle(&q->frame, &q->scene->meshes[b->mesh], part->triangle, piece); break;
     case TAHR_BODY_SPHERE:
     case TAHR_BODY_CAPSULE: tahr__piece_round(&q->frame, b->radius, b->reach, piece); break;
     case TAHR__FCL_HALF_SPACE:

@@ -17,7 +17,8 @@ static int meet(tahr__fcl_query *q, uint32_t part, double limit, tahr_hit *hit)
     if (!tahr__fcl_query_piece(q, part, &piece)) return 0;
     q->context->narrow_tests++;
     tahr__piece_measure(&q->shape, v_make(0, 0, 0), &piece, &near);
-    if (piece.kind != TAHR__TRIANGLE && !piece.two_sided && near.distance <= 0) return 0; /* from inside nothing is hit */
+    if (piece.kind != TAHR__TRIANGLE && !piece.two_sided && near.distance <= 0)
+        return 0; /* from inside nothing is hit */
     if (tahr__piece_advance(&motion, &piece, limit, &fraction, &near) != TAHR__HIT) return 0;
     tahr__hit_of(&b->surface, hit);
     /* So near to a bare face or edge the direction between the nearest points is rounding: the face's own is not. */

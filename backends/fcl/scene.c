@@ -125,8 +125,9 @@ static tahr_status open_octree(tahr__fcl_scene *scene, uint32_t i)
     tahr_quat *turn = &desc.pose.orientation;
     double n = turn->x * turn->x + turn->y * turn->y + turn->z * turn->z + turn->w * turn->w;
     if (n == 0) n = turn->w = 1;
-    if (!(n > 1 - 1e-6 && n < 1 + 1e-6) || desc.flags & ~known || desc.walkable_rule > TAHR_WALKABLE_NEVER || !(v_length(desc.pose.position) <= 1e7) ||
-        !(v_length(desc.surface_velocity) <= 1e4) || desc.walkable_angle * 0 != 0) {
+    if (!(n > 1 - 1e-6 && n < 1 + 1e-6) || desc.flags & ~known || desc.walkable_rule > TAHR_WALKABLE_NEVER ||
+        !(v_length(desc.pose.position) <= 1e7) || !(v_length(desc.surface_velocity) <= 1e4) ||
+        desc.walkable_angle * 0 != 0) {
         tahr__log_body(scene->host, id, "octree: flags, pose, walkable rule or velocity out of range");
         return TAHR_E_ARGUMENT;
     }
@@ -170,15 +171,15 @@ static tahr_status probe(const tahr__fcl_scene *scene)
 static tahr_status check_options(const tahr__fcl_scene *scene, const tahr_world_desc *desc)
 {
     const tahr_fcl_desc *d = &scene->desc;
-    const char *bad = d->volumes > TAHR_FCL_OBBRSS                              ? "options.volumes is no TAHR_FCL_*"
-                      : d->search > TAHR_FCL_COLLIDE                            ? "options.search is no TAHR_FCL_*"
-                      : d->no_cache > 1                                         ? "options.no_cache is not 0 or 1"
-                      : d->cache_parts > 65536                                  ? "options.cache_parts is above 65536"
-                      : !(d->cache_margin >= 0 && d->cache_margin <= 1000)      ? "options.cache_margin is not 0..1000"
-                      : d->octree_count > 1u << 20                              ? "options.octree_count is above 2^20"
-                      : d->octree_count && !d->octrees                          ? "options.octrees is NULL"
-                      : d->manager && (desc->body_count || d->octree_count)     ? "options.manager allows no own bodies"
-                                                                                : NULL;
+    const char *bad = d->volumes > TAHR_FCL_OBBRSS                          ? "options.volumes is no TAHR_FCL_*"
+                      : d->search > TAHR_FCL_COLLIDE                        ? "options.search is no TAHR_FCL_*"
+                      : d->no_cache > 1                                     ? "options.no_cache is not 0 or 1"
+                      : d->cache_parts > 65536                              ? "options.cache_parts is above 65536"
+                      : !(d->cache_margin >= 0 && d->cache_margin <= 1000)  ? "options.cache_margin is not 0..1000"
+                      : d->octree_count > 1u << 20                          ? "options.octree_count is above 2^20"
+                      : d->octree_count && !d->octrees                      ? "options.octrees is NULL"
+                      : d->manager && (desc->body_count || d->octree_count) ? "options.manager allows no own bodies"
+                                                                            : NULL;
     if (!bad) return TAHR_OK;
     tahr__log_error(scene->host, bad);
     return TAHR_E_ARGUMENT;

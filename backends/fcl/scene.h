@@ -16,8 +16,8 @@ typedef struct tahr__fcl_body {
     tahr_vec3 position;
     tahr__mat turn;
     tahr_pose pose;
-    tahr_vec3 half_extents;     /* of a box; normal of a half space */
-    double radius, reach;       /* see tahr__fcl_geometry */
+    tahr_vec3 half_extents; /* of a box; normal of a half space */
+    double radius, reach;   /* see tahr__fcl_geometry */
     uint32_t two_sided, reserved;
     tahr_vec3 surface_velocity; /* octrees and attached bodies: the core does not know them */
     double mass;

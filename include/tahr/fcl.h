@@ -53,13 +53,13 @@ typedef void (*tahr_fcl_cell_fn)(void *user, uint32_t octree, const tahr_bounds 
  * unless the callback leaves them out. */
 typedef struct tahr_fcl_desc {
     uint32_t struct_size;
-    uint32_t volumes;         /* TAHR_FCL_AABB or _OBBRSS */
-    uint32_t search;          /* TAHR_FCL_DESCEND or _COLLIDE */
-    uint32_t no_cache;        /* 1: every query asks FCL; same bits */
-    uint32_t cache_parts;     /* triangles, cells and bodies remembered per character, 16 bytes each; default 256, at most
+    uint32_t volumes;     /* TAHR_FCL_AABB or _OBBRSS */
+    uint32_t search;      /* TAHR_FCL_DESCEND or _COLLIDE */
+    uint32_t no_cache;    /* 1: every query asks FCL; same bits */
+    uint32_t cache_parts; /* triangles, cells and bodies remembered per character, 16 bytes each; default 256, at most
                                * 65536; what does not fit is slower */
     uint32_t octree_count;
-    double cache_margin;      /* m around the announced box, default 0.5; 0..1000 */
+    double cache_margin;            /* m around the announced box, default 0.5; 0..1000 */
     const tahr_fcl_octree *octrees; /* their ids follow those of the bodies */
     tahr_fcl_cell_fn cell;          /* told about every cell of octrees at open, or NULL */
     void *cell_user;

@@ -17,9 +17,9 @@ struct Hills {
     explicit Hills(Dice &dice)
     {
         for (int i = 0; i < (CELLS + 1) * (CELLS + 1); i++)
-            vertices.insert(vertices.end(), {(i % (CELLS + 1) - CELLS / 2) * 0.5,
-                                             static_cast<double>(i / (CELLS + 1) - CELLS / 2) * 0.5,
-                                             dice.uniform(0, 0.6)});
+            vertices.insert(vertices.end(),
+                            {(i % (CELLS + 1) - CELLS / 2) * 0.5,
+                             static_cast<double>(i / (CELLS + 1) - CELLS / 2) * 0.5, dice.uniform(0, 0.6)});
         for (uint32_t i = 0; i < CELLS * CELLS; i++) {
             uint32_t a = i / CELLS * (CELLS + 1) + i % CELLS;
             indices.insert(indices.end(), {a, a + 1, a + CELLS + 2, a, a + CELLS + 2, a + CELLS + 1});

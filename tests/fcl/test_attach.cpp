@@ -32,8 +32,9 @@ struct Program {
     }
     void put(Object *object, const tahr_pose &p)
     {
-        object->setTransform(fcl::Quaternion<double>(p.orientation.w, p.orientation.x, p.orientation.y, p.orientation.z),
-                             fcl::Vector3<double>(p.position.x, p.position.y, p.position.z));
+        object->setTransform(
+            fcl::Quaternion<double>(p.orientation.w, p.orientation.x, p.orientation.y, p.orientation.z),
+            fcl::Vector3<double>(p.position.x, p.position.y, p.position.z));
         object->computeAABB();
     }
     void move(Object *object, const tahr_pose &p)
@@ -60,7 +61,8 @@ static int compare(tahr_world *a, tahr_world *b, uint64_t seed, int count)
     Dice dice = {seed};
     int hits = 0;
     for (int i = 0; i < count; i++) {
-        tahr_sweep q = make_sweep(round_shape(dice.uniform(0.1, 0.4), i % 2 ? 0 : 0.7), dice.vec(-3, 3), dice.vec(-1.5, 1.5));
+        tahr_sweep q =
+            make_sweep(round_shape(dice.uniform(0.1, 0.4), i % 2 ? 0 : 0.7), dice.vec(-3, 3), dice.vec(-1.5, 1.5));
         tahr_hit x, y;
         if (i % 2) q.shape.half_height = q.shape.radius;
         uint32_t found = sweep(a, q, &x);

@@ -50,8 +50,8 @@ static void compare(tahr_world *world, const fcl::CollisionGeometry<double> &of,
         assert_true(theirs >= ours - ROUNDING);
         assert_true(theirs <= ours + (i % 3 == 1 || (is_capsule && i % 3 == 2) ? EARLY : ROUNDING));
     }
-    print_message("    %d compared, worst %.1e m (sphere), %.1e m (capsule), %.1e m (box)\n", compared, worst[0], worst[1],
-                  worst[2]);
+    print_message("    %d compared, worst %.1e m (sphere), %.1e m (capsule), %.1e m (box)\n", compared, worst[0],
+                  worst[1], worst[2]);
     assert_true(compared > 300);
 }
 

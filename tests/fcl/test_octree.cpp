@@ -7,7 +7,8 @@
 #include <octomap/OcTree.h>
 #include <sstream>
 
-static tahr_world *open_points(const std::vector<double> &points, double resolution, const tahr_body_desc *body = nullptr)
+static tahr_world *open_points(const std::vector<double> &points, double resolution,
+                               const tahr_body_desc *body = nullptr)
 {
     tahr_fcl_octree octree = {};
     tahr_fcl_desc fcl = {};
@@ -84,7 +85,8 @@ static void a_block_of_cells_is_a_box(void **)
 
 static void distances_of_an_uneven_solid_are_those_of_its_boxes(void **)
 {
-    static const int low[3][3] = {{-20, -20, -2}, {0, -20, 0}, {-4, 4, 0}}, high[3][3] = {{20, 20, 0}, {20, 20, 3}, {0, 8, 11}};
+    static const int low[3][3] = {{-20, -20, -2}, {0, -20, 0}, {-4, 4, 0}},
+                     high[3][3] = {{20, 20, 0}, {20, 20, 3}, {0, 8, 11}};
     std::vector<double> points;
     std::vector<tahr_body_desc> bodies;
     Dice dice = {2};
@@ -122,7 +124,8 @@ static void no_seam_of_cells_is_felt_on_a_flat_floor_or_wall(void **)
     tahr_world *world = open_points(points, 0.1);
     for (int i = 0; i < 3000; i++) {
         /* On the seams and off them; at the margin or a micrometre inside it; to the floor, and to the wall too. */
-        double above = i % 3 ? 0.01 : 0.01 - 1e-6, x = i % 2 ? dice.uniform(-2, 2) : 0.1 * std::floor(dice.uniform(-20, 20));
+        double above = i % 3 ? 0.01 : 0.01 - 1e-6,
+               x = i % 2 ? dice.uniform(-2, 2) : 0.1 * std::floor(dice.uniform(-20, 20));
         double y = i % 5 ? dice.uniform(-2, 0) : 1 - 0.35 - above;
         tahr_sweep q = make_sweep(round_shape(0.35, 0.9), {x, y, 0.9 + above},
                                   {dice.uniform(-1, 1), i % 5 ? dice.uniform(-0.5, 0.5) : 0, 0});
@@ -141,8 +144,8 @@ static void the_way_out_of_many_cells_leads_to_the_first_free_one(void **)
     add_block(points, low, high, 0.1);
     tahr_world *world = open_points(points, 0.1);
     /* A sphere of 0.1 m, its centre 0.25 m below the top of 0.8 m: 0.35 m up. */
-    assert_true(std::fabs(nearest(world, make_contacts(round_shape(0.1, 0.1), {0.02, 0.03, -0.25}, 0), &contact) + 0.35) <
-                1e-9);
+    assert_true(std::fabs(nearest(world, make_contacts(round_shape(0.1, 0.1), {0.02, 0.03, -0.25}, 0), &contact) +
+                          0.35) < 1e-9);
     assert_true(contact.normal.z > 1 - 1e-12);
     /* Nearer to the bottom it is the other way: 0.2 m and the radius. */
     assert_true(std::fabs(nearest(world, make_contacts(round_shape(0.1, 0.1), {0.02, 0.03, -0.6}, 0), &contact) + 0.3) <
@@ -159,7 +162,8 @@ static void rays_meet_the_surface_and_nothing_inside(void **)
     Dice dice = {4};
 
     for (int i = 0; i < 500; i++) {
-        double x = i % 2 ? dice.uniform(-1.1, 1.3) : 0.125 * std::floor(dice.uniform(-8, 10)), y = dice.uniform(-0.8, 1.6);
+        double x = i % 2 ? dice.uniform(-1.1, 1.3) : 0.125 * std::floor(dice.uniform(-8, 10)),
+               y = dice.uniform(-0.8, 1.6);
         tahr_ray ray = {{x, y, 2}, {0, 0, -4}, 0xFFFFFFFFu, TAHR_NO_BODY};
         tahr_hit hit;
         uint32_t count;

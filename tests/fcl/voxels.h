@@ -8,11 +8,11 @@
 
 /* Where things are, in metres; the floor's top is z = 0. */
 static const double VOXEL = 0.1;
-static const double ROOM = 6;                     /* half its width: the inside of the walls is at x, y = +-6 */
-static const double RAMP_X = 1, RAMP_RUN = 0.3;   /* the ramp along y = -4..-2 rises 0.1 m every 0.3 m from x = 1 on */
-static const double RAMP_TOP = 1;                 /* ends at x = 1 + 3, then level to the wall */
+static const double ROOM = 6;                      /* half its width: the inside of the walls is at x, y = +-6 */
+static const double RAMP_X = 1, RAMP_RUN = 0.3;    /* the ramp along y = -4..-2 rises 0.1 m every 0.3 m from x = 1 on */
+static const double RAMP_TOP = 1;                  /* ends at x = 1 + 3, then level to the wall */
 static const double STAIR_X = -2, STAIR_RUN = 0.4; /* stairs along y = 2..4 go down toward +x: 0.2 m every 0.4 m */
-static const int STAIR_COUNT = 4;                 /* from 0.8 m at x < -2 */
+static const int STAIR_COUNT = 4;                  /* from 0.8 m at x < -2 */
 
 /* Height of the solid (m) at the middle of a column. */
 static inline double voxel_height(double x, double y)

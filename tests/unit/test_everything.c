@@ -18,6 +18,9 @@
 #ifdef TAHR_HAVE_CCD
 #include <tahr/ccd.h>
 #endif
+#ifdef TAHR_HAVE_FCL
+#include <tahr/fcl.h>
+#endif
 
 enum { TICKS = 90, REPLAYED = 12, EVENTS = 128, DECISIONS = 1024, QUERIES = 512, FEW = 3 };
 
@@ -25,7 +28,7 @@ static int factor = 1;
 static uint64_t first_seed = 1;
 
 /* What a world is opened on. BARE: callbacks with a sweep alone. */
-enum { ON_NATIVE, ON_DOUBLE, ON_CCD, ON_CALLBACKS, ON_BARE, KINDS };
+enum { ON_NATIVE, ON_DOUBLE, ON_CCD, ON_FCL, ON_CALLBACKS, ON_BARE, KINDS };
 
 /* A world, and behind callbacks the one that answers. */
 typedef struct place {
@@ -108,6 +111,9 @@ static void say(void *user, int32_t level, const char *message)
 static void open_place(place *p, int kind, const chaos_scene *scene, const tahr_config *config, int plain)
 {
     static const tahr_log log = {NULL, say};
+#ifdef TAHR_HAVE_FCL
+    const tahr_fcl_desc fcl = {.struct_size = sizeof fcl, .no_cache = (uint32_t)plain};
+#endif
     tahr_native_desc options = {.struct_size = sizeof options, .precision = kind == ON_DOUBLE ? TAHR_NATIVE_DOUBLE : 0};
     tahr_world_desc desc;
     const tahr_backend *backend = tahr_backend_v1_native();
@@ -122,6 +128,12 @@ static void open_place(place *p, int kind, const chaos_scene *scene, const tahr_
     if (kind == ON_CCD) {
         backend = tahr_backend_v1_ccd();
         desc.options = NULL;
+    }
+#endif
+#ifdef TAHR_HAVE_FCL
+    if (kind == ON_FCL) {
+        backend = tahr_backend_v1_fcl();
+        desc.options = &fcl;
     }
 #endif
     assert_int_equal(tahr_world_open(backend, &desc, &p->world), TAHR_OK);
@@ -440,6 +452,17 @@ static void ccd_keeps_every_promise(void **unused)
 #endif
 }
 
+static void fcl_keeps_every_promise(void **unused)
+{
+    (void)unused;
+#ifdef TAHR_HAVE_FCL
+    run_kind(ON_FCL, 5);
+#else
+    print_message("SKIP: unit_everything: fcl was not built\n");
+    skip();
+#endif
+}
+
 static void callbacks_keep_every_promise(void **unused)
 {
     (void)unused;
@@ -451,7 +474,8 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(native_keeps_every_promise), cmocka_unit_test(native_in_double_keeps_every_promise),
-        cmocka_unit_test(ccd_keeps_every_promise), cmocka_unit_test(callbacks_keep_every_promise)};
+        cmocka_unit_test(ccd_keeps_every_promise), cmocka_unit_test(fcl_keeps_every_promise),
+        cmocka_unit_test(callbacks_keep_every_promise)};
     factor = argc > 1 ? atoi(argv[1]) : 1;
     first_seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -411,6 +411,88 @@ static void sweeps_agree_with_native_on_every_kind_of_body(void **state)
     assert_int_equal(differ, 0);
 }
 
+/* --- One-way bodies, through the table --- */
+
+typedef struct platform {
+    const tahr_backend *backend;
+    fake_memory memory;
+    fake_log log;
+    tahr_host host;
+    void *self;
+} platform;
+
+/* A one-way box, 2 x 2 m, its top at z = 0.1. */
+static void open_platform(platform *p)
+{
+    tahr_body_desc body = box_body((tahr_vec3){0, 0, 0}, 1);
+    tahr_world_desc desc;
+
+    *p = (platform){.backend = tahr_backend_v1_fcl()};
+    p->host = (tahr_host){sizeof p->host, TAHR_ABI, fake_allocator(&p->memory), fake_log_of(&p->log)};
+    body.half_extents.z = 0.1;
+    body.flags = TAHR_BODY_ONE_WAY;
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = &body;
+    desc.body_count = 1;
+    assert_int_equal(p->backend->open(&p->host, &desc, &p->self), TAHR_OK);
+}
+
+static uint32_t platform_sweep(platform *p, tahr_vec3 at, tahr_vec3 motion, uint32_t flags, tahr_hit *hit)
+{
+    tahr_query_context context = {0};
+    tahr_sweep q = capsule_sweep(at, motion);
+    uint32_t count;
+
+    q.flags = flags;
+    assert_int_equal(p->backend->sweep(p->self, &context, &q, hit, 1, &count), TAHR_OK);
+    return count;
+}
+
+static uint32_t platform_contacts(platform *p, double z, uint32_t flags, tahr_contact *contact)
+{
+    tahr_query_context context = {0};
+    tahr_contact_query q = fixture_contacts(fixture_shape(TAHR_SHAPE_CAPSULE, 0.35, 0.9), fake_vec(0, 0, z), 0.02);
+    uint32_t count;
+
+    q.flags = flags;
+    assert_int_equal(p->backend->contacts(p->self, &context, &q, contact, 1, &count), TAHR_OK);
+    return count;
+}
+
+static void one_way_boxes_are_there_from_above_only(void **state)
+{
+    const tahr_vec3 down = {0, 0, -3};
+    tahr_query_context context = {0};
+    tahr_ray ray = {.origin = {0, 0, 2}, .motion = {0, 0, -4}, .mask = 0xFFFFFFFFu, .ignore_body = TAHR_NO_BODY};
+    tahr_contact contact;
+    tahr_hit hit;
+    uint32_t count;
+    platform p;
+
+    (void)state;
+    open_platform(&p);
+    assert_int_equal(platform_sweep(&p, fake_vec(0, 0, 2), down, 0, &hit), 1);
+    assert_true(fabs(hit.fraction - (2 - 0.9 - 0.1 - 0.01) / 3) < 1e-8);
+    assert_int_equal(platform_sweep(&p, fake_vec(0, 0, -2), fake_vec(0, 0, 3), 0, &hit), 0);
+    assert_int_equal(platform_sweep(&p, fake_vec(-3, 0, 0), fake_vec(3, 0, 0), 0, &hit), 0);
+    assert_int_equal(platform_sweep(&p, fake_vec(0, 0, 0.5), down, 0, &hit), 0); /* in it */
+    /* At rest on it, at the margin of 0.01 m: dropped; not from farther above. */
+    assert_int_equal(platform_sweep(&p, fake_vec(0, 0, 1.01), down, 0, &hit), 1);
+    assert_int_equal(platform_sweep(&p, fake_vec(0, 0, 1.01), down, TAHR_SWEEP_DROP, &hit), 0);
+    assert_int_equal(platform_sweep(&p, fake_vec(0, 0, 1.05), down, TAHR_SWEEP_DROP, &hit), 1);
+    assert_int_equal(platform_contacts(&p, 1.005, 0, &contact), 1);
+    assert_true(fabs(contact.distance - 0.005) < 1e-12);
+    assert_int_equal(platform_contacts(&p, 1.005, TAHR_CONTACTS_DROP, &contact), 0);
+    assert_int_equal(platform_contacts(&p, 0.9, 0, &contact), 0);
+    assert_int_equal(p.backend->ray(p.self, &context, &ray, &hit, &count), TAHR_OK);
+    assert_true(count == 1 && fabs(hit.fraction - 1.9 / 4) < 1e-9);
+    ray.origin = fake_vec(-2, 0, 0.6); /* onto the top, but 76 degrees off its normal */
+    ray.motion = fake_vec(2.4, 0, -0.6);
+    assert_int_equal(p.backend->ray(p.self, &context, &ray, &hit, &count), TAHR_OK);
+    assert_int_equal(count, 0);
+    p.backend->close(p.self);
+}
+
 /* --- Settings --- */
 
 static void no_setting_changes_a_bit(void **state)
@@ -527,8 +609,8 @@ static void exact_touching_on_a_lattice_is_answered(void **state)
 {
     static const tahr_fcl_desc collide = {
         .struct_size = sizeof collide, .volumes = TAHR_FCL_OBBRSS, .search = TAHR_FCL_COLLIDE};
-    tahr_body_desc bodies[4] = {grid_body(0), box_body((tahr_vec3){0, 0, 0.5}, 0.5), box_body((tahr_vec3){1, 1, 0}, 0.25),
-                                box_body((tahr_vec3){-1, 0, 0}, 0.5)};
+    tahr_body_desc bodies[4] = {grid_body(0), box_body((tahr_vec3){0, 0, 0.5}, 0.5),
+                                box_body((tahr_vec3){1, 1, 0}, 0.25), box_body((tahr_vec3){-1, 0, 0}, 0.5)};
     int answered = 0;
 
     (void)state;
@@ -569,6 +651,7 @@ int main(void)
         cmocka_unit_test(rays_meet_faces_and_never_start_inside),
         cmocka_unit_test(opening_returns_all_memory_when_any_allocation_fails),
         cmocka_unit_test(sweeps_agree_with_native_on_every_kind_of_body),
+        cmocka_unit_test(one_way_boxes_are_there_from_above_only),
         cmocka_unit_test(no_setting_changes_a_bit),
         cmocka_unit_test(the_cache_changes_no_bit_of_a_walk),
         cmocka_unit_test(options_out_of_range_are_named),
