@@ -300,11 +300,11 @@ int main(void)
         {"native_double_agrees_with_truth", backend_agrees_with_truth, NULL, NULL, &native_double},
 #ifdef TAHR_HAVE_CCD
         {"ccd_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
-         &(subject){"ccd", tahr_backend_v1_ccd(), NULL, limit_ccd, 2}},
+         &(subject){"ccd", tahr_backend_v1_ccd(), NULL, limit_library, 2}},
         {"ccd_by_gjk_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
-         &(subject){"ccd by GJK", tahr_backend_v1_ccd(), &by_gjk, limit_ccd, 2}},
+         &(subject){"ccd by GJK", tahr_backend_v1_ccd(), &by_gjk, limit_library, 2}},
         {"ccd_by_mpr_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
-         &(subject){"ccd by MPR", tahr_backend_v1_ccd(), &by_mpr, limit_ccd, 2}},
+         &(subject){"ccd by MPR", tahr_backend_v1_ccd(), &by_mpr, limit_library, 2}},
 #endif
 #ifdef TAHR_HAVE_FCL
         {"fcl_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
