@@ -16,12 +16,16 @@ static int help_command(int argc, char **argv)
         options_help();
         return EXIT_GOOD;
     }
+    if (argc > 1 && strcmp(argv[1], "replay") == 0) {
+        replay_help();
+        return EXIT_GOOD;
+    }
     puts("usage: tahr COMMAND [options]\n"
          "\n"
          "  run              characters walk through a level; see `tahr run --help`\n"
          "  replay FILE      repeats a run from the file that `tahr run --trace FILE` or a program left\n"
          "  info [--json]    version, ABI, collision engines and what they can do\n"
-         "  help [run]       this text, or the options of run\n"
+         "  help [COMMAND]   this text, or the options of run or replay\n"
          "  --version\n");
     return EXIT_GOOD;
 }
