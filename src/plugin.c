@@ -121,7 +121,7 @@ static tahr_status load(char *path, const tahr_log *log, tahr_plugin *plugin)
     char why[160] = "", text[240];
     plugin->library = open_library(path, why, sizeof why);
     if (!plugin->library) {
-        snprintf(text, sizeof text, "%.80s does not load: %s", path, why);
+        snprintf(text, sizeof text, "%.80s does not load: %.140s", path, why);
         tahr__say(log, TAHR_LOG_ERROR, FUNCTION, text);
         return TAHR_E_NOT_FOUND;
     }

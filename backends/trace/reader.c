@@ -123,6 +123,10 @@ static tahr_status read_step(tahr_trace_reader *r, tahr_trace_event *event)
     if (has & TAHR__TRACE_HAS_CONFIG)
         tahr__trace_get_words(in, &r->config, &r->bases.config, sizeof r->config, "a config");
     if (has & TAHR__TRACE_HAS_STATE) tahr__trace_get_words(in, &r->state, &r->bases.state, sizeof r->state, "a state");
+    /* A forged size would have the library read beyond the struct. */
+    if (!in->bad && r->input.struct_size != sizeof r->input) in->bad = "the size of an input";
+    if (!in->bad && has & TAHR__TRACE_HAS_CONFIG && r->config.struct_size != sizeof r->config)
+        in->bad = "the size of a config";
     if (in->bad) return tahr__trace_broken(r, in->bad);
     event->kind = TAHR_TRACE_STEP;
     event->number = r->steps;

@@ -22,6 +22,10 @@ static int help_command(int argc, char **argv)
         selftest_help();
         return EXIT_GOOD;
     }
+    if (argc > 1 && strcmp(argv[1], "replay") == 0) {
+        replay_help();
+        return EXIT_GOOD;
+    }
     puts("usage: tahr COMMAND [options]\n"
          "\n"
          "  run              characters walk through a level; see `tahr run --help`\n"
@@ -29,7 +33,7 @@ static int help_command(int argc, char **argv)
          "  level [NAME]     writes a bundled level to standard output\n"
          "  info [--json]    version, ABI, collision engines and what they can do\n"
          "  selftest NAME    does a backend keep its promises? see `tahr selftest --help`\n"
-         "  help [COMMAND]   this text, or the options of run or selftest\n"
+         "  help [COMMAND]   this text, or the options of run, replay or selftest\n"
          "  --version\n");
     return EXIT_GOOD;
 }

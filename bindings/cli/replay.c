@@ -178,7 +178,7 @@ int replay_file(const char *path, struct replayed *replayed)
     return failed;
 }
 
-static void help(void)
+void replay_help(void)
 {
     puts("usage: tahr replay FILE\n"
          "\n"
@@ -194,7 +194,7 @@ int replay_command(int argc, char **argv)
 {
     struct replayed found;
     if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
-        help();
+        replay_help();
         return EXIT_GOOD;
     }
     if (argc != 2 || argv[1][0] == '-') {

@@ -19,6 +19,9 @@ struct replayed {
  * leaves whole at 0, after a message. */
 int replay_file(const char *path, struct replayed *replayed);
 
+/* The help of `tahr replay`. */
+void replay_help(void);
+
 /* `tahr replay`. Returns an exit code. */
 int replay_command(int argc, char **argv);
 

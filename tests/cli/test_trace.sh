@@ -55,6 +55,8 @@ tahr replay one two
 expect 2 "expected the name of one file"
 tahr replay --help
 expect 0 "usage: tahr replay FILE"
+tahr help replay
+expect 0 "usage: tahr replay FILE"
 
 # Files that cannot be written.
 tahr run --seconds 1 --trace "$work/none/a.trace"
