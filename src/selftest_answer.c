@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * selftest_answer.c: cases: the form of answers: capacities, order, ties, contacts against sweeps, rays, the same bits
  * again, and what is no question at all. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "answer.h"
@@ -301,7 +300,7 @@ static void prepare_changes_nothing(tahr__lab *lab)
 /* The library refuses such questions before a backend sees them; one that is asked all the same comes back. */
 static void nan_input(tahr__lab *lab)
 {
-    const double nan = strtod("nan", NULL), infinite = 1e300 * 1e300;
+    const double nan = NAN, infinite = INFINITY;
     for (uint32_t at = 0; tahr__lab_next(lab, &at, TAHR__LAB_USUAL);) {
         if (!room(lab)) {
             return;

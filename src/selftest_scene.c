@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * selftest_scene.c: the scenes and shapes of the conformance kit. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "selftest.h"
+#include "world_memory.h"
 
 /* m: how far scenes reach along the third axis, and how thick planes are. */
 static const double DEPTH = 20, THICK = 8;
@@ -31,7 +31,9 @@ void tahr__lab_clear(tahr__lab *lab)
     } else {
         tahr_world_close(lab->world);
     }
-    free(lab->cache);
+    if (lab->cache) {
+        tahr__malloc.free(NULL, lab->cache, lab->cache_size, 64);
+    }
     lab->world = NULL;
     lab->cache = NULL;
     memset(&lab->context, 0, sizeof lab->context);
@@ -88,7 +90,7 @@ int tahr__lab_open(tahr__lab *lab)
     const tahr_backend *backend = lab->world->backend;
     size_t size = backend->cache_size ? (backend->cache_size(lab->world->self) + 63) / 64 * 64 : 0;
     if (size > 0) {
-        lab->cache = aligned_alloc(64, size);
+        lab->cache = tahr__malloc.alloc(NULL, size, 64);
         lab->cache_size = size;
         if (!tahr__lab_check(lab, lab->cache != NULL, "memory for the cache", "%lu bytes are not there",
                              (unsigned long)size)) {

@@ -34,16 +34,16 @@ typedef void (*tahr_selftest_close_fn)(void *user, tahr_world *world);
 /* Zero what you do not use. */
 typedef struct tahr_selftest_desc {
     uint32_t struct_size;
-    uint32_t capabilities;  /* with open: TAHR_CAP_* of the shapes that your sweep takes, of the bodies that you can
+    uint32_t capabilities;      /* with open: TAHR_CAP_* of the shapes that your sweep takes, of the bodies that you can
                              * build, MARGIN, and CONTACTS, RAY, SENSORS, ONE_WAY if you do them; without open: 0 */
-    const void *options;    /* for tahr_world_desc.options of every world that is opened */
-    double gap_tolerance;   /* m, of distances to a shape 1.8 m high, in proportion to others; 0: 9e-5 */
-    double angle_tolerance; /* rad, of normals, up to 0.5; 0: 2 degrees */
-    const char *only;       /* run the cases whose name begins so; NULL: all */
-    tahr_selftest_fn report; /* may be NULL */
-    void *user;             /* of report, open and close */
-    const tahr_log *log;    /* what the worlds complain about; NULL: silent */
-    tahr_selftest_open_fn open;   /* or NULL: tahr_world_open on the backend */
+    const void *options;        /* for tahr_world_desc.options of every world that is opened */
+    double gap_tolerance;       /* m, of distances to a shape 1.8 m high, in proportion to others; 0: 9e-5 */
+    double angle_tolerance;     /* rad, of normals, up to 0.5; 0: 2 degrees */
+    const char *only;           /* run the cases whose name begins so; NULL: all */
+    tahr_selftest_fn report;    /* may be NULL */
+    void *user;                 /* of report, open and close */
+    const tahr_log *log;        /* what the worlds complain about; NULL: silent */
+    tahr_selftest_open_fn open; /* or NULL: tahr_world_open on the backend */
     tahr_selftest_close_fn close; /* NULL: tahr_world_close */
 } tahr_selftest_desc;
 
