@@ -73,11 +73,12 @@ check "fuzz/" fuzz "<(tahr/)?[a-z0-9_/-]+\\.h>|\"(\\.\\./tests/support/)?[a-z0-9
 for folder in tests/*/; do
     name=$(basename "$folder")
     case $name in
+    examples) pattern='"[a-z0-9_]+\.h"|<bt[A-Za-z]+\.h>' ;; # programs of users of other engines
     unit) pattern='"[a-z0-9_/.]+\.(h|inc)"' ;;
     cli) pattern='"((\.\./)?support/|\.\./\.\./bindings/cli/)?[a-z0-9_]+\.h"' ;;
     *) pattern='"((\.\./)?support/)?[a-z0-9_]+\.h"' ;;
     esac
-    check "tests/$name" "tests/$name" "<(tahr/)?[a-z0-9_/]+\\.h>|$pattern"
+    check "tests/$name" "tests/$name" "<(tahr/)?[a-z0-9_/]+\\.h>|<[a-z_]+>|$pattern"
 done
 
 unresolved=$(
