@@ -34,11 +34,11 @@ struct tahr_gather {
 };
 
 /* Your geometry. [in] box, world, whole cells of 4 m; mask; [out] out: hand over every triangle that touches the box and
- * that mask concerns; more do not harm, nor does one
- * twice. A triangle that touches two boxes must be handed over for both, with the same
- * bits, and a box must give the same triangles in the same order until tahr_world_touch. Called from every thread that
- * steps or asks, several at once, never from within itself. Return TAHR_OK, or a negative status to end the step with
- * TAHR_E_BACKEND, state untouched; so does a triangle that breaks a rule above (the log names triangle and field). */
+ * that mask concerns; more do not harm, nor does one handed over twice. A triangle that touches two boxes must be handed
+ * over for both, with the same bits, and a box must give the same triangles in the same order until tahr_world_touch.
+ * Called from every thread that steps or asks, several at once, never from within itself. Return TAHR_OK, or a negative
+ * status to end the step with TAHR_E_BACKEND, state untouched; so does a triangle that breaks a rule above (the log names
+ * triangle and field). */
 typedef tahr_status (*tahr_gather_fn)(void *user, const tahr_bounds *box, uint32_t mask, tahr_gather *out);
 
 /* Zero means default for every field but struct_size. Out of range: tahr_world_open returns TAHR_E_ARGUMENT. */
@@ -59,7 +59,7 @@ typedef struct tahr_native_desc {
     void *gather_user;
 } tahr_native_desc;
 
-/* The native backend: plain C, triangle meshes, boxes, spheres, capsules; for tahr_world_open, whose desc.options is a
+/* The native backend: plain C, triangle meshes, boxes, spheres, capsules, hulls, heights; for tahr_world_open, whose desc.options is a
  * tahr_native_desc or NULL. Queries allocate nothing and may run on several threads. Static memory. Since 0.1. */
 TAHR_API const tahr_backend *tahr_backend_v1_native(void);
 
