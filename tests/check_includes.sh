@@ -73,6 +73,7 @@ check "fuzz/" fuzz "<(tahr/)?[a-z0-9_/-]+\\.h>|\"(\\.\\./(tests/support|bindings
 for folder in tests/*/; do
     name=$(basename "$folder")
     case $name in
+    examples) pattern='"[a-z0-9_]+\.h"|<bt[A-Za-z]+\.h>' ;; # programs of users of other engines
     unit) pattern='"[a-z0-9_/.]+\.(h|inc)"' ;;
     fcl) pattern='<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>|"[a-z0-9_]+\.h"' ;;
     cli) pattern='"((\.\./)?support/|\.\./\.\./bindings/cli/)?[a-z0-9_]+\.h"' ;;

@@ -135,8 +135,7 @@ static tahr_status clean(const tahr_host *host, const tahr__mesh_source *s, cons
     for (uint32_t i = 0; i < s->triangle_count; i++) {
         const uint32_t *index = s->indices + 3 * (size_t)i;
         uint32_t raw[3] = {remap[index[0]], remap[index[1]], remap[index[2]]}, v[3];
-        double slim =
-            tahr__slimness(source_vertex(s, raw[0]), source_vertex(s, raw[1]), source_vertex(s, raw[2]));
+        double slim = tahr__slimness(source_vertex(s, raw[0]), source_vertex(s, raw[1]), source_vertex(s, raw[2]));
         if (!(slim > TAHR__NO_AREA)) continue;
         canonical(raw, v);
         uint32_t slot = mix(((uint64_t)v[0] << 32 | v[1]) * 0x9e3779b97f4a7c15ULL + v[2]) & (size - 1);

@@ -13,13 +13,12 @@
  * triangles. */
 #define SNAP_FLOAT 3e-5
 #define SNAP_DOUBLE 1e-7
-/* Triangles looked at around a corner; a fan larger than this is looked at in part. */
-enum { FAN = 32 };
+enum { FAN = TAHR__FAN };
 
 typedef struct work {
     const tahr__query *query;
     const tahr__prim *prim;
-    const tahr__body *body; /* not of the user's triangles */
+    const tahr__body *body; /* of a mesh, with its map */
     tahr__map map;
     tahr_vec3 centre, motion;
     tahr__contact_normals *out;
@@ -134,154 +133,23 @@ static void around_corner(work *w, uint32_t triangle, uint32_t corner)
     }
 }
 
-/* The same without rings: of fields of heights and of the user's triangles all that have a corner there are looked
- * through. */
-enum { NEAR = 2 * FAN };
-
-static int equal(tahr_vec3 a, tahr_vec3 b)
+int tahr__resolve_near(tahr__resolving *resolving, const tahr__near *n)
 {
-    return (a.x == b.x) & (a.y == b.y) & (a.z == b.z);
-}
-
-static uint32_t corner_at(const tahr__near *n, tahr_vec3 corner)
-{
-    return equal(n->corner[0], corner) ? 0 : equal(n->corner[1], corner) ? 1 : equal(n->corner[2], corner) ? 2 : 3;
-}
-
-static uint32_t heights_around(const work *w, uint32_t corner, tahr__near *near)
-{
-    const tahr__heights *h = &w->body->heights;
-    uint32_t around[6], count = tahr__heights_around(h, w->prim->item, corner, around), kept = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        tahr__near *n = &near[kept];
-        if (around[i] == w->prim->item || !tahr__heights_triangle(h, around[i], n->corner)) continue;
-        for (int k = 0; k < 3; k++)
-            n->v[k] = tahr__map_point(&w->map, n->corner[k]);
-        n->face = tahr__heights_normal(n->corner);
-        if (w->map.turned) n->face = m_apply(&w->map.turn, n->face);
-        n->feature = around[i];
-        n->two_sided = w->body->flags & TAHR_BODY_TWO_SIDED;
-        kept++;
-    }
-    return kept;
-}
-
-static int is_gathered(const tahr__prim *prim)
-{
-    return (prim->kind & TAHR__GATHERED) != 0;
-}
-
-/* at: see tahr__source_around. */
-static uint32_t all_around(const work *w, const tahr_vec3 own[3], uint32_t corner, const tahr_vec3 *at,
-                           tahr__near *near)
-{
-    if (is_gathered(w->prim)) return tahr__source_around(w->query, w->prim, own[corner], at, near, NEAR);
-    return heights_around(w, corner, near);
-}
-
-static void own_corners(const work *w, tahr_vec3 own[3])
-{
-    if (is_gathered(w->prim)) {
-        const tahr_vec3 *exact = tahr__source_corners(w->query, w->prim);
-        for (int i = 0; i < 3; i++)
-            own[i] = exact[i];
-    } else {
-        tahr__heights_triangle(&w->body->heights, w->prim->item, own);
-    }
-}
-
-static int look_at_near(work *w, const tahr__near *n, uint32_t at, uint32_t to)
-{
+    work *w = (work *)(void *)resolving;
     tahr_vec3 f = n->face;
-    return meets(w, n->two_sided, &f) && weigh(w, f, n->v, at, to, n->feature);
-}
-
-static void around_loose_edge(work *w, uint32_t edge, const tahr_vec3 *at)
-{
-    tahr__near near[NEAR];
-    tahr_vec3 own[3];
-    own_corners(w, own);
-    uint32_t count = all_around(w, own, edge, at, near);
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t a = corner_at(&near[i], own[edge]), b = corner_at(&near[i], own[(edge + 1) % 3]);
-        if (b < 3 && look_at_near(w, &near[i], a, b)) return;
-    }
-}
-
-/* Do two triangles at a corner share an edge there? */
-static int share_edge(const tahr_vec3 a[3], const tahr_vec3 b[3], tahr_vec3 corner)
-{
-    for (int i = 0; i < 9; i++) {
-        if (equal(a[i / 3], b[i % 3]) && !equal(a[i / 3], corner)) return 1;
-    }
-    return 0;
-}
-
-/* As around_corner: those connected to this one over edges at that corner, nearest first. */
-static void around_loose_corner(work *w, uint32_t corner, const tahr_vec3 *at)
-{
-    tahr__near near[NEAR];
-    tahr_vec3 own[3];
-    own_corners(w, own);
-    uint32_t count = all_around(w, own, corner, at, near), fan[FAN], known = 0, taken[NEAR] = {0};
-    for (uint32_t i = 0; i <= known && i < FAN; i++) {
-        const tahr_vec3 *from = i == 0 ? own : near[fan[i - 1]].corner;
-        if (i > 0 && look_at_near(w, &near[fan[i - 1]], corner_at(&near[fan[i - 1]], own[corner]), 3)) return;
-        for (uint32_t k = 0; k < count && known < FAN - 1; k++) {
-            if (taken[k] || !share_edge(from, near[k].corner, own[corner])) continue;
-            taken[k] = 1;
-            fan[known++] = k;
-        }
-    }
-}
-
-int tahr__stands_alone(const tahr__query *query, const tahr__prim *prim)
-{
-    work w;
-    tahr__near near[NEAR];
-    tahr_vec3 own[3];
-    if (!is_gathered(prim) && query->world->bodies[prim->body].type != TAHR_BODY_HEIGHTS) {
-        const tahr__triangle *t = &query->world->bodies[prim->body].mesh.triangles[prim->item];
-        return t->ring[0] == prim->item && t->ring[1] == prim->item && t->ring[2] == prim->item;
-    }
-    w.query = query;
-    w.prim = prim;
-    w.body = is_gathered(prim) ? NULL : &query->world->bodies[prim->body];
-    if (w.body) w.map = tahr__map_make(query->frame, w.body);
-    own_corners(&w, own);
-    for (uint32_t edge = 0; edge < 3; edge++) {
-        uint32_t count = all_around(&w, own, edge, NULL, near);
-        for (uint32_t i = 0; i < count; i++) {
-            if (corner_at(&near[i], own[(edge + 1) % 3]) < 3) return 0;
-        }
-    }
-    return 1;
+    return meets(w, n->two_sided, &f) && weigh(w, f, n->v, n->at, n->to, n->feature);
 }
 
 static void look_around(work *w, const tahr__witness *witness)
 {
     int is_edge = witness->feature < TAHR__CORNER;
     uint32_t which = witness->feature - (is_edge ? TAHR__EDGE : TAHR__CORNER);
-    if (is_gathered(w->prim) || w->body->type == TAHR_BODY_HEIGHTS) {
-        if (is_edge)
-            around_loose_edge(w, which, &witness->point);
-        else
-            around_loose_corner(w, which, &witness->point);
-    } else if (is_edge) {
+    if (w->prim->kind & (TAHR__GATHERED | TAHR__FACELESS))
+        tahr__around(w->query, w->prim, witness, (tahr__resolving *)(void *)w);
+    else if (is_edge)
         around_edge(w, w->prim->item, which);
-    } else {
+    else
         around_corner(w, w->prim->item, which);
-    }
-}
-
-static tahr_vec3 heights_face(const tahr__query *query, const tahr__prim *prim)
-{
-    const tahr__body *body = &query->world->bodies[prim->body];
-    tahr__map map = tahr__map_make(query->frame, body);
-    tahr_vec3 v[3], n;
-    tahr__heights_triangle(&body->heights, prim->item, v);
-    n = tahr__heights_normal(v);
-    return map.turned ? m_apply(&map.turn, n) : n;
 }
 
 int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
@@ -290,7 +158,7 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
     out->normal = out->face = witness->normal;
     out->closer = witness->distance;
     if (prim->item & (TAHR__ITEM_ROUND | TAHR__ITEM_SOLID)) return TAHR__ACCEPTED;
-    tahr_vec3 own = prim->kind & TAHR__FACELESS ? heights_face(query, prim) : prim->face;
+    tahr_vec3 own = prim->kind & TAHR__FACELESS ? tahr__heights_face(query, prim) : prim->face;
     double facing = v_dot(own, witness->normal);
     if (facing < -BEHIND) {
         if (!(prim->kind & TAHR__TWO_SIDED)) return TAHR__REJECTED;
@@ -305,8 +173,10 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
     work w;
     w.query = query;
     w.prim = prim;
-    w.body = is_gathered(prim) ? NULL : &query->world->bodies[prim->body];
-    if (w.body) w.map = tahr__map_make(query->frame, w.body);
+    if (!(prim->kind & (TAHR__GATHERED | TAHR__FACELESS))) {
+        w.body = &query->world->bodies[prim->body];
+        w.map = tahr__map_make(query->frame, w.body);
+    }
     w.centre = centre;
     w.motion = motion;
     w.out = out;

@@ -115,7 +115,11 @@ typedef struct tahr__near {
     tahr_vec3 v[3];      /* local */
     tahr_vec3 face;      /* local, unit */
     uint32_t feature, two_sided;
+    uint32_t at, to; /* its corner there; the other one of the edge, 3 at a corner */
 } tahr__near;
+
+/* Triangles looked at around a corner; a fan larger than this is looked at in part. */
+enum { TAHR__FAN = 32 };
 
 /* One character's memory: a header and, behind it, the lanes and the primitives (gather.c). */
 typedef struct tahr__cache {
@@ -247,12 +251,22 @@ typedef struct tahr__contact_normals {
     double closer;          /* with TAHR__NEIGHBOUR: distance of the core to the neighbour that is nearer */
 } tahr__contact_normals;
 
-/* Has a triangle no neighbour at any edge? */
-int tahr__stands_alone(const tahr__query *query, const tahr__prim *prim);
 /* witness: of the core at centre. NEIGHBOUR: the nearest point is an edge or corner, and another triangle at it is
  * nearer; closer is the distance to that one if measure was asked for. */
 int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
                   tahr_vec3 motion, int measure, tahr__contact_normals *out);
+
+/* What it is at. Takes a neighbour; 1: no others are needed. */
+typedef struct tahr__resolving tahr__resolving;
+int tahr__resolve_near(tahr__resolving *resolving, const tahr__near *near);
+
+/* around.c: neighbours where there are no rings (GATHERED, FACELESS). */
+void tahr__around(const tahr__query *query, const tahr__prim *prim, const tahr__witness *witness,
+                  tahr__resolving *resolving);
+/* Has any triangle no neighbour at any edge? */
+int tahr__stands_alone(const tahr__query *query, const tahr__prim *prim);
+/* The face of a FACELESS one. */
+tahr_vec3 tahr__heights_face(const tahr__query *query, const tahr__prim *prim);
 
 /* probe.c: one primitive. */
 typedef struct tahr__probe {

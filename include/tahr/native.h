@@ -12,11 +12,11 @@ extern "C" {
 /* How gathered corners are rounded: FLOAT local to a 4 m grid cell (gaps within 2e-6 m), DOUBLE (1e-9 m). */
 enum { TAHR_NATIVE_FLOAT = 0, TAHR_NATIVE_DOUBLE = 1 };
 
-/* One triangle of yours, in the world frame. Name it by body and feature, the same name whenever it is handed over and no
- * other with it: ties between surfaces go by it. */
+/* One triangle of yours, in the world frame. Name it by body and feature, the same name whenever it is handed over and
+ * no other with it: ties between surfaces go by it. */
 typedef struct tahr_triangle {
     tahr_vec3 corners[3];   /* m, counter-clockwise seen from the front, finite, |x| <= 1e7. Where two triangles of a
-                               * body meet they have exactly the same corners: then their edge is not felt */
+                             * body meet they have exactly the same corners: then their edge is not felt */
     double walkable_angle;  /* rad, with INCREASE and DECREASE */
     uint32_t body;          /* at least tahr_world_desc.body_count: the lower ones are the described bodies */
     uint32_t feature;       /* handed back in hits and contacts */
@@ -33,12 +33,12 @@ struct tahr_gather {
     int32_t (*add)(tahr_gather *out, const tahr_triangle *triangle);
 };
 
-/* Your geometry. [in] box, world, whole cells of 4 m; mask; [out] out: hand over every triangle that touches the box and
- * that mask concerns; more do not harm, nor does one
- * twice. A triangle that touches two boxes must be handed over for both, with the same
- * bits, and a box must give the same triangles in the same order until tahr_world_touch. Called from every thread that
- * steps or asks, several at once, never from within itself. Return TAHR_OK, or a negative status to end the step with
- * TAHR_E_BACKEND, state untouched; so does a triangle that breaks a rule above (the log names triangle and field). */
+/* Your geometry. [in] box, world, whole cells of 4 m; mask; [out] out: hand over every triangle that touches the box
+ * and that mask concerns; more do not harm, nor does one handed over twice. A triangle that touches two boxes must be
+ * handed over for both, with the same bits, and a box must give the same triangles in the same order until
+ * tahr_world_touch. Called from every thread that steps or asks, several at once, never from within itself. Return
+ * TAHR_OK, or a negative status to end the step with TAHR_E_BACKEND, state untouched; so does a triangle that breaks a
+ * rule above (the log names triangle and field). */
 typedef tahr_status (*tahr_gather_fn)(void *user, const tahr_bounds *box, uint32_t mask, tahr_gather *out);
 
 /* Zero means default for every field but struct_size. Out of range: tahr_world_open returns TAHR_E_ARGUMENT. */
@@ -51,16 +51,17 @@ typedef struct tahr_native_desc {
     uint32_t no_simd;         /* 1: the scalar twin; same bits */
     uint32_t reserved;        /* 0 */
     double cache_margin;      /* m around the announced box, default 1; 0..1000 */
-    /* NULL: the described bodies are all there is. Else these triangles besides them (which may be none): they answer bit
-     * for bit as a mesh of them would. They carry nobody and are no sensors: describe what moves, and sensors, as bodies.
-     * tahr_world_touch says that they have changed. 400 bytes a triangle in the cache instead of 280; without a cache,
-     * or where it is too small, every query gathers for itself. */
+    /* NULL: the described bodies are all there is. Else these triangles besides them (which may be none): they answer
+     * bit for bit as a mesh of them would. They carry nobody and are no sensors: describe what moves, and sensors, as
+     * bodies. tahr_world_touch says that they have changed. 400 bytes a triangle in the cache instead of 280; without
+     * a cache, or where it is too small, every query gathers for itself. */
     tahr_gather_fn gather;
     void *gather_user;
 } tahr_native_desc;
 
-/* The native backend: plain C, triangle meshes, boxes, spheres, capsules; for tahr_world_open, whose desc.options is a
- * tahr_native_desc or NULL. Queries allocate nothing and may run on several threads. Static memory. Since 0.1. */
+/* The native backend: plain C, triangle meshes, boxes, spheres, capsules, hulls, heights; for tahr_world_open, whose
+ * desc.options is a tahr_native_desc or NULL. Queries allocate nothing and may run on several threads. Static memory.
+ * Since 0.1. */
 TAHR_API const tahr_backend *tahr_backend_v1_native(void);
 
 #ifdef __cplusplus

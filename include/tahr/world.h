@@ -205,7 +205,7 @@ TAHR_API tahr_status tahr_world_open(const struct tahr_backend *backend, const t
 
 /* Opens a world whose geometry is behind the caller's functions. desc may be NULL; of it only allocator and log are
  * used. [out] world, untouched on failure. Returns TAHR_OK, TAHR_E_NULL (sweep missing), TAHR_E_STRUCT_SIZE,
- * TAHR_E_UNSUPPORTED (flags or an unknown tail not zero), TAHR_E_FLOAT_MODE, TAHR_E_MEMORY. Allocates. Threads as for
+ * TAHR_E_UNSUPPORTED (unknown flags or tail not zero), TAHR_E_FLOAT_MODE, TAHR_E_MEMORY. Allocates. Threads as for
  * tahr_world_open. Since 0.1. */
 TAHR_API tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tahr_world_desc *desc,
                                                tahr_world **world);

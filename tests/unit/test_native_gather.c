@@ -121,9 +121,9 @@ static void open_liar(fixture *f, liar *l, int with_cache)
 
 static void what_is_wrong_with_a_triangle_fails_the_query_by_name(void **state)
 {
-    const char *const named[] = {"triangle 1: corners", "triangle 1: corners",       "triangle 1: body",
-                                 "triangle 1: flags",   "triangle 1: walkable_rule", "triangle 1: walkable_angle",
-                                 "triangle 1: is NULL", "status -"};
+    const char *const named[] = {
+        "triangle 1: corners",       "triangle 1: corners",        "triangle 1: body",    "triangle 1: flags",
+        "triangle 1: walkable_rule", "triangle 1: walkable_angle", "triangle 1: is NULL", "status -"};
     (void)state;
     for (int cached = 0; cached < 2; cached++) {
         for (int n = 0; n < 8; n++) {

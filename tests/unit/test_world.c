@@ -319,7 +319,7 @@ static void callbacks_are_checked(void **unused)
     c.sweep = NULL;
     assert_int_equal(tahr_world_open_callbacks(&c, &desc, &world), TAHR_E_NULL);
     assert_string_equal(log.text, "tahr_world_open_callbacks: callbacks.sweep is NULL");
-    c.sweep = fake_sweep, c.flags = 1;
+    c.sweep = fake_sweep, c.flags = 4;
     assert_int_equal(tahr_world_open_callbacks(&c, &desc, &world), TAHR_E_UNSUPPORTED);
     assert_non_null(strstr(log.text, "callbacks.flags"));
     c.flags = 0, c.struct_size = 4;

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: MIT
+ * around.c: the triangles at an edge or corner where there are no rings: in fields of heights, from the grid, and among the
+ * user's triangles, from all that have that corner. Apart from resolve.c, whose way must stay short. */
+#include "scene.h"
+
+enum { FAN = TAHR__FAN, NEAR = 2 * FAN };
+
+typedef struct place {
+    const tahr__query *query;
+    const tahr__prim *prim;
+    const tahr__body *body; /* of a field of heights, with its map; NULL: the user's triangles */
+    tahr__map map;
+    tahr_vec3 own[3];    /* exact corners */
+    const tahr_vec3 *at; /* see tahr__source_around */
+    tahr__near near[NEAR];
+} place;
+
+static int equal(tahr_vec3 a, tahr_vec3 b)
+{
+    return (a.x == b.x) & (a.y == b.y) & (a.z == b.z);
+}
+
+static uint32_t corner_at(const tahr__near *n, tahr_vec3 corner)
+{
+    return equal(n->corner[0], corner) ? 0 : equal(n->corner[1], corner) ? 1 : equal(n->corner[2], corner) ? 2 : 3;
+}
+
+static void begin(place *p, const tahr__query *query, const tahr__prim *prim, const tahr_vec3 *at)
+{
+    p->query = query;
+    p->prim = prim;
+    p->at = at;
+    p->body = NULL;
+    if (prim->kind & TAHR__GATHERED) {
+        const tahr_vec3 *exact = tahr__source_corners(query, prim);
+        for (int i = 0; i < 3; i++)
+            p->own[i] = exact[i];
+    } else {
+        p->body = &query->world->bodies[prim->body];
+        p->map = tahr__map_make(query->frame, p->body);
+        tahr__heights_triangle(&p->body->heights, prim->item, p->own);
+    }
+}
+
+static uint32_t heights_around(place *p, uint32_t corner)
+{
+    const tahr__heights *h = &p->body->heights;
+    uint32_t around[6], count = tahr__heights_around(h, p->prim->item, corner, around), kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        tahr__near *n = &p->near[kept];
+        if (around[i] == p->prim->item || !tahr__heights_triangle(h, around[i], n->corner)) continue;
+        for (int k = 0; k < 3; k++)
+            n->v[k] = tahr__map_point(&p->map, n->corner[k]);
+        n->face = tahr__heights_normal(n->corner);
+        if (p->map.turned) n->face = m_apply(&p->map.turn, n->face);
+        n->feature = around[i];
+        n->two_sided = p->body->flags & TAHR_BODY_TWO_SIDED;
+        kept++;
+    }
+    return kept;
+}
+
+/* All triangles but this one that have a corner of it, in p->near. */
+static uint32_t all_around(place *p, uint32_t corner)
+{
+    if (p->body) return heights_around(p, corner);
+    return tahr__source_around(p->query, p->prim, p->own[corner], p->at, p->near, NEAR);
+}
+
+static void around_edge(place *p, uint32_t edge, tahr__resolving *resolving)
+{
+    uint32_t count = all_around(p, edge);
+    for (uint32_t i = 0; i < count; i++) {
+        tahr__near *n = &p->near[i];
+        n->at = corner_at(n, p->own[edge]);
+        n->to = corner_at(n, p->own[(edge + 1) % 3]);
+        if (n->to < 3 && tahr__resolve_near(resolving, n)) return;
+    }
+}
+
+/* Do two triangles at a corner share an edge there? */
+static int share_edge(const tahr_vec3 a[3], const tahr_vec3 b[3], tahr_vec3 corner)
+{
+    for (int i = 0; i < 9; i++) {
+        if (equal(a[i / 3], b[i % 3]) && !equal(a[i / 3], corner)) return 1;
+    }
+    return 0;
+}
+
+/* Those that are connected to this one over edges at that corner. */
+static void around_corner(place *p, uint32_t corner, tahr__resolving *resolving)
+{
+    uint32_t count = all_around(p, corner), fan[FAN], known = 0, taken[NEAR] = {0};
+    for (uint32_t i = 0; i <= known && i < FAN; i++) {
+        const tahr_vec3 *from = p->own;
+        if (i > 0) {
+            tahr__near *n = &p->near[fan[i - 1]];
+            n->at = corner_at(n, p->own[corner]);
+            n->to = 3;
+            if (tahr__resolve_near(resolving, n)) return;
+            from = n->corner;
+        }
+        for (uint32_t k = 0; k < count && known < FAN - 1; k++) {
+            if (taken[k] || !share_edge(from, p->near[k].corner, p->own[corner])) continue;
+            taken[k] = 1;
+            fan[known++] = k;
+        }
+    }
+}
+
+void tahr__around(const tahr__query *query, const tahr__prim *prim, const tahr__witness *witness,
+                  tahr__resolving *resolving)
+{
+    place p;
+    begin(&p, query, prim, &witness->point);
+    if (witness->feature < TAHR__CORNER)
+        around_edge(&p, witness->feature - TAHR__EDGE, resolving);
+    else
+        around_corner(&p, witness->feature - TAHR__CORNER, resolving);
+}
+
+int tahr__stands_alone(const tahr__query *query, const tahr__prim *prim)
+{
+    place p;
+    if (!(prim->kind & (TAHR__GATHERED | TAHR__FACELESS))) {
+        const tahr__triangle *t = &query->world->bodies[prim->body].mesh.triangles[prim->item];
+        return t->ring[0] == prim->item && t->ring[1] == prim->item && t->ring[2] == prim->item;
+    }
+    begin(&p, query, prim, NULL);
+    for (uint32_t edge = 0; edge < 3; edge++) {
+        uint32_t count = all_around(&p, edge);
+        for (uint32_t i = 0; i < count; i++) {
+            if (corner_at(&p.near[i], p.own[(edge + 1) % 3]) < 3) return 0;
+        }
+    }
+    return 1;
+}
+
+tahr_vec3 tahr__heights_face(const tahr__query *query, const tahr__prim *prim)
+{
+    const tahr__body *body = &query->world->bodies[prim->body];
+    tahr__map map = tahr__map_make(query->frame, body);
+    tahr_vec3 v[3], n;
+    tahr__heights_triangle(&body->heights, prim->item, v);
+    n = tahr__heights_normal(v);
+    return map.turned ? m_apply(&map.turn, n) : n;
+}
