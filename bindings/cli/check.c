@@ -358,22 +358,16 @@ static double nearest_mover(const struct checker *checker, tahr_vec3 p, tahr_vec
     return best;
 }
 
-double checker_mover_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up)
-{
-    tahr_vec3 ends[2];
-    double radius = axis_of(shape, position, up, ends);
-    return nearest_mover(checker, ends[0], ends[1], radius);
-}
-
-/* Distance of the outline of an upright rectangle in the plane to everything; 0 if something crosses it. */
-static double outline_clearance(struct checker *checker, tahr_vec3 middle, double half_x, double half_y)
+/* Distance of the outline of an upright rectangle in the plane to everything, or to movers alone; 0 if something crosses
+ * it. */
+static double outline_clearance(struct checker *checker, tahr_vec3 middle, double half_x, double half_y, int movers)
 {
     double best = CHECK_REACH;
     for (int i = 0; i < 4; i++) {
         double x = i == 0 || i == 3 ? -half_x : half_x, next_x = i < 2 ? half_x : -half_x;
         double y = i < 2 ? -half_y : half_y, next_y = i == 0 || i == 3 ? -half_y : half_y;
         tahr_vec3 p = {middle.x + x, middle.y + y, middle.z}, q = {middle.x + next_x, middle.y + next_y, middle.z};
-        best = least(best, nearest(checker, p, q, CHECK_REACH, CHECK_REACH, 0));
+        best = movers ? best : least(best, nearest(checker, p, q, CHECK_REACH, CHECK_REACH, 0));
         best = least(best, nearest_mover(checker, p, q, 0));
     }
     return best;
@@ -383,12 +377,22 @@ static double outline_clearance(struct checker *checker, tahr_vec3 middle, doubl
  * CHECK_BOX_DEPTH is crossed too. */
 static double box_clearance(struct checker *checker, const tahr_shape *box, tahr_vec3 position)
 {
-    double clearance = outline_clearance(checker, position, box->half_x, box->half_height);
+    double clearance = outline_clearance(checker, position, box->half_x, box->half_height, 0);
     double inner_x = box->half_x - CHECK_BOX_DEPTH, inner_y = box->half_height - CHECK_BOX_DEPTH;
-    if (clearance <= 0 && inner_x > 0 && inner_y > 0 && outline_clearance(checker, position, inner_x, inner_y) <= 0) {
+    if (clearance <= 0 && inner_x > 0 && inner_y > 0 &&
+        outline_clearance(checker, position, inner_x, inner_y, 0) <= 0) {
         return -CHECK_BOX_DEPTH;
     }
     return clearance;
+}
+
+double checker_mover_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up)
+{
+    tahr_vec3 ends[2];
+    double radius = axis_of(shape, position, up, ends);
+    double best = nearest_mover(checker, ends[0], ends[1], radius);
+    int box = checker->level->side != NULL && shape->type == TAHR_SHAPE_BOX;
+    return box ? least(best, outline_clearance(checker, position, shape->half_x, shape->half_height, 1)) : best;
 }
 
 double checker_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up)

@@ -180,6 +180,43 @@ tahr_vec3 side_start(const struct side *side, const tahr_config *config)
     return (tahr_vec3){side->start.x, side->start.y + config->shape.half_height + clearance, 0};
 }
 
+/* How often the closed outlines that this piece is of, or a part of, go round a place: the crossings of a line from there
+ * to the right, upward less downward. */
+static int turns_round(const struct side_piece *piece, double x, double y)
+{
+    struct side_point corners[4];
+    const struct side_point *points = piece->points;
+    size_t count = piece->count;
+    int turns = 0;
+    if (piece->form == SIDE_CIRCLE) {
+        double dx = x - points[0].x, dy = y - points[0].y;
+        return dx * dx + dy * dy < piece->radius * piece->radius;
+    }
+    if (piece->form == SIDE_BOX) {
+        side_corners(piece, corners);
+        points = corners;
+        count = 4;
+    }
+    for (size_t i = 0; i + (piece->form == SIDE_LINE) < count; i++) {
+        struct side_point a = points[i], b = points[(i + 1) % count];
+        double side = (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+        turns += a.y <= y && b.y > y && side > 0;
+        turns -= a.y > y && b.y <= y && side < 0;
+    }
+    return turns;
+}
+
+int side_is_solid(const struct side *side, double x, double y)
+{
+    int turns = 0;
+    for (size_t i = 0; i < side->count; i++) {
+        const struct side_piece *piece = &side->pieces[i];
+        int closed = piece->form != SIDE_LINE || piece->part != 0;
+        turns += piece->kind == SIDE_SOLID && !piece->moves && closed ? turns_round(piece, x, y) : 0;
+    }
+    return turns > 0;
+}
+
 int side_is_place(const struct side_piece *piece)
 {
     return piece->kind == SIDE_SENSOR || piece->kind == SIDE_GOAL;

@@ -69,6 +69,9 @@ tahr_shape side_shape(uint32_t type, const tahr_shape *like);
 /* The centre of a character that stands at the level's start. */
 tahr_vec3 side_start(const struct side *side, const tahr_config *config);
 
+/* Whether a place is inside of something solid, which does not move. */
+int side_is_solid(const struct side *side, double x, double y);
+
 /* Whether a piece is watched: a sensor or a goal. */
 int side_is_place(const struct side_piece *piece);
 

@@ -3,6 +3,7 @@
 #include "spawn.h"
 
 #include "say.h"
+#include "side.h"
 #include "vec.h"
 #include "wander.h"
 
@@ -42,6 +43,9 @@ static int fits(tahr_world *world, const struct level *level, const tahr_config 
     /* The lower cap touches a slope beside its lowest point: lift it by the slant. Of a box a corner touches it. */
     *height_of(level, place) += (shape->radius + clearance) / slant - shape->radius + shape->half_height;
     *height_of(level, place) += half_width * sqrt(most(1 - slant * slant, 0)) / slant;
+    if (level->side != NULL && side_is_solid(level->side, place->x, place->y)) {
+        return 0; /* on one solid, inside of another */
+    }
     tahr_state_init(&state, config, place);
     tahr_contact_query query = {.shape = *shape,
                                 .position = *place,

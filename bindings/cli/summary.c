@@ -88,10 +88,15 @@ void summary_words(const struct options *o, const struct level *level, const str
 {
     printf("%s: %u character%s, %g s at %g Hz, backend %s, preset %s\n", level->name, o->characters,
            o->characters == 1 ? "" : "s", o->seconds, o->rate, o->backend->name, tahr_preset_name(o->preset));
-    printf("  level      %zu bodies, %zu triangles, %.1f x %.1f x %.1f m; %.2f MB in the world, opened in %.3g s\n",
-           level->body_count, level->triangle_count, level->bounds.max.x - level->bounds.min.x,
-           level->bounds.max.y - level->bounds.min.y, level->bounds.max.z - level->bounds.min.z,
-           (double)r->world_bytes / 1e6, r->open_seconds);
+    const tahr_bounds *b = &level->bounds;
+    if (level->side != NULL) {
+        printf("  level      %zu bodies, %.1f x %.1f m; %.2f MB in the world, opened in %.3g s\n", level->body_count,
+               b->max.x - b->min.x, b->max.y - b->min.y, (double)r->world_bytes / 1e6, r->open_seconds);
+    } else {
+        printf("  level      %zu bodies, %zu triangles, %.1f x %.1f x %.1f m; %.2f MB in the world, opened in %.3g s\n",
+               level->body_count, level->triangle_count, b->max.x - b->min.x, b->max.y - b->min.y, b->max.z - b->min.z,
+               (double)r->world_bytes / 1e6, r->open_seconds);
+    }
     printf("  time       %" PRIu64
            " steps, %.3g us median, %.3g us p99, %.3g us worst (net of the clock's own %.0f ns)\n",
            r->steps, times_quantile(&r->times, 0.5) / 1e3, times_quantile(&r->times, 0.99) / 1e3,

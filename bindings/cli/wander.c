@@ -95,10 +95,11 @@ static int side_input(struct wander *wander, double time, tahr_input *input)
 {
     int changed = 0;
     while (time >= wander->next_change) {
+        double before = wander->heading.x;
         side_heading(wander);
         wander->next_change += HEADING_MIN + (HEADING_MAX - HEADING_MIN) * pcg_unit(&wander->random);
         wander->crouch = wander->crouches && pcg_unit(&wander->random) < CROUCH_CHANCE;
-        changed = 1;
+        changed |= wander->heading.x != before; /* with two ways to go the same one again is no new one */
     }
     input->jump = time < wander->jump_until;
     input->flags |= time < wander->drop_until ? (uint32_t)TAHR_INPUT_DROP : 0u;

@@ -133,12 +133,33 @@ static void a_plank_that_comes_down_faster_than_its_rider_falls_is_sunk_through(
     level_close(&level);
 }
 
+static void inside_of_solids_is_inside_of_no_hole_of_them(void **state)
+{
+    const double ring[] = {0, 0, 9, 0, 9, 9, 0, 9}, hole[] = {3, 3, 3, 6, 6, 6, 6, 3}, post[] = {4, 4, 5, 5};
+    struct side side = {0};
+    (void)state;
+    add(&side, SIDE_SOLID, SIDE_LOOP, 4, ring);
+    add(&side, SIDE_SOLID, SIDE_LOOP, 4, hole);
+    add(&side, SIDE_SOLID, SIDE_BOX, 2, post);
+    add(&side, SIDE_ONE_WAY, SIDE_BOX, 2, (const double[]){20, 0, 30, 1});
+    assert_true(side_is_solid(&side, 1, 4.5));
+    assert_false(side_is_solid(&side, 3.5, 4.5));
+    assert_true(side_is_solid(&side, 4.5, 4.5));
+    assert_false(side_is_solid(&side, 5.5, 3.5));
+    assert_true(side_is_solid(&side, 8, 8));
+    assert_false(side_is_solid(&side, 10, 4.5));
+    assert_false(side_is_solid(&side, -1, 3));
+    assert_false(side_is_solid(&side, 25, 0.5));
+    side_free(&side);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(clearance_is_the_distance_to_floor_wall_and_slope),
         cmocka_unit_test(a_corner_of_a_box_in_a_slope_is_an_overlap),
         cmocka_unit_test(only_who_was_above_a_plank_and_is_below_it_sank),
+        cmocka_unit_test(inside_of_solids_is_inside_of_no_hole_of_them),
         cmocka_unit_test(a_plank_that_comes_down_faster_than_its_rider_falls_is_sunk_through),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
