@@ -177,13 +177,16 @@ static vec3 along_floor(const tahr__path *w, const tahr__step *step, vec3 level)
                                           : scale(lifted, size / sqrt(size * size + climb * climb));
 }
 
-/* An edge as high as the floor, as between bodies that lie flush; which of its faces is told does not count. Of one that
- * is higher, the round of the foot and its skin would meet the top beside their lowest point, where the normal leans by
- * this height over their radius from up. 1e-9 m: the backends' rounding, and nothing to step up on. */
+/* m: heights that are rounding of the backends, and nothing to step up on. */
+static const double SEAM = 1e-9;
+
+/* An edge as high as the floor, as between bodies that lie flush, of which a face is told that is no floor. Of one that is
+ * higher, the round of the foot and its skin would meet the top beside their lowest point, where the normal leans by
+ * this height over their radius from up. */
 static int is_seam(const tahr__step *step, const tahr_hit *hit, double up)
 {
-    return (1 - up) * (step->limits->shape.radius + step->config->skin) < 1e-9 &&
-           hit->walkable_rule != TAHR_WALKABLE_NEVER;
+    return (1 - up) * (step->limits->shape.radius + step->config->skin) < SEAM &&
+           dot(hit->surface_normal, step->state.up) < 0.5 && hit->walkable_rule != TAHR_WALKABLE_NEVER;
 }
 
 /* A walkable face in the way: go on along it. Its contact normal must be walkable too; the lip of a step is not a
@@ -191,7 +194,13 @@ static int is_seam(const tahr__step *step, const tahr_hit *hit, double up)
 static int take_ramp(tahr__step *step, tahr__path *w, const tahr_hit *hit)
 {
     double up = dot(hit->normal, step->state.up), limit = tahr__walkable_limit(step, hit, 0);
-    if (up < limit || (!is_seam(step, hit, up) && !tahr__is_walkable(step, hit, 0))) {
+    int seam = up >= limit && is_seam(step, hit, up);
+    if (seam && w->ease == 0) { /* once; where that is not enough, it is gone along like a ramp */
+        w->ease = 1e-9;
+        step->state.position = add_scaled(step->state.position, step->state.up, SEAM);
+        return tahr__decide(step, TAHR_RULE_RAMP, 1, hit, up, limit, "an edge as high as the floor");
+    }
+    if (up < limit || (!seam && !tahr__is_walkable(step, hit, 0))) {
         return tahr__decide(step, TAHR_RULE_RAMP, 0, hit, up, limit, "too steep to go on along");
     }
     for (uint32_t i = 0; i < w->ramp_count; i++) {
