@@ -149,12 +149,7 @@ tahr_status tahr__b2_body_open(const tahr_host *host, const tahr_body_desc *d, u
     tahr_status status;
 
     *b = (tahr__b2_body){.type = d->type, .radius = d->type == TAHR_BODY_BOX ? 0 : d->radius};
-    b->owner.body = id;
-    b->owner.flags = d->flags;
-    b->owner.surface = d->surface;
-    b->owner.walkable_rule = d->walkable_rule;
-    b->owner.walkable_angle = d->walkable_angle;
-    b->owner.mask = d->mask ? d->mask : 0xFFFFFFFFu;
+    b->owner = tahr__surface_of(d, id);
     b->bytes = bytes_of(d);
     b->vertices = host->allocator.alloc(host->allocator.user, b->bytes, 16);
     if (!b->vertices) return TAHR_E_MEMORY;

@@ -4,6 +4,7 @@
 #ifndef TAHR_BOX2D_ENGINE_H
 #define TAHR_BOX2D_ENGINE_H
 
+#include "../common/surface.h"
 #include "flat.h"
 
 #include <tahr/box2d.h>
@@ -16,22 +17,14 @@ typedef struct tahr__b2_box {
     tahr__vec2 low, high;
 } tahr__b2_box;
 
-/* Whose a piece is. */
-typedef struct tahr__b2_owner {
-    uint32_t body, flags, surface, walkable_rule;
-    uint32_t mask; /* to be matched with the query's */
-    uint32_t reserved;
-    double walkable_angle;
-} tahr__b2_owner;
-
 enum { TAHR__B2_NO_GHOST = 0, TAHR__B2_GHOST_BEFORE = 1, TAHR__B2_GHOST_AFTER = 2 };
 
 /* A convex piece of a body, relative to the query's start. */
 typedef struct tahr__b2_piece {
-    tahr__b2_owner owner;
-    uint32_t feature; /* of face 0; the next faces count up */
-    uint32_t is_box;  /* faces are named as those of a box: -x 0, +x 1, -y 2, +y 3 */
-    uint32_t ghosts;  /* of a segment: where its line goes on though nothing is there */
+    tahr__surface owner; /* mask: to be matched with the query's */
+    uint32_t feature;    /* of face 0; the next faces count up */
+    uint32_t is_box;     /* faces are named as those of a box: -x 0, +x 1, -y 2, +y 3 */
+    uint32_t ghosts;     /* of a segment: where its line goes on though nothing is there */
     uint32_t reserved;
     tahr__vec2 before, after;
     tahr__flat flat;

@@ -187,7 +187,7 @@ struct world_question {
         told.flags = fixture->IsSensor() ? static_cast<uint32_t>(TAHR_BODY_SENSOR) : 0u;
         if (desc->shape) desc->shape(desc->user, &told);
         if (told.hidden) return;
-        piece.owner = {id, told.flags, told.surface, told.walkable_rule, filter.categoryBits, 0, told.walkable_angle};
+        piece.owner = {id, told.flags, filter.categoryBits, told.surface, told.walkable_rule, 0, told.walkable_angle};
         piece.feature = ordinal_of(fixture) << 16 | static_cast<uint32_t>(child);
         piece.is_box = 0;
         piece.ghosts = TAHR__B2_NO_GHOST;

@@ -176,12 +176,12 @@ static bool take_shape(b2ShapeId shape, void *context)
     told.surface = (uint32_t)b2Shape_GetUserMaterial(shape);
     if (q->desc->shape) q->desc->shape(q->desc->user, &told);
     if (told.hidden) return true;
-    piece.owner = (tahr__b2_owner){.body = id_of(body),
-                                   .flags = told.flags,
-                                   .surface = told.surface,
-                                   .walkable_rule = told.walkable_rule,
-                                   .walkable_angle = told.walkable_angle,
-                                   .mask = (uint32_t)(filter.categoryBits | filter.categoryBits >> 32)};
+    piece.owner = (tahr__surface){.id = id_of(body),
+                                  .flags = told.flags,
+                                  .surface = told.surface,
+                                  .walkable_rule = told.walkable_rule,
+                                  .walkable_angle = told.walkable_angle,
+                                  .mask = (uint32_t)(filter.categoryBits | filter.categoryBits >> 32)};
     piece.feature = (uint32_t)(shape.index1 - 1)
                     << 3; /* room for the faces of a polygon, of which Box2D has at most 8 */
     piece.is_box = 0;

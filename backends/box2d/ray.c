@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * ray.c: the ray slot: the segment against the lines through the faces, one division each; round bodies by a quadratic
  * equation. */
+#include "../common/hits.h"
 #include "../common/one_way.h"
 #include "scene.h"
 
@@ -113,18 +114,12 @@ static int enter(const tahr__flat *f, tahr__vec2 motion, entry *e)
     return f->count == 2 ? enter_segment(f, motion, e) : f->count > 2 && enter_ring(f, motion, e);
 }
 
-static int comes_before(const tahr_hit *a, const tahr_hit *b)
-{
-    if (a->fraction != b->fraction) return a->fraction < b->fraction;
-    return a->body != b->body ? a->body < b->body : a->feature < b->feature;
-}
-
 static void visit(void *user, tahr__b2_piece *piece)
 {
     search *s = user;
     const tahr__b2_probe *p = s->probe;
     tahr__flat_near near = {0};
-    tahr_hit hit = {0};
+    tahr_hit hit;
     entry e;
 
     p->context->narrow_tests++;
@@ -134,16 +129,12 @@ static void visit(void *user, tahr__b2_piece *piece)
     }
     near.normal = e.normal;
     near.part = e.face;
-    hit.blocking = 1;
+    tahr__hit_of(&piece->owner, &hit);
     hit.fraction = e.fraction;
     hit.normal = hit.surface_normal = tahr__b2_lift(e.normal, 0);
     hit.point = v_make(p->origin.x + p->motion.x * e.fraction, p->origin.y + p->motion.y * e.fraction, p->origin.z);
-    hit.walkable_rule = piece->owner.walkable_rule;
-    hit.walkable_angle = piece->owner.walkable_angle;
-    hit.surface = piece->owner.surface;
-    hit.body = piece->owner.body;
     hit.feature = tahr__b2_feature(piece, &near);
-    if (s->found && !comes_before(&hit, s->hit)) return;
+    if (s->found && !tahr__hit_before(&hit, s->hit)) return;
     *s->hit = hit;
     s->found = 1;
 }
@@ -155,9 +146,7 @@ tahr_status tahr__b2_ray(void *self, tahr_query_context *context, const tahr_ray
                             .shape = {1, 0, {{0, 0}}},
                             .origin = query->origin,
                             .motion = {query->motion.x, query->motion.y},
-                            .mask = query->mask,
-                            .ignore_body = query->ignore_body,
-                            .leaves_out = TAHR__B2_SENSORS};
+                            .filter = tahr__filter_of_ray(query)};
     search s = {&probe, hit, 0};
     tahr_status status;
 

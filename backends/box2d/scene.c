@@ -236,13 +236,6 @@ typedef struct question {
     void *user;
 } question;
 
-static int is_wanted(const tahr__b2_probe *probe, const tahr__b2_owner *owner)
-{
-    uint32_t kind = owner->flags & TAHR_BODY_SENSOR ? TAHR__B2_SENSORS : TAHR__B2_SOLIDS;
-    return probe->leaves_out != kind && (owner->mask & probe->mask) != 0 &&
-           (owner->body == probe->ignore_body) == probe->only_body;
-}
-
 /* Boxes in Box2D's trees are fat. */
 static int is_near(const question *q, const tahr__flat *flat)
 {
@@ -256,7 +249,7 @@ static void found_piece(void *user, tahr__b2_piece *piece)
     const question *q = user;
     tahr__flat *f = &piece->flat;
 
-    if (!is_wanted(q->probe, &piece->owner) || !is_near(q, f)) return;
+    if (!tahr__filter_passes(&q->probe->filter, &piece->owner) || !is_near(q, f)) return;
     if (f->count == 2 && f->corner[0].x == f->corner[1].x && f->corner[0].y == f->corner[1].y) {
         f->count = 1; /* an edge from a point to itself has no sides */
         f->one_sided = 0;
@@ -272,7 +265,7 @@ static void found_item(void *user, uint32_t index)
     const tahr__b2_body *body = &q->probe->scene->bodies[item->body];
     tahr__b2_piece piece;
 
-    if (!is_wanted(q->probe, &body->owner)) return;
+    if (!tahr__filter_passes(&q->probe->filter, &body->owner)) return;
     tahr__b2_body_piece(body, item->segment, q->origin, &piece);
     if (is_near(q, &piece.flat)) q->take(q->user, &piece);
 }

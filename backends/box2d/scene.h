@@ -9,11 +9,9 @@
 
 /* A contact whose normal leans behind a one-sided segment by more than this came from behind and is none. */
 #define TAHR__B2_BEHIND (-1e-6)
-/* Relative: motion flatter than this to a surface is parallel. */
-#define TAHR__B2_PARALLEL 1e-12
 
 typedef struct tahr__b2_body {
-    tahr__b2_owner owner;
+    tahr__surface owner;
     uint32_t type, first, count; /* its items */
     uint32_t vertex_count;
     tahr_vec3 position;
@@ -42,9 +40,6 @@ typedef struct tahr__b2_scene {
     tahr__fluids fluids;
 } tahr__b2_scene;
 
-/* What a query may not want to meet. */
-enum { TAHR__B2_SOLIDS = 1, TAHR__B2_SENSORS = 2 };
-
 /* One query: the shape, where it starts, where it goes. */
 typedef struct tahr__b2_probe {
     const tahr__b2_scene *scene;
@@ -53,9 +48,7 @@ typedef struct tahr__b2_probe {
     tahr_vec3 origin;
     tahr__vec2 up, motion;
     double margin, motion_length;
-    uint32_t mask, ignore_body;
-    int only_body;       /* 1: nothing is there but ignore_body */
-    uint32_t leaves_out; /* 0, or TAHR__B2_SOLIDS or _SENSORS */
+    tahr__filter filter;
 } tahr__b2_probe;
 
 static inline tahr_vec3 tahr__b2_lift(tahr__vec2 v, double z)

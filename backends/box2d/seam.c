@@ -86,14 +86,14 @@ static void at_round(seam *s, const tahr__b2_piece *other)
 }
 
 /* Only what blocks, or a fellow one-way body, takes the place of a corner. */
-static int may_hide(const tahr__b2_owner *p, const tahr__b2_owner *q)
+static int may_hide(const tahr__surface *p, const tahr__surface *q)
 {
     return !(q->flags & TAHR_BODY_SENSOR) && (!(q->flags & TAHR_BODY_ONE_WAY) || p->flags & TAHR_BODY_ONE_WAY);
 }
 
 static int is_same(const tahr__b2_piece *a, const tahr__b2_piece *b)
 {
-    return a->owner.body == b->owner.body && a->feature == b->feature && a->flat.count == b->flat.count &&
+    return a->owner.id == b->owner.id && a->feature == b->feature && a->flat.count == b->flat.count &&
            a->flat.corner[0].x == b->flat.corner[0].x && a->flat.corner[0].y == b->flat.corner[0].y;
 }
 

@@ -65,7 +65,7 @@ static double core_depth(const tahr__ccd_probe *probe, const tahr__ccd_piece *pi
                          tahr_vec3 *normal)
 {
     tahr__core solid;
-    unsigned sides = piece->body->flags & TAHR_BODY_TWO_SIDED ? 3 : 1;
+    unsigned sides = piece->body->surface.flags & TAHR_BODY_TWO_SIDED ? 3 : 1;
 
     if (piece->body->type != TAHR_BODY_MESH) {
         tahr_vec3 middle = solid_of(piece, &solid);
@@ -135,7 +135,7 @@ static double convex_depth(const tahr__ccd_probe *probe, const tahr__ccd_piece *
         tahr_vec3 front = tahr__ccd_triangle_normal(piece->corner), back = v_scale(front, -1);
         double depth = tahr__convex_way(a, b, front);
         *normal = front;
-        if (!(body->flags & TAHR_BODY_TWO_SIDED)) return depth;
+        if (!(body->surface.flags & TAHR_BODY_TWO_SIDED)) return depth;
         double other = tahr__convex_way(a, b, back);
         if (other < depth) *normal = back;
         if (!is_alone(piece)) return d_min(depth, other);
@@ -261,6 +261,6 @@ void tahr__ccd_measure_far(const tahr__ccd_probe *probe, const tahr__ccd_piece *
 
 int tahr__ccd_in_front(const tahr__ccd_piece *piece, const tahr__ccd_near *near)
 {
-    if (piece->body->type != TAHR_BODY_MESH || piece->body->flags & TAHR_BODY_TWO_SIDED) return 1;
+    if (piece->body->type != TAHR_BODY_MESH || piece->body->surface.flags & TAHR_BODY_TWO_SIDED) return 1;
     return v_dot(near->normal, tahr__ccd_triangle_normal(piece->corner)) >= TAHR__CCD_BEHIND;
 }

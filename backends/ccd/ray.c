@@ -1,14 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * ray.c: the ray slot. libccd has no rays and no answer for points: a point advances by tangents of the distance, which
  * for a face is one exact step. */
-#include "../common/one_way.h"
+#include "../common/hits.h"
 #include "scene.h"
-
-static int comes_before(const tahr_hit *a, const tahr_hit *b)
-{
-    if (a->fraction != b->fraction) return a->fraction < b->fraction;
-    return a->body != b->body ? a->body < b->body : a->feature < b->feature;
-}
 
 static int visit(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double limit, tahr_hit *hit)
 {
@@ -22,21 +16,18 @@ static int visit(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, dou
     if (b->type != TAHR_BODY_MESH && near.distance <= 0) return 0; /* from inside nothing is hit */
     if (tahr__ccd_advance(probe, piece, limit, &fraction, &near) != TAHR__CCD_HIT) return 0;
     centre = v_scale(probe->motion, fraction);
+    tahr__hit_of(&b->surface, hit);
     /* So near to a bare face or edge the direction between the nearest points is rounding: the face's own is not. */
     tahr__ccd_face(probe, piece, v_scale(probe->motion, -1), &near, &hit->surface_normal);
-    if (b->type == TAHR_BODY_MESH && b->flags & TAHR_BODY_TWO_SIDED && v_dot(hit->surface_normal, probe->motion) > 0) {
+    if (b->type == TAHR_BODY_MESH && b->surface.flags & TAHR_BODY_TWO_SIDED &&
+        v_dot(hit->surface_normal, probe->motion) > 0) {
         hit->surface_normal = v_scale(hit->surface_normal, -1);
     }
     hit->normal = hit->surface_normal;
     double into = -v_dot(hit->normal, probe->motion);
-    if (into <= 0 || (tahr__ccd_is_one_way(b) && into < TAHR__ONE_WAY_TOP * probe->motion_length)) return 0;
-    hit->blocking = 1;
+    if (into <= 0 || (tahr__one_way_is(b->surface.flags) && into < TAHR__ONE_WAY_TOP * probe->motion_length)) return 0;
     hit->fraction = fraction;
     hit->point = tahr__ccd_world(probe, centre);
-    hit->walkable_rule = b->walkable_rule;
-    hit->walkable_angle = b->walkable_angle;
-    hit->surface = b->surface;
-    hit->body = b->id;
     near.normal = hit->normal;
     hit->feature = tahr__ccd_feature(piece, &near);
     return 1;
@@ -49,8 +40,7 @@ tahr_status tahr__ccd_ray(void *self, tahr_query_context *context, const tahr_ra
                              .context = context,
                              .origin = query->origin,
                              .motion = query->motion,
-                             .mask = query->mask,
-                             .ignore_body = query->ignore_body};
+                             .filter = tahr__filter_of_ray(query)};
     tahr__ccd_walk walk;
     tahr__ccd_piece piece;
 
@@ -58,10 +48,10 @@ tahr_status tahr__ccd_ray(void *self, tahr_query_context *context, const tahr_ra
     if (tahr__ccd_probe_shape(&probe, NULL, v_make(0, 0, 1), (tahr_quat){0, 0, 0, 1}) < 0) return TAHR_E_ARGUMENT;
     tahr__ccd_walk_begin(&walk, &probe, probe.motion, 0);
     while (tahr__ccd_walk_next(&walk, &piece)) {
-        tahr_hit candidate = {0};
+        tahr_hit candidate;
         double limit = *count ? d_min(1, hit->fraction * (1 + 1e-9) + 1e-12) : 1;
-        if (piece.body->flags & TAHR_BODY_SENSOR || !visit(&probe, &piece, limit, &candidate)) continue;
-        if (*count && !comes_before(&candidate, hit)) continue;
+        if (!visit(&probe, &piece, limit, &candidate)) continue;
+        if (*count && !tahr__hit_before(&candidate, hit)) continue;
         *hit = candidate;
         *count = 1;
     }

@@ -49,7 +49,7 @@ static tahr_status open_hull(tahr__ccd_scene *scene, const tahr_body_desc *d, ta
     tahr_status status;
 
     if (d->vertex_count < 4 || d->vertex_count > TAHR__HULL_VERTICES || !d->vertices) {
-        tahr__log_body(scene->host, b->id, "vertex_count: a hull has 4 to 256 vertices");
+        tahr__log_body(scene->host, b->surface.id, "vertex_count: a hull has 4 to 256 vertices");
         return TAHR_E_GEOMETRY;
     }
     b->vertices = a->alloc(a->user, d->vertex_count * sizeof *b->vertices, 64);
@@ -58,7 +58,7 @@ static tahr_status open_hull(tahr__ccd_scene *scene, const tahr_body_desc *d, ta
     for (uint32_t i = 0; i < d->vertex_count; i++)
         b->vertices[i] = v_make(d->vertices[3 * i], d->vertices[3 * i + 1], d->vertices[3 * i + 2]);
     status = tahr__hull_planes_build(scene->host, b->vertices, b->vertex_count, &b->planes, &reason);
-    if (status == TAHR_E_GEOMETRY) tahr__log_body(scene->host, b->id, reason);
+    if (status == TAHR_E_GEOMETRY) tahr__log_body(scene->host, b->surface.id, reason);
     if (status < 0) return status;
     tahr_vec3 low = b->vertices[0], high = b->vertices[0];
     for (uint32_t i = 1; i < b->vertex_count; i++) {
@@ -82,12 +82,7 @@ static tahr_status open_body(tahr__ccd_scene *scene, const tahr_body_desc *d, ui
     tahr_status status = TAHR_OK;
 
     b->type = d->type;
-    b->flags = d->flags;
-    b->mask = d->mask ? d->mask : 0xFFFFFFFFu;
-    b->walkable_rule = d->walkable_rule;
-    b->walkable_angle = d->walkable_angle;
-    b->surface = d->surface;
-    b->id = id;
+    b->surface = tahr__surface_of(d, id);
     b->half_extents = d->half_extents;
     b->radius = d->radius;
     b->reach = reach_of(d);
@@ -198,7 +193,7 @@ tahr_status tahr__ccd_scene_place(tahr__ccd_scene *scene, const tahr_body_pose *
 {
     for (uint32_t i = 0; i < count; i++) {
         if (poses[i].body >= scene->body_count) return TAHR_E_NOT_FOUND;
-        if (!(scene->bodies[poses[i].body].flags & TAHR_BODY_MOVABLE)) {
+        if (!(scene->bodies[poses[i].body].surface.flags & TAHR_BODY_MOVABLE)) {
             tahr__log_body(scene->host, poses[i].body, "is not movable (TAHR_BODY_MOVABLE)");
             return TAHR_E_ARGUMENT;
         }
@@ -210,7 +205,7 @@ tahr_status tahr__ccd_scene_place(tahr__ccd_scene *scene, const tahr_body_pose *
     for (uint32_t i = 0; i < count; i++) {
         tahr__ccd_body *b = &scene->bodies[poses[i].body];
         place_body(b, &poses[i].pose);
-        tahr__body_tree_set(&scene->tree, b->id, &b->bounds);
+        tahr__body_tree_set(&scene->tree, b->surface.id, &b->bounds);
     }
     tahr__body_tree_refit(&scene->tree);
     tahr__fluids_place(&scene->fluids, poses, count);

@@ -9,13 +9,13 @@
 #include "../common/fluid.h"
 #include "../common/hull_planes.h"
 #include "../common/mesh.h"
+#include "../common/one_way.h"
+#include "../common/surface.h"
 
 #include <tahr/ccd.h>
 
 /* A contact whose normal leans behind a one-sided face by more than this came from behind and is none. */
 #define TAHR__CCD_BEHIND (-1e-6)
-/* Relative: the core's projection leaves 1e-16 by rounding; motion flatter than this to a surface is parallel. */
-#define TAHR__CCD_PARALLEL 1e-12
 
 /* Between two shapes of which at least one is met by its support function: the distance is certain to 1e-12 of the
  * character's size, and so a direction to its square root. Directions closer than this are one, and so are places. */
@@ -23,8 +23,8 @@
 #define TAHR__CCD_SAME_PLACE 1e-5
 
 typedef struct tahr__ccd_body {
-    uint32_t type, flags, mask, walkable_rule, surface, id;
-    double walkable_angle;
+    tahr__surface surface;
+    uint32_t type, vertex_count; /* of hulls */
     tahr_vec3 position;
     tahr__mat turn;         /* local to world */
     tahr_vec3 half_extents; /* boxes, ellipsoids; hulls: half their extents */
@@ -35,8 +35,6 @@ typedef struct tahr__ccd_body {
     tahr_vec3 *vertices;      /* hulls, local */
     tahr_vec3 middle;         /* hulls: of their extents, local */
     tahr__hull_planes planes; /* hulls */
-    uint32_t vertex_count;
-    uint32_t reserved;
 } tahr__ccd_body;
 
 typedef struct tahr__ccd_scene {
@@ -58,9 +56,6 @@ typedef struct tahr__ccd_piece {
     double radius;
 } tahr__ccd_piece;
 
-/* What a query may not want to meet. */
-enum { TAHR__CCD_SOLIDS = 1, TAHR__CCD_SENSORS = 2 };
-
 /* One query: the shape, where it starts, where it goes. All lengths but origin are in the query's unit. */
 typedef struct tahr__ccd_probe {
     const tahr__ccd_scene *scene;
@@ -75,12 +70,7 @@ typedef struct tahr__ccd_probe {
     double radius, margin;
     tahr_vec3 origin, motion;
     double motion_length;
-    uint32_t mask, ignore_body;
-    int only_body;       /* 1: nothing is there but ignore_body */
-    uint32_t leaves_out; /* 0, or TAHR__CCD_SOLIDS or _SENSORS */
-    tahr_vec3 up;        /* of the query */
-    uint32_t flags;      /* TAHR_SWEEP_* */
-    uint32_t sinks;      /* 1: the foot has sunk into a one-way body (one_way.h) */
+    tahr__filter filter;
 } tahr__ccd_probe;
 
 /* The nearest points of the shape and a piece. */
@@ -153,16 +143,6 @@ tahr__ccd_verdict tahr__ccd_impact(const tahr__ccd_probe *probe, const tahr__ccd
 /* The same by tangents of the convex distance alone; never late. */
 tahr__ccd_verdict tahr__ccd_advance(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double limit,
                                     double *fraction, tahr__ccd_near *near);
-
-/* one_way.c: is a one-way body there where it is met at a fraction of the motion? Others always are. */
-typedef struct tahr__ccd_one_way {
-    int edge;  /* it is, on an edge */
-    int sinks; /* it is not, and the foot sinks into it */
-} tahr__ccd_one_way;
-
-int tahr__ccd_is_one_way(const tahr__ccd_body *body);
-int tahr__ccd_one_way_blocks(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, const tahr__ccd_near *near,
-                             tahr_vec3 face, double fraction, tahr__ccd_one_way *out);
 
 /* gjk.c: libccd's boolean. 1: swept shape and piece overlap, 0: they do not, -1: libccd used up its iterations. */
 int tahr__ccd_swept_overlap(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double fraction);

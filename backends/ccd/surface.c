@@ -175,7 +175,7 @@ static int is_nearer(const tahr__ccd_piece *other, uint32_t at, uint32_t to, tah
 static tahr_vec3 facing_normal(const tahr__ccd_piece *piece, tahr_vec3 contact)
 {
     tahr_vec3 n = tahr__ccd_triangle_normal(piece->corner);
-    return piece->body->flags & TAHR_BODY_TWO_SIDED && v_dot(n, contact) < 0 ? v_scale(n, -1) : n;
+    return piece->body->surface.flags & TAHR_BODY_TWO_SIDED && v_dot(n, contact) < 0 ? v_scale(n, -1) : n;
 }
 
 static int mesh_surface(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, const tahr__ccd_near *near,

@@ -50,9 +50,7 @@ static int overlap(const tahr_bounds *a, const tahr_bounds *b)
 static int passes(const tahr__ccd_walk *walk, const tahr__ccd_body *body)
 {
     tahr_bounds world = {v_add(walk->box.min, walk->probe->origin), v_add(walk->box.max, walk->probe->origin)};
-    uint32_t kind = body->flags & TAHR_BODY_SENSOR ? TAHR__CCD_SENSORS : TAHR__CCD_SOLIDS;
-    return !(body->flags & TAHR_BODY_TEMPLATE) && walk->probe->leaves_out != kind &&
-           (body->mask & walk->probe->mask) != 0 && (body->id == walk->probe->ignore_body) == walk->probe->only_body &&
+    return !(body->surface.flags & TAHR_BODY_TEMPLATE) && tahr__filter_passes(&walk->probe->filter, &body->surface) &&
            overlap(&world, &body->bounds);
 }
 

@@ -20,6 +20,22 @@ typedef struct tahr__hits {
 
 void tahr__hits_begin(tahr__hits *hits, double motion_length);
 
+/* Relative: a normal's rounding is 1e-16 by projection; motion flatter than this to a surface is parallel. */
+#define TAHR__PARALLEL 1e-12
+
+static inline int tahr__approaches(tahr_vec3 motion, double motion_length, tahr_vec3 normal)
+{
+    return v_dot(motion, normal) < -TAHR__PARALLEL * motion_length;
+}
+
+/* Is a contact of a sweep news? Only what is approached blocks; an overlap at the start does so whatever the motion,
+ * unless it may be left. A sensor does not block, so there is nothing to leave: its overlap is always news. */
+static inline int tahr__hit_counts(uint32_t sweep_flags, const tahr__surface *surface, double distance, int approaches)
+{
+    int leaves = sweep_flags & TAHR_SWEEP_LEAVE_OVERLAP && !(surface->flags & TAHR_BODY_SENSOR);
+    return approaches || (distance < 0 && !leaves);
+}
+
 /* Fills in what the body says. */
 void tahr__hit_of(const tahr__surface *surface, tahr_hit *hit);
 

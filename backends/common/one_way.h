@@ -11,6 +11,8 @@
 
 #include "vec.h"
 
+#include <tahr/backend.h>
+
 /* cos 60 degrees: what leans more is its side or its bottom. */
 #define TAHR__ONE_WAY_TOP 0.5
 /* Of the margin: an overlap of less is the rounding of who was put exactly onto it (1e-9 m at 1e7 m). */
@@ -46,6 +48,50 @@ static inline int tahr__one_way_edge_holds(tahr_vec3 up, tahr_vec3 motion, doubl
     double rise = v_dot(motion, up);
     int comes_down = rise < 0 && rise * rise > 1e-18 * v_dot(motion, motion); /* flatter is the rounding of level */
     return comes_down && (!sinks || below > 2 * margin);
+}
+
+/* Sensors never block, whatever their flags. */
+static inline int tahr__one_way_is(uint32_t body_flags)
+{
+    return (body_flags & (TAHR_BODY_ONE_WAY | TAHR_BODY_SENSOR)) == TAHR_BODY_ONE_WAY;
+}
+
+/* Is a one-way body there in a query of contacts, which does not drop? face: at the contact. */
+static inline int tahr__one_way_touches(tahr_vec3 up, tahr_vec3 normal, tahr_vec3 face, double distance, double margin)
+{
+    return !tahr__one_way_edge(normal, face) && tahr__one_way_blocks(up, normal, distance, margin, 0);
+}
+
+/* What a sweep knows of the one-way bodies on its way. */
+typedef struct tahr__one_way_sweep {
+    tahr_vec3 up, motion;
+    double motion_length, margin;
+    double low; /* how far the shape reaches down along up from its centre */
+    uint32_t flags;
+    uint32_t sunk;  /* 1: the foot has sunk into one, as the sweep found out when it was asked before */
+    uint32_t edged; /* an edge was met that holds */
+    uint32_t sinks; /* the foot sinks into one */
+} tahr__one_way_sweep;
+
+typedef struct tahr__one_way_meeting {
+    tahr_vec3 normal, face;
+    tahr_vec3 point; /* relative to the start */
+    double fraction;
+    double
+        start; /* signed distance where the question begins; where that is beyond the margin, any such, but of drops */
+    uint32_t inside; /* 1: the cores touch or cross */
+    uint32_t reserved;
+} tahr__one_way_meeting;
+
+/* one_way.c: is a one-way body there where it is met? */
+int tahr__one_way_met(tahr__one_way_sweep *sweep, const tahr__one_way_meeting *meeting);
+
+/* Which edges hold is not known before all bodies were asked: must they be asked again? */
+static inline int tahr__one_way_again(tahr__one_way_sweep *sweep)
+{
+    int again = sweep->edged && sweep->sinks && !sweep->sunk;
+    if (again) sweep->sunk = 1;
+    return again;
 }
 
 #endif

@@ -5,13 +5,21 @@
 #include "../common/one_way.h"
 #include "../common/touches.h"
 
-static int is_there(const tahr__fcl_query *q, const tahr__surface *surface, const tahr__near *near, uint32_t flags)
+/* What is asked besides the query. */
+typedef struct question {
+    tahr_vec3 up;
+    uint32_t flags, reserved;
+} question;
+
+static int is_there(const tahr__fcl_query *q, const question *asked, const tahr__near *near,
+                    const tahr_contact *contact, uint32_t body_flags)
 {
-    if (!(surface->flags & TAHR_BODY_ONE_WAY)) return 1;
-    return !(flags & TAHR_CONTACTS_DROP) && tahr__one_way_blocks(q->up, near->normal, near->distance, 0, 0);
+    if (!tahr__one_way_is(body_flags)) return 1;
+    return !(asked->flags & TAHR_CONTACTS_DROP) &&
+           tahr__one_way_touches(asked->up, near->normal, contact->surface_normal, near->distance, q->margin);
 }
 
-static void visit(tahr__fcl_query *q, uint32_t part, uint32_t flags, tahr__touches *touches)
+static void visit(tahr__fcl_query *q, uint32_t part, const question *asked, tahr__touches *touches)
 {
     const tahr__surface *surface = &tahr__fcl_query_body(q, part)->surface;
     tahr_contact contact;
@@ -21,9 +29,10 @@ static void visit(tahr__fcl_query *q, uint32_t part, uint32_t flags, tahr__touch
     if (!tahr__fcl_query_piece(q, part, &piece)) return;
     q->context->narrow_tests++;
     tahr__fcl_measure(q, part, &piece, v_make(0, 0, 0), &near);
-    if (near.distance > q->margin || !is_there(q, surface, &near, flags)) return;
+    if (near.distance > q->margin) return;
     tahr__contact_of(surface, &contact);
     if (!tahr__fcl_felt(q, part, &piece, near.normal, &near, &contact.surface_normal)) return;
+    if (!is_there(q, asked, &near, &contact, surface->flags)) return;
     contact.distance = near.distance;
     contact.normal = near.normal;
     contact.point = v_add(q->origin, near.point);
@@ -35,6 +44,7 @@ tahr_status tahr__fcl_contacts(void *self, tahr_query_context *context, const ta
                                tahr_contact *contacts, uint32_t capacity, uint32_t *count)
 {
     tahr__touches touches = {contacts, capacity, 0, 0, 0};
+    const question asked = {query->up, query->flags, 0};
     tahr__fcl_query q;
     tahr_status status;
 
@@ -43,17 +53,13 @@ tahr_status tahr__fcl_contacts(void *self, tahr_query_context *context, const ta
     q.margin = query->margin;
     q.origin = query->position;
     q.motion = v_make(0, 0, 0);
-    q.up = query->up;
-    q.mask = query->mask;
-    q.ignore_body = query->ignore_body;
-    q.only_body = 0;
-    q.leaves_out = query->flags & TAHR_CONTACTS_SOLID ? TAHR__FCL_SENSORS : 0u;
+    q.filter = tahr__filter_of_contacts(query);
     if (query->shape.type < TAHR_SHAPE_SPHERE || query->shape.type > TAHR_SHAPE_BOX) return TAHR_E_UNSUPPORTED;
     if (!tahr__shape_make(&query->shape, query->up, query->orientation, &q.shape) || !(query->margin >= 0))
         return TAHR_E_ARGUMENT;
     status = tahr__fcl_query_begin(&q, context, q.shape.radius + q.margin);
     for (uint32_t i = 0; status >= 0 && i < q.count; i++)
-        visit(&q, i, query->flags, &touches);
+        visit(&q, i, &asked, &touches);
     tahr__fcl_query_end(&q);
     if (status < 0) return status;
     *count = touches.count;

@@ -19,10 +19,8 @@ static int overlap(const tahr_bounds *a, const tahr_bounds *b)
 static int wants(const void *user, uint32_t body)
 {
     const tahr__fcl_query *q = user;
-    const tahr__surface *s = &q->scene->bodies[body].surface;
-    uint32_t kind = s->flags & TAHR_BODY_SENSOR ? TAHR__FCL_SENSORS : TAHR__FCL_SOLIDS;
 
-    return q->leaves_out != kind && (s->mask & q->mask) != 0 && (s->id == q->ignore_body) == (q->only_body != 0);
+    return tahr__filter_passes(&q->filter, &q->scene->bodies[body].surface);
 }
 
 tahr_status tahr__fcl_query_begin(tahr__fcl_query *q, tahr_query_context *context, double reach)

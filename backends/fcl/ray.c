@@ -30,7 +30,7 @@ static int meet(tahr__fcl_query *q, uint32_t part, double limit, tahr_hit *hit)
     if (b->kind == TAHR__FCL_OCTREE && !tahr__fcl_cell_felt(q, part, &piece, &near)) return 0;
     double against = -v_dot(hit->normal, q->motion);
     if (against <= 0) return 0;
-    if (b->surface.flags & TAHR_BODY_ONE_WAY && against < TAHR__ONE_WAY_TOP * q->motion_length) return 0;
+    if (tahr__one_way_is(b->surface.flags) && against < TAHR__ONE_WAY_TOP * q->motion_length) return 0;
     hit->fraction = fraction;
     hit->point = v_mad(q->origin, q->motion, fraction);
     hit->feature = tahr__fcl_feature(q, part, &piece, hit->normal);
@@ -49,11 +49,7 @@ tahr_status tahr__fcl_ray(void *self, tahr_query_context *context, const tahr_ra
     q.margin = 0;
     q.origin = query->origin;
     q.motion = query->motion;
-    q.up = v_make(0, 0, 1);
-    q.mask = query->mask;
-    q.ignore_body = query->ignore_body;
-    q.only_body = 0;
-    q.leaves_out = TAHR__FCL_SENSORS;
+    q.filter = tahr__filter_of_ray(query);
     status = tahr__fcl_query_begin(&q, context, 0);
     for (uint32_t i = 0; status >= 0 && i < q.count; i++) {
         double limit = *count ? d_min(1, hit->fraction * (1 + 1e-9) + 1e-12) : 1;

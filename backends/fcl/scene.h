@@ -35,8 +35,6 @@ typedef struct tahr__fcl_scene {
     tahr__fluids fluids;
 } tahr__fcl_scene;
 
-/* What a query may not want to meet. */
-enum { TAHR__FCL_SOLIDS = 1, TAHR__FCL_SENSORS = 2 };
 /* Candidates on the stack, 16 bytes each. */
 enum { TAHR__FCL_ROOM = 256 };
 
@@ -46,12 +44,10 @@ typedef struct tahr__fcl_query {
     tahr_query_context *context;
     tahr__shape shape;
     double margin;
-    tahr_vec3 origin, motion, up;
+    tahr_vec3 origin, motion;
     double motion_length;
-    uint32_t mask, ignore_body;
-    uint32_t only_body;  /* 1: nothing is there but ignore_body */
-    uint32_t leaves_out; /* 0, or TAHR__FCL_SOLIDS or _SENSORS */
-    tahr_bounds box;     /* relative to the start */
+    tahr__filter filter;
+    tahr_bounds box; /* relative to the start */
     const tahr__fcl_part *parts;
     uint32_t count, frame_body; /* whose frame it is, or UINT32_MAX */
     tahr__placement frame;

@@ -8,8 +8,6 @@
 
 /* Pieces put in order before they are walked up to; of more than these the latest are asked about as they come. */
 enum { MAX_WAITING = 64 };
-/* Relative: the core's projection leaves 1e-16 by rounding; motion flatter than this to a surface is parallel. */
-#define PARALLEL 1e-12
 
 /* A piece that may be hit, not before the fraction at which the tangent of its distance at the start says so. */
 typedef struct waiter {
@@ -20,25 +18,10 @@ typedef struct waiter {
 typedef struct search {
     tahr__fcl_query *query;
     tahr__hits hits;
-    uint32_t flags, waiting_count;
+    tahr__one_way_sweep one_way;
+    uint32_t waiting_count, reserved;
     waiter waiting[MAX_WAITING + 1]; /* by earliest */
 } search;
-
-/* Only what is approached blocks; an overlap at the start does so whatever the motion, unless it may be left. A sensor
- * does not block, so there is nothing to leave: its overlap is always news. */
-static int must_report(const search *s, const tahr__surface *surface, const tahr__near *near)
-{
-    int leaves = s->flags & TAHR_SWEEP_LEAVE_OVERLAP && !(surface->flags & TAHR_BODY_SENSOR);
-
-    if (near->distance < 0 && !leaves) return 1;
-    return v_dot(s->query->motion, near->normal) < -PARALLEL * s->query->motion_length;
-}
-
-static int is_there(const search *s, const tahr__surface *surface, const tahr__near *near, double start)
-{
-    if (!(surface->flags & TAHR_BODY_ONE_WAY)) return 1;
-    return tahr__one_way_blocks(s->query->up, near->normal, start, s->query->margin, s->flags);
-}
 
 /* Where the shape meets a piece. */
 typedef struct meeting {
@@ -46,6 +29,15 @@ typedef struct meeting {
     double fraction, start;
     tahr__near near;
 } meeting;
+
+static int is_there(search *s, const tahr__piece *piece, const meeting *m, tahr_vec3 face)
+{
+    int inside = m->near.distance + s->query->shape.radius + piece->radius <= 0;
+    const tahr__one_way_meeting met = {m->near.normal, face, m->near.point, m->fraction, m->start, inside != 0, 0};
+
+    return !tahr__one_way_is(tahr__fcl_query_body(s->query, m->part)->surface.flags) ||
+           tahr__one_way_met(&s->one_way, &met);
+}
 
 /* Takes a contact, unless it is from behind, an internal edge, or not approached. */
 static void report(search *s, const tahr__piece *piece, meeting *m)
@@ -56,9 +48,11 @@ static void report(search *s, const tahr__piece *piece, meeting *m)
 
     tahr__hit_of(surface, &hit);
     hit.surface_normal = m->near.normal;
-    int felt = tahr__fcl_felt(q, m->part, piece, v_scale(q->motion, -1), &m->near, &hit.surface_normal) &&
-               must_report(s, surface, &m->near) && is_there(s, surface, &m->near, m->start);
+    int felt = tahr__fcl_felt(q, m->part, piece, v_scale(q->motion, -1), &m->near, &hit.surface_normal);
     if (!felt && !m->unknown) return;
+    int approaches = tahr__approaches(q->motion, q->motion_length, m->near.normal);
+    if (!is_there(s, piece, m, hit.surface_normal)) return;
+    if (!m->unknown && !tahr__hit_counts(s->one_way.flags, surface, m->near.distance, approaches)) return;
     hit.unknown = m->unknown;
     hit.fraction = m->fraction;
     hit.distance = m->near.distance;
@@ -106,6 +100,16 @@ static void visit(search *s, uint32_t part)
     if (s->waiting_count > MAX_WAITING) resolve(s, &s->waiting[--s->waiting_count]);
 }
 
+static void run(search *s)
+{
+    tahr__hits_begin(&s->hits, s->query->motion_length);
+    s->waiting_count = 0;
+    for (uint32_t i = 0; i < s->query->count; i++)
+        visit(s, i);
+    for (uint32_t i = 0; i < s->waiting_count; i++)
+        resolve(s, &s->waiting[i]);
+}
+
 tahr_status tahr__fcl_sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
                             uint32_t capacity, uint32_t *count)
 {
@@ -118,23 +122,23 @@ tahr_status tahr__fcl_sweep(void *self, tahr_query_context *context, const tahr_
     q.margin = query->margin;
     q.origin = query->position;
     q.motion = query->motion;
-    q.up = query->up;
-    q.mask = query->mask;
-    q.ignore_body = query->ignore_body;
-    q.only_body = (query->flags & TAHR_SWEEP_ONLY_BODY) != 0;
-    q.leaves_out = query->flags & TAHR_SWEEP_SENSORS ? TAHR__FCL_SOLIDS : capacity == 1 ? TAHR__FCL_SENSORS : 0u;
+    q.filter = tahr__filter_of_sweep(query, capacity);
     if (query->shape.type < TAHR_SHAPE_SPHERE || query->shape.type > TAHR_SHAPE_BOX) return TAHR_E_UNSUPPORTED;
     if (!tahr__shape_make(&query->shape, query->up, query->orientation, &q.shape) || !(query->margin >= 0))
         return TAHR_E_ARGUMENT;
-    s.query = &q;
-    s.flags = query->flags;
-    s.waiting_count = 0;
     status = tahr__fcl_query_begin(&q, context, q.shape.radius + q.margin);
-    tahr__hits_begin(&s.hits, q.motion_length);
-    for (uint32_t i = 0; status >= 0 && i < q.count; i++)
-        visit(&s, i);
-    for (uint32_t i = 0; status >= 0 && i < s.waiting_count; i++)
-        resolve(&s, &s.waiting[i]);
+    s.query = &q;
+    s.one_way = (tahr__one_way_sweep){.up = query->up,
+                                      .motion = q.motion,
+                                      .motion_length = q.motion_length,
+                                      .margin = q.margin,
+                                      .low = tahr__core_extent(&q.shape.core, query->up) + q.shape.radius,
+                                      .flags = query->flags};
+    if (status >= 0) {
+        do
+            run(&s);
+        while (tahr__one_way_again(&s.one_way));
+    }
     tahr__fcl_query_end(&q);
     return status < 0 ? status : tahr__hits_write(&s.hits, hits, capacity, count);
 }
