@@ -2,6 +2,7 @@
  * floor_distance.c: see floor_distance.h. */
 #include "floor_distance.h"
 
+#include "drop.h"
 #include "foot.h"
 #include "report.h"
 #include "shape.h"
@@ -47,8 +48,8 @@ static int touches_rim(const tahr__step *step, const tahr_hit *hit, vec3 centre,
 }
 
 /* The character's shape with a part `kept` of its straight part, `inset` thinner. [out] shrink: m by which both ends
- * are shorter: of an ellipsoid, which has no straight part, always the first part of it all, for its sides rise by less
- * than its end; of a cone and a hull 0. */
+ * are shorter, 0 where all is kept: of an ellipsoid, which has no straight part, always the first part of it all, for
+ * its sides rise by less than its end; of a cone and a hull 0. */
 static tahr__foot probe_of(const tahr__step *step, double kept, double inset, double *shrink)
 {
     tahr_shape s = step->limits->shape;
@@ -56,7 +57,7 @@ static tahr__foot probe_of(const tahr__step *step, double kept, double inset, do
     const double least = max_of(0.01 * step->config->edge_tolerance, TAHR__THINNEST);
     if (s.type > TAHR_SHAPE_BOX) {
         *shrink = s.type == TAHR_SHAPE_CYLINDER    ? (1 - kept) * s.half_height
-                  : s.type == TAHR_SHAPE_ELLIPSOID ? (1 - FIRST) * s.half_height
+                  : s.type == TAHR_SHAPE_ELLIPSOID ? (kept < 1 ? 1 - FIRST : 0) * s.half_height
                                                    : 0;
         s.half_height -= *shrink;
         if (inset > 0) {
@@ -169,22 +170,41 @@ static int use_supplied(tahr__step *step, const tahr__floor_look *look, tahr_flo
     return 1;
 }
 
-/* One sweep from `from`, or two; hit is that of the last. Returns the distance down to it. */
+/* Returns the distance down from the foot, below 0 of what is above it: the ends of a probe are shorter. */
+static double sweep_probe(tahr__step *step, const tahr__floor_look *look, double kept, double inset, tahr_hit *hit)
+{
+    double shrink;
+    tahr__foot probe = probe_of(step, kept, inset, &shrink);
+    double range = look->sweep_distance + shrink;
+    tahr__floor_sweep_test(step, &probe, look->from, range, hit);
+    return hit->fraction * range - shrink;
+}
+
+/* A one-way body whose top is above the foot, by more than rounding, is there for a probe and not for the character. */
+static int is_passed(const tahr__step *step, const tahr_hit *hit, double distance)
+{
+    return distance < -10 * tiny_length(step->config) && hit->blocking && tahr__is_one_way(step, hit->body);
+}
+
+static double sweep_foot(tahr__step *step, const tahr__floor_look *look, double kept, double inset, tahr_hit *hit)
+{
+    double distance = sweep_probe(step, look, kept, inset, hit);
+    return is_passed(step, hit, distance) ? sweep_probe(step, look, 1, inset, hit) : distance;
+}
+
+/* One sweep from `from`, or two; hit is that of the last. Returns the distance down to it. One more for each that meets
+ * a one-way body above the foot. */
 static double sweep_twice(tahr__step *step, const tahr__floor_look *look, tahr_hit *hit, uint32_t *flags)
 {
     const tahr_config *c = step->config;
-    double inset = step->limits->width - look->radius, shrink;
-    tahr__foot probe = probe_of(step, FIRST, inset, &shrink);
-    double range = look->sweep_distance + shrink;
-    int met = tahr__floor_sweep_test(step, &probe, look->from, range, hit);
-    if (met && (hit->start_overlap || touches_rim(step, hit, look->from, look->radius))) {
+    double inset = step->limits->width - look->radius;
+    double distance = sweep_foot(step, look, FIRST, inset, hit);
+    if (hit->blocking && (hit->start_overlap || touches_rim(step, hit, look->from, look->radius))) {
         tahr__decide(step, TAHR_RULE_EDGE_TOLERANCE, 0, hit, look->radius, c->edge_tolerance, "touches the rim");
-        probe = probe_of(step, THIN, inset + c->edge_tolerance + tiny_length(c), &shrink);
-        range = look->sweep_distance + shrink;
-        met = tahr__floor_sweep_test(step, &probe, look->from, range, hit);
+        distance = sweep_foot(step, look, THIN, inset + c->edge_tolerance + tiny_length(c), hit);
         *flags |= TAHR_FLOOR_RIM;
     }
-    double distance = max_of(deepest(step), hit->fraction * range - shrink);
+    distance = max_of(deepest(step), distance);
     /* What nobody knows holds the character where it is, and never lifts it. */
     return hit->unknown ? max_of(distance, c->floor_target * c->skin) : distance;
 }
@@ -194,7 +214,13 @@ static void use_ray(tahr__step *step, const tahr__floor_look *look, tahr_floor *
     double half = step->limits->shape.half_height, range = look->line_distance + half;
     tahr_hit hit;
     tahr__ray(step, look->from, scale(step->state.up, -range), &hit);
-    double distance = max_of(deepest(step), hit.fraction * range - half);
+    double distance = hit.fraction * range - half;
+    if (is_passed(step, &hit, distance)) {
+        range = look->line_distance;
+        tahr__ray(step, add_scaled(look->from, step->state.up, -half), scale(step->state.up, -range), &hit);
+        distance = hit.fraction * range;
+    }
+    distance = max_of(deepest(step), distance);
     if (!hit.blocking || hit.unknown || !(hit.fraction > 0) ||
         !tahr__is_walkable(step, &hit, tahr__was_walkable(step, &hit))) {
         return;

@@ -3,6 +3,7 @@
  * path.c. */
 #include "move_along_floor.h"
 
+#include "drop.h"
 #include "floor.h"
 #include "move.h"
 #include "report.h"
@@ -30,6 +31,18 @@ vec3 tahr__ground_movement_delta(const tahr__step *step, vec3 delta, const tahr_
     double rise = -dot(ramp->surface_normal, delta) / steep, size = length(delta);
     vec3 lifted = add_scaled(delta, up, rise);
     return step->config->keep_level_speed ? tahr__cap_rise(step, lifted, rise, size) : scale(unit(lifted), size);
+}
+
+/* The edge of a one-way body stops nothing that does not come down on it: a foot that leans on one rolls over it by
+ * itself, else it would sink into what is behind it. */
+static void roll_over_edge(const tahr__step *step, vec3 delta, tahr__ramp *ramp)
+{
+    vec3 up = step->state.up, n = ramp->normal, face = ramp->surface_normal;
+    double lean = dot(n, up), steep = dot(face, up);
+    if (lean > UPRIGHT && steep > UPRIGHT && dot(n, face) < 1 - 1e-6 &&
+        dot(n, delta) / lean < dot(face, delta) / steep && tahr__is_one_way(step, step->state.floor.body)) {
+        ramp->surface_normal = n;
+    }
 }
 
 /* Held by an overlap that did not resolve: a slide along it may still come free, else the motion would hitch. */
@@ -80,6 +93,7 @@ int tahr__move_along_floor(tahr__step *step, vec3 delta, double h)
     if (!floor_is_walkable(&step->state.floor)) {
         return 0;
     }
+    roll_over_edge(step, delta, &ramp);
     tahr__safe_move(step, tahr__ground_movement_delta(step, delta, &ramp), &swept);
     if (swept.hit.start_overlap) {
         leave_overlap(step, delta, &swept);

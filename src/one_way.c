@@ -14,5 +14,6 @@ int32_t tahr_one_way_blocks(const tahr_vec3 *up, const tahr_vec3 *normal, double
         return 1;
     }
     int dropped = (flags & TAHR_SWEEP_PASS) || ((flags & TAHR_SWEEP_DROP) && distance <= 2 * margin);
-    return distance >= -1e-3 * margin && dot(*up, *normal) >= 0.5 && !dropped;
+    double rounding = max_of(1e-3 * margin, 2e-6); /* of who was put exactly onto it; without a margin that of floats */
+    return distance >= -rounding && dot(*up, *normal) >= 0.5 && !dropped;
 }

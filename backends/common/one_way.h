@@ -15,15 +15,23 @@
 
 /* cos 60 degrees: what leans more is its side or its bottom. */
 #define TAHR__ONE_WAY_TOP 0.5
-/* Of the margin: an overlap of less is the rounding of who was put exactly onto it (1e-9 m at 1e7 m). */
+/* An overlap of less is the rounding of who was put exactly onto it (1e-9 m at 1e7 m): of the margin, and without one
+ * the error of a distance on geometry in floats (m). */
 #define TAHR__ONE_WAY_ROUNDING 1e-3
+#define TAHR__ONE_WAY_LEAST 2e-6
+
+static inline double tahr__one_way_rounding(double margin)
+{
+    double part = TAHR__ONE_WAY_ROUNDING * margin;
+    return part > TAHR__ONE_WAY_LEAST ? part : TAHR__ONE_WAY_LEAST;
+}
 
 /* distance: signed, where the question begins; normal: the contact normal; flags, margin: those of a sweep. */
 static inline int tahr__one_way_blocks(tahr_vec3 up, tahr_vec3 normal, double distance, double margin, uint32_t flags)
 {
     int dropped = (flags & TAHR_SWEEP_PASS) || ((flags & TAHR_SWEEP_DROP) && distance <= 2 * margin);
     if (flags & TAHR_SWEEP_WHOLE) return 1;
-    return distance >= -TAHR__ONE_WAY_ROUNDING * margin && v_dot(up, normal) >= TAHR__ONE_WAY_TOP && !dropped;
+    return distance >= -tahr__one_way_rounding(margin) && v_dot(up, normal) >= TAHR__ONE_WAY_TOP && !dropped;
 }
 
 /* Is the contact on an edge or a corner, whose normal is that of no face? */

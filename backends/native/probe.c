@@ -252,7 +252,7 @@ static int is_one_way_there(const flight *f, const tahr__contact_normals *normal
     double nearest = query->flags & TAHR_SWEEP_DROP ? query->margin : 0;
     tahr_vec3 n = normals->normal;
     if (!tahr__one_way_blocks(UP, n, f->began, query->margin, query->flags) ||
-        (!at_start && f->probe.gap < nearest - TAHR__ONE_WAY_ROUNDING * query->margin)) {
+        (!at_start && f->probe.gap < nearest - tahr__one_way_rounding(query->margin))) {
         return 0;
     }
     out->edge = (uint32_t)tahr__one_way_edge(n, normals->face);
