@@ -7,6 +7,22 @@
 
 #include "message.h"
 
+static const char *const capability_names[] = {
+    "TAHR_CAP_MARGIN", "TAHR_CAP_CONTACTS",  "TAHR_CAP_RAY",           "TAHR_CAP_SPHERE",  "TAHR_CAP_CAPSULE",
+    "TAHR_CAP_BOX",    "TAHR_CAP_MESH",      "TAHR_CAP_BIT_IDENTICAL", "TAHR_CAP_PLANAR",  "TAHR_CAP_CYLINDER",
+    "TAHR_CAP_CONE",   "TAHR_CAP_ELLIPSOID", "TAHR_CAP_HULL",          "TAHR_CAP_SOLIDS",  "TAHR_CAP_ROUND_SOLIDS",
+    "TAHR_CAP_HULLS",  "TAHR_CAP_HEIGHTS",   "TAHR_CAP_CHAINS",        "TAHR_CAP_ONE_WAY", "TAHR_CAP_SENSORS"};
+
+const char *tahr__capability_name(uint32_t capabilities)
+{
+    for (size_t i = 0; i < sizeof capability_names / sizeof capability_names[0]; i++) {
+        if (capabilities >> i & 1) {
+            return capability_names[i];
+        }
+    }
+    return "?";
+}
+
 static const char *missing_slot(const tahr_backend *b)
 {
     const struct {

@@ -11,4 +11,7 @@
 tahr_status tahr__backend_check(const tahr_backend *backend, const tahr_log *log, const char *function,
                                 const char *where);
 
+/* "TAHR_CAP_MESH": the lowest of some capabilities; "?" for none. */
+const char *tahr__capability_name(uint32_t capabilities);
+
 #endif

@@ -85,7 +85,8 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     field = out_of_plane(world, config);
     if (field) {
         return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", field,
-                              "leaves the plane of x and y, and the world is one of two dimensions");
+                              strcmp(field, "plane") == 0 ? "must be (0, 0, 1): the world has two dimensions, x and y"
+                                                          : "must have no z: the world has two dimensions, x and y");
     }
     field = config->shape.type == TAHR_SHAPE_HULL ? bad_hull(world, &config->shape) : NULL;
     if (field) {

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "backend_check.h"
 #include "message.h"
 #include "sized.h"
 #include "vec.h"
@@ -84,6 +85,12 @@ static int bad_flags(const tahr_body_desc *b)
            ((b->flags & TAHR_BODY_ONE_WAY) && (b->flags & TAHR_BODY_SENSOR));
 }
 
+static const char *what_is_wrong(const char *field)
+{
+    return strcmp(field, "flags") == 0 ? "has a bit that is unknown or does not go with the type or another bit"
+                                       : "is missing, out of range or not finite";
+}
+
 static const char *bad_body(const tahr_body_desc *b)
 {
     const char *pose = tahr__bad_pose(&b->pose, 1);
@@ -114,7 +121,7 @@ static tahr_status check_body(const tahr_log *log, const tahr_body_desc *b, uint
     const char *bad = bad_body(b);
     if (bad) {
         snprintf(name, sizeof name, "bodies[%u].%s", i, bad);
-        return tahr__complain(log, TAHR_E_ARGUMENT, "tahr_world_open", name, "is missing, out of range or not finite");
+        return tahr__complain(log, TAHR_E_ARGUMENT, "tahr_world_open", name, what_is_wrong(bad));
     }
     if (b->type == TAHR_BODY_MESH && b->triangle_count == 0) {
         snprintf(name, sizeof name, "bodies[%u]", i);
@@ -199,17 +206,39 @@ static uint32_t needed_by(const tahr_body_desc *b)
            (b->flags & TAHR_BODY_SENSOR ? (uint32_t)TAHR_CAP_SENSORS : 0u);
 }
 
+/* What of a body needs these capabilities. */
+static const char *what_needs(const tahr_body_desc *b, uint32_t lacking)
+{
+    static const char *const types[] = {"?",
+                                        "TAHR_BODY_MESH",
+                                        "TAHR_BODY_BOX",
+                                        "TAHR_BODY_SPHERE",
+                                        "TAHR_BODY_CAPSULE",
+                                        "TAHR_BODY_CYLINDER",
+                                        "TAHR_BODY_CONE",
+                                        "TAHR_BODY_ELLIPSOID",
+                                        "TAHR_BODY_HULL",
+                                        "TAHR_BODY_HEIGHTS",
+                                        "TAHR_BODY_CHAIN"};
+    if (lacking & TAHR_CAP_ONE_WAY) {
+        return "TAHR_BODY_ONE_WAY";
+    }
+    if (lacking & TAHR_CAP_SENSORS) {
+        return b->flags & TAHR_BODY_FLUID ? "TAHR_BODY_FLUID" : "TAHR_BODY_SENSOR";
+    }
+    return b->flags & TAHR_BODY_TEMPLATE ? "TAHR_BODY_TEMPLATE" : types[b->type];
+}
+
 tahr_status tahr__bodies_fit(const tahr_backend *backend, const tahr_log *log, const tahr_world_desc *scene)
 {
     for (uint32_t i = 0; i < scene->body_count; i++) {
         uint32_t lacking = needed_by(&scene->bodies[i]) & ~backend->capabilities;
         if (lacking) {
-            char name[64], text[128];
-            const char *what = lacking & TAHR_CAP_ONE_WAY   ? "flag TAHR_BODY_ONE_WAY"
-                               : lacking & TAHR_CAP_SENSORS ? "flag TAHR_BODY_SENSOR"
-                                                            : "type";
+            char name[64], text[160];
+            const char *what = what_needs(&scene->bodies[i], lacking);
             snprintf(name, sizeof name, "bodies[%u]", i);
-            snprintf(text, sizeof text, "has a %s that backend %.40s does not hold", what, backend->name);
+            snprintf(text, sizeof text, "is %s, which backend %.40s does not hold: it lacks %s", what, backend->name,
+                     tahr__capability_name(lacking));
             return tahr__complain(log, TAHR_E_UNSUPPORTED, "tahr_world_open", name, text);
         }
     }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "backend_check.h"
 #include "message.h"
 #include "selftest.h"
 #include "sized.h"
@@ -11,23 +12,6 @@ static const tahr__lab_theme *const themes[] = {&tahr__lab_sweeps, &tahr__lab_ed
                                                 &tahr__lab_shapes, &tahr__lab_bodies,  &tahr__lab_answers,
                                                 &tahr__lab_random, &tahr__lab_filters, &tahr__lab_one_way};
 enum { THEMES = sizeof themes / sizeof themes[0] };
-
-static const char *const capability_names[] = {
-    "TAHR_CAP_MARGIN", "TAHR_CAP_CONTACTS",  "TAHR_CAP_RAY",    "TAHR_CAP_SPHERE",  "TAHR_CAP_CAPSULE",
-    "TAHR_CAP_BOX",    "TAHR_CAP_MESH",      "BIT_IDENTICAL",   "TAHR_CAP_PLANAR",  "TAHR_CAP_CYLINDER",
-    "TAHR_CAP_CONE",   "TAHR_CAP_ELLIPSOID", "TAHR_CAP_HULL",   "TAHR_CAP_SOLIDS",  "TAHR_CAP_ROUND_SOLIDS",
-    "TAHR_CAP_HULLS",  "TAHR_CAP_HEIGHTS",   "TAHR_CAP_CHAINS", "TAHR_CAP_ONE_WAY", "TAHR_CAP_SENSORS"};
-
-/* The first capability in missing. */
-static const char *name_of(uint32_t missing)
-{
-    for (size_t i = 0; i < sizeof capability_names / sizeof capability_names[0]; i++) {
-        if (missing >> i & 1) {
-            return capability_names[i];
-        }
-    }
-    return "?";
-}
 
 static int is_chosen(const tahr_selftest_desc *desc, const char *name)
 {
@@ -45,7 +29,7 @@ static uint32_t run_case(tahr__lab *lab, const tahr__lab_case *c)
     lab->shape_name = "no shape";
     lab->material = 0;
     if (c->needs & ~lab->claims) {
-        tahr__lab_lacks(lab, name_of(c->needs & ~lab->claims));
+        tahr__lab_lacks(lab, tahr__capability_name(c->needs & ~lab->claims));
     } else {
         tahr__lab_clear(lab);
         c->run(lab);
@@ -59,10 +43,10 @@ static uint32_t run_case(tahr__lab *lab, const tahr__lab_case *c)
     return lab->verdict == TAHR_SELFTEST_FAIL;
 }
 
-static const char *bad_field(const tahr_backend *backend, const tahr_selftest_desc *desc)
+static const char *bad_field(const tahr_selftest_desc *desc)
 {
     const uint32_t known = (TAHR_CAP_SENSORS << 1) - 1;
-    if (desc->capabilities & ~known || (!desc->open && desc->capabilities) || (desc->open && backend)) {
+    if (desc->capabilities & ~known) {
         return "desc.capabilities";
     }
     if (!(desc->gap_tolerance >= 0 && desc->gap_tolerance <= 0.1)) {
@@ -95,13 +79,19 @@ static tahr_status check_arguments(const tahr_backend *backend, const tahr_selft
     if (!backend && !desc->open) {
         return tahr__complain(desc->log, TAHR_E_NULL, function, "backend", "is NULL, and so is desc.open");
     }
-    if (backend && backend->struct_size < sizeof *backend) {
-        return tahr__complain(desc->log, TAHR_E_STRUCT_SIZE, function, "backend.struct_size", "is too small");
+    status = backend ? tahr__backend_check(backend, desc->log, function, NULL) : TAHR_OK;
+    if (status < 0) {
+        return status;
     }
-    if (backend && tahr_abi_check((uint32_t)backend->abi_major << 16 | backend->abi_minor) < 0) {
-        return tahr__complain(desc->log, TAHR_E_ABI, function, "backend", "was built for another ABI");
+    if (backend && desc->open) {
+        return tahr__complain(desc->log, TAHR_E_ARGUMENT, function, "backend",
+                              "must be NULL: desc.open opens the worlds");
     }
-    const char *bad = bad_field(backend, desc);
+    if (backend && desc->capabilities) {
+        return tahr__complain(desc->log, TAHR_E_ARGUMENT, function, "desc.capabilities",
+                              "must be 0: the backend has its own");
+    }
+    const char *bad = bad_field(desc);
     if (bad) {
         return tahr__complain(desc->log, TAHR_E_ARGUMENT, function, bad, "is out of range");
     }

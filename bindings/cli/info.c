@@ -70,11 +70,23 @@ static void info_json(void)
     json_decref(root);
 }
 
+void info_help(void)
+{
+    puts("usage: tahr info [--json]\n"
+         "\n"
+         "Version, ABI, presets, and the collision engines that this shell was built with: what `--backend` and\n"
+         "`tahr selftest` take, with their capabilities (TAHR_CAP_* of tahr/backend.h).");
+}
+
 int info_command(int argc, char **argv)
 {
+    if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
+        info_help();
+        return EXIT_GOOD;
+    }
     int json = argc > 1 && strcmp(argv[1], "--json") == 0;
     if (argc > 1 + json) {
-        say_error("tahr info: unexpected argument '%s'; known is --json", argv[1 + json]);
+        say_error("info: unexpected argument '%s'; known is --json", argv[1 + json]);
         return EXIT_USAGE;
     }
     if (json) {

@@ -31,17 +31,27 @@ const char *level_text(int level)
     return (const char *)levels[level].bytes;
 }
 
+enum { LEVELS = sizeof levels / sizeof *levels };
+
+void level_help(void)
+{
+    puts("usage: tahr level NAME >FILE\n");
+    for (size_t i = 0; i < LEVELS; i++) {
+        printf("  %-16s %s\n", levels[i].name, levels[i].about);
+    }
+}
+
 int level_command(int argc, char **argv)
 {
-    const size_t count = sizeof levels / sizeof *levels;
-    if (argc < 2) {
-        puts("usage: tahr level NAME >FILE\n");
-        for (size_t i = 0; i < count; i++) {
-            printf("  %-16s %s\n", levels[i].name, levels[i].about);
-        }
+    if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
+        level_help();
         return EXIT_GOOD;
     }
-    for (size_t i = 0; i < count; i++) {
+    if (argc > 2) {
+        say_error("level: unexpected argument '%s'; expected one name", argv[2]);
+        return EXIT_USAGE;
+    }
+    for (size_t i = 0; i < LEVELS; i++) {
         if (strcmp(levels[i].name, argv[1]) == 0) {
             if (levels[i].write) {
                 levels[i].write(stdout);

@@ -12,20 +12,34 @@
 #include <string.h>
 #include <tahr/tahr.h>
 
-static int help_command(int argc, char **argv)
+static int help_command(int argc, char **argv);
+static int version_command(int argc, char **argv);
+
+static const struct {
+    const char *name;
+    int (*call)(int argc, char **argv);
+    void (*help)(void);
+} commands[] = {
+    {"run", run_command, options_help},
+    {"replay", replay_command, replay_help},
+    {"level", level_command, level_help},
+    {"info", info_command, info_help},
+    {"selftest", selftest_command, selftest_help},
+    {"help", help_command, NULL},
+    {"--help", help_command, NULL},
+    {"-h", help_command, NULL},
+    {"--version", version_command, NULL},
+};
+enum { COMMANDS = sizeof commands / sizeof *commands };
+
+static int complain_unknown(const char *command)
 {
-    if (argc > 1 && strcmp(argv[1], "run") == 0) {
-        options_help();
-        return EXIT_GOOD;
-    }
-    if (argc > 1 && strcmp(argv[1], "selftest") == 0) {
-        selftest_help();
-        return EXIT_GOOD;
-    }
-    if (argc > 1 && strcmp(argv[1], "replay") == 0) {
-        replay_help();
-        return EXIT_GOOD;
-    }
+    say_error("unknown command '%s'; known are run, replay, level, info, selftest, help, --version", command);
+    return EXIT_USAGE;
+}
+
+static void print_commands(void)
+{
     puts("usage: tahr COMMAND [options]\n"
          "\n"
          "  run              characters walk through a level; see `tahr run --help`\n"
@@ -33,27 +47,34 @@ static int help_command(int argc, char **argv)
          "  level [NAME]     writes a bundled level to standard output\n"
          "  info [--json]    version, ABI, collision engines and what they can do\n"
          "  selftest NAME    does a backend keep its promises? see `tahr selftest --help`\n"
-         "  help [COMMAND]   this text, or the options of run, replay or selftest\n"
-         "  --version\n");
-    return EXIT_GOOD;
+         "  help [COMMAND]   this text, or that of one command\n"
+         "  --version");
+}
+
+static int help_command(int argc, char **argv)
+{
+    if (argc < 2) {
+        print_commands();
+        return EXIT_GOOD;
+    }
+    for (size_t i = 0; i < COMMANDS; i++) {
+        if (commands[i].help != NULL && strcmp(commands[i].name, argv[1]) == 0) {
+            commands[i].help();
+            return EXIT_GOOD;
+        }
+    }
+    return complain_unknown(argv[1]);
 }
 
 static int version_command(int argc, char **argv)
 {
-    (void)argc;
-    (void)argv;
+    if (argc > 1) {
+        say_error("--version: unexpected argument '%s'", argv[1]);
+        return EXIT_USAGE;
+    }
     printf("tahr %s\n", tahr_version());
     return EXIT_GOOD;
 }
-
-static const struct {
-    const char *name;
-    int (*call)(int argc, char **argv);
-} commands[] = {
-    {"run", run_command},     {"replay", replay_command},     {"level", level_command},
-    {"info", info_command},   {"selftest", selftest_command}, {"help", help_command},
-    {"--help", help_command}, {"-h", help_command},           {"--version", version_command},
-};
 
 int main(int argc, char **argv)
 {
@@ -62,19 +83,18 @@ int main(int argc, char **argv)
         return EXIT_CHECK_FAILED;
     }
     if (argc < 2) {
-        help_command(0, NULL);
+        print_commands();
         return EXIT_USAGE;
     }
-    for (size_t i = 0; i < sizeof commands / sizeof *commands; i++) {
+    for (size_t i = 0; i < COMMANDS; i++) {
         if (strcmp(commands[i].name, argv[1]) == 0) {
             int code = commands[i].call(argc - 1, argv + 1);
-            if (fflush(stdout) != 0) {
+            if (fflush(stdout) != 0 || ferror(stdout)) {
                 say_error("cannot write to standard output");
                 return EXIT_CHECK_FAILED;
             }
             return code;
         }
     }
-    say_error("unknown command '%s'; known are run, replay, level, info, selftest, help, --version", argv[1]);
-    return EXIT_USAGE;
+    return complain_unknown(argv[1]);
 }

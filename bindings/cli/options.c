@@ -173,6 +173,8 @@ static int read_backend(const char *text, struct options *o)
         size_t used = strlen(wanted);
         snprintf(wanted + used, sizeof wanted - used, "%s %s", i ? "," : "", backend_choice_at(i)->name);
     }
+    const size_t used = strlen(wanted);
+    snprintf(wanted + used, sizeof wanted - used, "; or the path of a shared object, with a / or ending in .so");
     return bad_value("backend", text, wanted);
 }
 
@@ -277,6 +279,15 @@ static int check_side(struct options *o, const char given[OPTION_HELP + 1])
         say_error("--backend %s: has two dimensions; expected --2d with it", o->backend->name);
         return -1;
     }
+    if (!o->side && o->preset == TAHR_PRESET_PLATFORMER) {
+        say_error("--preset platformer: moves in a plane, where y is up; expected --2d with it");
+        return -1;
+    }
+    const char *ending = o->level != NULL ? strrchr(o->level, '.') : NULL;
+    if (!o->side && ending != NULL && strcmp(ending, ".tmj") == 0) {
+        say_error("--level '%s': is a map of two dimensions; expected --2d with it", o->level);
+        return -1;
+    }
     if (o->side && given[OPTION_UP]) {
         say_error("--up %c: not with --2d, where y is up", o->up);
         return -1;
@@ -305,7 +316,7 @@ static int check_together(struct options *o, const char given[OPTION_HELP + 1])
         return -1;
     }
     if ((o->route != NULL || o->tour) && characters_given && o->characters != 1) {
-        say_error("--characters %u: a --route drives one character", o->characters);
+        say_error("--characters %u: a --route or --tour drives one character", o->characters);
         return -1;
     }
     if (o->level == NULL && up_given) {

@@ -180,7 +180,7 @@ int replay_file(const char *path, struct replayed *replayed)
 
 void replay_help(void)
 {
-    puts("usage: tahr replay FILE\n"
+    puts("usage: tahr replay [--trace] FILE\n"
          "\n"
          "Repeats the run in a trace, without its collision engine and its level: every query has to be the one that "
          "was\n"
@@ -190,6 +190,27 @@ void replay_help(void)
          "Exit code: 0 all is equal, 1 a step differs (the first is named) or the file breaks off, 2 no trace.");
 }
 
+/* Of "FILE", "--trace FILE" or "--trace=FILE"; NULL after a message. */
+static const char *path_of(int argc, char **argv)
+{
+    static const char option[] = "--trace";
+    const size_t length = strlen(option);
+    const char *path = argc > 1 ? argv[argc - 1] : "";
+    if (argc == 2 && strncmp(path, option, length) == 0 && path[length] == '=') {
+        return path + length + 1;
+    }
+    const int named = argc == 3 && strcmp(argv[1], option) == 0;
+    if (named || (argc == 2 && path[0] != '-')) {
+        return path;
+    }
+    if (argc > 1 && argv[1][0] == '-' && strcmp(argv[1], option) != 0) {
+        say_error("replay: unknown option '%s'; known are --trace and --help", argv[1]);
+    } else {
+        say_error("replay: expected the name of one file; see `tahr replay --help`");
+    }
+    return NULL;
+}
+
 int replay_command(int argc, char **argv)
 {
     struct replayed found;
@@ -197,11 +218,11 @@ int replay_command(int argc, char **argv)
         replay_help();
         return EXIT_GOOD;
     }
-    if (argc != 2 || argv[1][0] == '-') {
-        say_error("tahr replay: expected the name of one file; see `tahr replay --help`");
+    const char *path = path_of(argc, argv);
+    if (path == NULL) {
         return EXIT_USAGE;
     }
-    if (replay_file(argv[1], &found) != 0) {
+    if (replay_file(path, &found) != 0) {
         return EXIT_USAGE;
     }
     printf("  repeated   %" PRIu64 " steps of %" PRIu32 " character%s, each with the same queries, status and state\n",

@@ -68,7 +68,7 @@ static int read_options(struct selftest *test, int argc, char **argv)
             test->json = 1;
         } else if (strcmp(word, "--only") == 0 || strcmp(word, "--gap") == 0) {
             if (++i == argc) {
-                say_error("tahr selftest: %s needs a value", word);
+                say_error("selftest: %s needs a value", word);
                 return EXIT_USAGE;
             }
             if (strcmp(word, "--only") == 0) {
@@ -78,19 +78,18 @@ static int read_options(struct selftest *test, int argc, char **argv)
             char *end;
             test->gap_tolerance = strtod(argv[i], &end);
             if (end == argv[i] || *end || !(test->gap_tolerance > 0 && test->gap_tolerance <= 0.1)) {
-                say_error("tahr selftest: --gap '%s' is not a number of metres up to 0.1", argv[i]);
+                say_error("selftest: --gap '%s' is not a number of metres up to 0.1", argv[i]);
                 return EXIT_USAGE;
             }
         } else if (word[0] == '-' || test->target) {
-            say_error("tahr selftest: unexpected argument '%s'; see `tahr selftest --help`", word);
+            say_error("selftest: unexpected argument '%s'; see `tahr selftest --help`", word);
             return EXIT_USAGE;
         } else {
             test->target = word;
         }
     }
     if (!test->target) {
-        say_error(
-            "tahr selftest: which backend? `tahr info` lists those of this shell; or the path of a shared object");
+        say_error("selftest: which backend? `tahr info` lists those of this shell; or the path of a shared object");
         return EXIT_USAGE;
     }
     return 0;
@@ -136,19 +135,13 @@ static int run(struct selftest *test, const tahr_backend *backend, const void *o
     return test->counts[TAHR_SELFTEST_FAIL] ? EXIT_CHECK_FAILED : EXIT_GOOD;
 }
 
-static int is_path(const char *target)
-{
-    size_t size = strlen(target);
-    return strchr(target, '/') != NULL || (size > 3 && strcmp(target + size - 3, ".so") == 0);
-}
-
 static int run_plugin(struct selftest *test)
 {
     const tahr_log log = say_log();
     tahr_plugin *plugin = NULL;
     tahr_status status = tahr_plugin_load(test->target, &log, &plugin);
     if (status < 0) {
-        say_error("tahr selftest: cannot load '%s': %s", test->target, tahr_status_message(status));
+        say_error("selftest: cannot load '%s': %s", test->target, tahr_status_message(status));
         return EXIT_CHECK_FAILED;
     }
     int code = run(test, tahr_plugin_backend(plugin), NULL);
@@ -160,7 +153,7 @@ static int run_named(struct selftest *test)
 {
     const struct backend_choice *choice = backend_choice_find(test->target);
     if (!choice) {
-        say_error("tahr selftest: no backend '%s' in this shell; `tahr info` lists them, a plugin is given by its path",
+        say_error("selftest: no backend '%s' in this shell; `tahr info` lists them, a plugin is given by its path",
                   test->target);
         return EXIT_USAGE;
     }
@@ -170,16 +163,18 @@ static int run_named(struct selftest *test)
 int selftest_command(int argc, char **argv)
 {
     struct selftest test = {0};
-    if (argc > 1 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
-        selftest_help();
-        return EXIT_GOOD;
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
+            selftest_help();
+            return EXIT_GOOD;
+        }
     }
     int code = read_options(&test, argc, argv);
     if (code) {
         return code;
     }
     test.cases = test.json ? json_array() : NULL;
-    code = is_path(test.target) ? run_plugin(&test) : run_named(&test);
+    code = backend_is_path(test.target) ? run_plugin(&test) : run_named(&test);
     json_decref(test.cases);
     return code;
 }

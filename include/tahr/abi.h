@@ -43,7 +43,7 @@ extern "C" {
     X(TAHR_QUERY_CAP, 5, "query_cap", "the step reached its promised number of queries and stopped early")            \
     X(TAHR_E_ARGUMENT, -1, "argument", "an argument is out of its range")                                             \
     X(TAHR_E_NULL, -2, "null", "a required pointer is NULL")                                                          \
-    X(TAHR_E_STRUCT_SIZE, -3, "struct_size", "struct_size is smaller than version 0.1 of the struct")                 \
+    X(TAHR_E_STRUCT_SIZE, -3, "struct_size", "struct_size is smaller than version 0.1 of the struct, or far larger")  \
     X(TAHR_E_UNSUPPORTED, -4, "unsupported", "the request is valid but not supported here")                           \
     X(TAHR_E_MEMORY, -5, "memory", "an allocation failed")                                                            \
     X(TAHR_E_BACKEND, -6, "backend", "a backend or callback gave an invalid answer")                                  \

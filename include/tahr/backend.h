@@ -11,29 +11,32 @@
 extern "C" {
 #endif
 
-/* What a backend can do. */
+/* What a backend can do. What it does not claim is refused before it is asked: bodies and flags of a scene by
+ * tahr_world_open, shapes by tahr_mover_create and direct queries. PLANAR: a world of two dimensions, x and y:
+ * positions' z is handed back as it came, normals have none; motion or up out of the plane is TAHR_E_UNSUPPORTED.
+ * CONTACTS and RAY: the slots are always there; this says that they answer as the selftest asks (those of a backend
+ * have to; a world over callbacks may leave them to be derived). */
 enum {
-    TAHR_CAP_MARGIN = 1 << 0,   /* honours tahr_sweep.margin; without it round shapes come inflated by the core */
-    TAHR_CAP_CONTACTS = 1 << 1, /* has the contacts slot */
+    TAHR_CAP_MARGIN = 1 << 0, /* honours tahr_sweep.margin; without it shapes come inflated by the core */
+    TAHR_CAP_CONTACTS = 1 << 1,
     TAHR_CAP_RAY = 1 << 2,
-    TAHR_CAP_SPHERE = 1 << 3, /* shapes that may be swept */
+    TAHR_CAP_SPHERE = 1 << 3, /* TAHR_SHAPE_SPHERE may be swept, and so on */
     TAHR_CAP_CAPSULE = 1 << 4,
     TAHR_CAP_BOX = 1 << 5,
-    TAHR_CAP_MESH = 1 << 6,          /* triangle meshes as bodies */
+    TAHR_CAP_MESH = 1 << 6,          /* bodies: TAHR_BODY_MESH */
     TAHR_CAP_BIT_IDENTICAL = 1 << 7, /* same bits on every machine and compiler */
-    TAHR_CAP_PLANAR = 1 << 8,   /* a world of two dimensions, x and y: positions' z is handed back as it came, normals
-                                      * have none; motion or up out of the plane is TAHR_E_UNSUPPORTED */
-    TAHR_CAP_CYLINDER = 1 << 9, /* more shapes that may be swept */
+    TAHR_CAP_PLANAR = 1 << 8,        /* two dimensions */
+    TAHR_CAP_CYLINDER = 1 << 9,      /* more shapes that may be swept */
     TAHR_CAP_CONE = 1 << 10,
     TAHR_CAP_ELLIPSOID = 1 << 11,
-    TAHR_CAP_HULL = 1 << 12,
+    TAHR_CAP_HULL = 1 << 12,         /* and TAHR_BODY_TEMPLATE, which lends it its vertices */
     TAHR_CAP_SOLIDS = 1 << 13,       /* bodies: boxes, spheres and capsules */
-    TAHR_CAP_ROUND_SOLIDS = 1 << 14, /* cylinders, cones and ellipsoids */
-    TAHR_CAP_HULLS = 1 << 15,
-    TAHR_CAP_HEIGHTS = 1 << 16,
-    TAHR_CAP_CHAINS = 1 << 17,
-    TAHR_CAP_ONE_WAY = 1 << 18, /* honours TAHR_BODY_ONE_WAY and the DROP flags */
-    TAHR_CAP_SENSORS = 1 << 19  /* honours TAHR_BODY_SENSOR and TAHR_SWEEP_SENSORS */
+    TAHR_CAP_ROUND_SOLIDS = 1 << 14, /* bodies: cylinders, cones and ellipsoids */
+    TAHR_CAP_HULLS = 1 << 15,        /* bodies: TAHR_BODY_HULL */
+    TAHR_CAP_HEIGHTS = 1 << 16,      /* bodies: TAHR_BODY_HEIGHTS */
+    TAHR_CAP_CHAINS = 1 << 17,       /* bodies: TAHR_BODY_CHAIN */
+    TAHR_CAP_ONE_WAY = 1 << 18,      /* honours TAHR_BODY_ONE_WAY and the flags of sweeps and contacts about it */
+    TAHR_CAP_SENSORS = 1 << 19       /* honours TAHR_BODY_SENSOR and TAHR_SWEEP_SENSORS */
 };
 
 /* Services a backend receives at open. Both members are always set; valid until close returns. */
@@ -54,11 +57,11 @@ typedef struct tahr_query_context {
     uint64_t escapes;           /* queries whose box left the gathered one */
 } tahr_query_context;
 
-/* The announcement before a step: everything the step is expected to ask about lies in bounds. A hint only. */
+/* The announcement before a step: everything the step is expected to ask about lies in bounds. A hint only. World
+ * frame. position: of the character at the start of the step; native's float geometry is local to its 4 m cell. */
 typedef struct tahr_prepare {
     tahr_bounds bounds;
-    tahr_vec3 position; /* of the character at the start of the step; float geometry is local to the 4 m cell it is
-                         * in */
+    tahr_vec3 position;
     tahr_vec3 up;
     uint32_t mask;
     uint32_t reserved;
@@ -77,8 +80,8 @@ typedef struct tahr_backend {
     const char *name;    /* short, lower case */
     const char *version; /* of the engine behind it */
 
-    /* Builds the scene. desc and options are valid during the call only. On failure nothing is kept and *self is
-     * untouched. host stays valid until close. */
+    /* Builds the scene; of tahr_world_desc read all but allocator and log, which come in host. desc and its options are
+     * valid during the call only, host until close. On failure nothing is kept and *self is untouched. */
     tahr_status (*open)(const tahr_host *host, const tahr_world_desc *desc, void **self);
     void (*close)(void *self);
 

@@ -64,7 +64,8 @@ typedef struct tahr_box2d_desc {
 } tahr_box2d_desc;
 
 /* The Box2D backend, of one name for both engines; for tahr_world_open, whose desc.options is a tahr_box2d_desc or
- * NULL. The plane is x and y; bodies turn about z only. Circles, capsules and boxes as characters; boxes, spheres
+ * NULL. The plane is x and y: tahr_mover_create wants config.plane (0, 0, 1) and a gravity without z, as
+ * TAHR_PRESET_PLATFORMER has them. Bodies turn about z only. Circles, capsules and boxes as characters; boxes, spheres
  * (circles), capsules, hulls of up to 256 corners, chains as bodies; sensors, fluids, one-way bodies. Box2D finds what
  * is near, distances are computed in double; opened worlds keep the description's doubles, attached ones have Box2D's
  * floats. Queries allocate nothing but what Box2D does beyond 256 open nodes of its tree, and may run on several

@@ -26,11 +26,11 @@ typedef struct tahr_ccd_desc {
     uint32_t reserved[4];    /* 0 */
 } tahr_ccd_desc;
 
-/* The libccd backend: triangle meshes, boxes, spheres, capsules, cylinders, cones, ellipsoids and convex hulls, as bodies
- * and all but meshes as characters; for tahr_world_open, whose desc.options is a tahr_ccd_desc or NULL
- * (TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED or TAHR_E_ARGUMENT if a setting of it is not known). Sweeps, contacts, rays and
- * distances are exact within 1e-9 of the shape's size, depths as backends/ccd/README.md says. Queries allocate nothing
- * and may run on several threads. Static memory. Since 0.1. */
+/* The libccd backend: triangle meshes, boxes, spheres, capsules, cylinders, cones, ellipsoids and convex hulls, as
+ * bodies and all but meshes as characters; for tahr_world_open, whose desc.options is a tahr_ccd_desc or NULL
+ * (TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED or TAHR_E_ARGUMENT if a setting of it is not known). Sweeps, contacts, rays
+ * and distances are exact within 1e-9 of the shape's size, depths as backends/ccd/README.md says. Queries allocate
+ * nothing and may run on several threads. Static memory. Since 0.1. */
 TAHR_API const tahr_backend *tahr_backend_v1_ccd(void);
 
 #ifdef __cplusplus

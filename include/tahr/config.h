@@ -11,8 +11,9 @@ extern "C" {
 
 /* PRECISE: closed forms, a constant skin, all planes at once: rate-independent, the default. UNREAL: the behaviour, the
  * constants and the order of queries of Unreal's CharacterMovementComponent, in SI units, for projects that need to
- * move alike. Both are settings of the one code: every line below with two defaults. PLATFORMER: PRECISE for a
- * side-scroller in the plane of x and y: a jump two tiles of 1 m high, and the forgiveness that its players expect. */
+ * move alike. PLATFORMER: PRECISE for a side-scroller in the plane of x and y, up = +y: a jump two tiles of 1 m high,
+ * and the forgiveness that its players expect. All are settings of the one code: every line below with more than one
+ * default. */
 enum { TAHR_PRESET_PRECISE = 1, TAHR_PRESET_UNREAL = 2, TAHR_PRESET_PLATFORMER = 3 };
 
 /* How velocity becomes a displacement. EXACT: the closed form of the whole piece; the same at every frame rate.
@@ -70,26 +71,27 @@ typedef struct tahr_config {
     uint32_t floor_probe;   /* TAHR_FLOOR_PROBE_* [WHOLE | SHRUNK] */
     uint32_t depenetration; /* TAHR_DEPENETRATION_* [JOINT | SINGLE] */
     uint32_t step_rule;     /* TAHR_STEP_BY_* [TREAD | CONTACT] */
-    uint32_t
-        flat_base; /* [0] 1, with SHRUNK: a round shape looks for the floor with a box (0.707 of the radius), if the
-                         * backend has boxes: does not sink at edges; rests higher over slopes, up to 10 queries; a fall still
-                         * slides off what only the outermost edge_tolerance of the round shape meets */
-    uint32_t
-        keep_level_speed; /* [0 | 1] 1: the speed asked for is the level one on ramps, as far as a slice then rises no
-                                * more than step_height; 0: the one along the surface */
+    /* [0] 1, with SHRUNK: a round shape looks for the floor with a box (0.707 of the radius), if the backend has boxes:
+     * does not sink at edges; rests higher over slopes, up to 10 queries; a fall still slides off what only the
+     * outermost edge_tolerance of the round shape meets */
+    uint32_t flat_base;
+    /* [0 | 1] 1: the speed asked for is the level one on ramps, as far as a slice then rises no more than step_height;
+     * 0: the one along the surface */
+    uint32_t keep_level_speed;
 
     /* Collision */
     uint32_t mask;       /* [all bits] bodies this character meets; 0: none */
     uint32_t max_slides; /* [8] sweeps of one slice of walking or falling, then the rest of the motion is dropped */
     double skin;         /* m [0.01 | 0.019] distance kept from everything that blocks (PULL_BACK: from floors) */
-    double pull_back; /* m [0.001] PULL_BACK: least distance taken back, 0.004 of it the shortest motion; SINGLE: 1.25
-                       * of it is added to every push, where a shape larger by it fits */
+    /* m [0.001] PULL_BACK: least distance taken back, 0.004 of it the shortest motion; SINGLE: 1.25 of it is added to
+     * every push, where a shape larger by it fits */
+    double pull_back;
     double max_depenetration; /* m [1.0 | 5.0] JOINT: longest way out of overlaps per step; SINGLE: longest push */
     double max_depenetration_character; /* m [1.0] SINGLE: the same, out of a body with TAHR_BODY_CHARACTER */
-    tahr_vec3
-        plane; /* [0 || (0, 0, 1)] unit normal of the plane through the character that it stays in (a side-scroller); zero:
-                      * none. Wishes, gravity, launches and pushes count along it. Equal to up (seen from above):
-                      * nothing falls, jumps, steps up or snaps down */
+    /* [0 || (0, 0, 1)] unit normal of the plane through the character that it stays in (a side-scroller); zero: none.
+     * In a world of two dimensions (TAHR_CAP_PLANAR) it must be (0, 0, 1) or (0, 0, -1). Wishes, gravity, launches and
+     * pushes count along it. Equal to up (seen from above): nothing falls, jumps, steps up or snaps down */
+    tahr_vec3 plane;
     double mass;       /* kg [80 | 100] */
     double push_force; /* N [500] most that is reported as a push against a body with a mass */
 
@@ -126,15 +128,13 @@ typedef struct tahr_config {
     double air_boost_speed;     /* m/s [0 | 0.25] */
     double air_turn_friction;   /* 1/s [0] turn_friction in the air */
     double arc_tolerance;       /* m [0.001] EXACT: how far the swept chords may lie off the arc of a fall */
-    uint32_t jump_hold_gravity; /* [0 | 1] 1: gravity acts while the button is held, and the jump speed is set anew each
-                                 * step */
+    uint32_t jump_hold_gravity; /* [0 | 1] 1: gravity acts while the button is held, the jump speed is set each step */
     uint32_t apex_substep;      /* [1] STEPPED: a slice of a fall ends at its apex */
 
     /* Bases that move */
     uint32_t impart;           /* TAHR_IMPART_* [all] what a base hands to who leaves it */
     uint32_t turn_with_base;   /* [1] the orientation follows the base's yaw */
-    double imparted_half_life; /* s [0] the part of the velocity that a base imparted halves in this time; 0: it
-                                * stays */
+    double imparted_half_life; /* s [0] the velocity that a base imparted halves in this time; 0: it stays */
 
     /* Crouching */
     double crouched_half_height; /* m [0.55 | 0.4 || 0.45] with input.crouch; the radius, if that is more */
@@ -146,18 +146,16 @@ typedef struct tahr_config {
      * less than 0.9 of swim_immersion, and falls at less than 0.8 of it. In the air: the law of walking with fly_drag
      * as its braking. */
     double swim_speed;       /* m/s [3] */
-    double swim_immersion;   /* [0.65] part of the height under the surface from which on it swims; never above
-                              * 1 / buoyancy */
+    double swim_immersion;   /* [0.65] part of the height below the surface that makes it swim; at most 1 / buoyancy */
     double buoyancy;         /* of gravity [1], when wholly immersed; 1: neither sinks nor rises */
     double fluid_friction;   /* 1/s [0.3] drag of a fluid that says none of its own */
-    double water_exit_speed; /* m/s [5.5 | 4.2] upward, of a jump at the surface: 5.5 takes the preset over a rim
-                              * at its height */
+    double water_exit_speed; /* m/s [5.5 | 4.2] upward, of a jump at the surface: 5.5 leads over a rim at its height */
     double fly_speed;        /* m/s [6] */
     double fly_drag;         /* 1/s [0.15] drag of flying without input */
 
-    /* Feel: all off but in PLATFORMER; times count inside steps, the same at every frame rate. A press of the jump button
-     * starts the first that is possible of: a jump from the ground, one within coyote_time, one off a wall, one of
-     * air_jumps; else it is remembered for jump_buffer and starts at the next landing or wall. A press starts one
+    /* Feel: all off but in PLATFORMER; times count inside steps, the same at every frame rate. A press of the jump
+     * button starts the first that is possible of: a jump from the ground, one within coyote_time, one off a wall, one
+     * of air_jumps; else it is remembered for jump_buffer and starts at the next landing or wall. A press starts one
      * jump at most, and no jump is higher than the one from the ground: in the air the speed against gravity is
      * raised to jump_speed, never beyond. A wall leans by 15 degrees at most; one that was jumped off, or any that
      * faces alike within 30 degrees, cannot be again before the ground or the touch of another wall. */
@@ -167,15 +165,13 @@ typedef struct tahr_config {
     double fall_gravity;         /* of gravity [1 || 1.5] while falling */
     double wall_slide_speed;     /* m/s [0: off || 3] fastest fall while pushing against a wall */
     double wall_jump_speed;      /* m/s [0: off || 6] away from the wall, with jump_speed upward */
-    double
-        wall_coyote_time; /* s [0 || 0.1] a wall jump still starts this long after the wall was more than 1.5 skin away */
-    double ledge_grab;    /* m [0: off] falling and pushing into a wall, hangs (TAHR_MODE_HANGING) where its head passes
-                               * an edge, or on one at most this far above it; a jump climbs, crouching or moving away
-                               * lets go */
+    double wall_coyote_time; /* s [0 || 0.1] a wall jump still starts this long after the wall was left by 1.5 skin */
+    /* m [0: off] falling and pushing into a wall, hangs (TAHR_MODE_HANGING) where its head passes an edge, or on one at
+     * most this far above it; a jump climbs, crouching or moving away lets go */
+    double ledge_grab;
     double corner_correction; /* m [0: off || 0.25] a rising head is moved aside at most this far to clear a corner */
     double lift_momentum;     /* s [0 || 0.1] the velocity of a base is still imparted this long after it stopped */
-    uint32_t air_jumps;       /* [0] jumps in the air before the next landing, water or edge; walking off a ledge costs
-                               * none */
+    uint32_t air_jumps;       /* [0] before the next landing, water or edge; walking off a ledge costs none */
     uint32_t reserved_feel;   /* 0 */
 
     /* Time and turning */

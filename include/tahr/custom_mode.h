@@ -14,10 +14,9 @@ extern "C" {
 typedef struct tahr__step tahr_step;
 
 /* What the function answers. Frozen; before the call mode is CUSTOM and time_left 0: all of the time was used, and it
- * goes on. */
+ * goes on. mode is any but HANGING; WALKING without a floor and SWIMMING without a fluid go on to FALLING. */
 typedef struct tahr_custom_next {
-    uint32_t mode;     /* that goes on: any but HANGING. WALKING without a floor and SWIMMING without a fluid go on to
-                    * FALLING */
+    uint32_t mode;     /* TAHR_MODE_*, that goes on */
     uint32_t reserved; /* 0 */
     double time_left;  /* s, 0 to the time given: for the mode that goes on */
 } tahr_custom_next;
@@ -35,11 +34,11 @@ typedef tahr_status (*tahr_custom_mode_fn)(void *user, tahr_step *step, double t
 TAHR_API tahr_status tahr_mover_set_custom_mode(tahr_mover *mover, tahr_custom_mode_fn fn, void *user);
 
 /* What the step knows; each pointer is NULL for NULL, and valid as long as the step. The state is the working copy: it
- * moves with the calls below. */
+ * moves with the calls below. Since 0.1. */
 TAHR_API const tahr_state *tahr_step_state(const tahr_step *step);
 TAHR_API const tahr_input *tahr_step_input(const tahr_step *step);
 TAHR_API const tahr_config *tahr_step_config(const tahr_step *step);
-/* m/s2, world: of the input, or of the config. Since 0.1. */
+/* The gravity of this step, of the input or of the config: m/s2, world. Since 0.1. */
 TAHR_API const tahr_vec3 *tahr_step_gravity(const tahr_step *step);
 
 /* Sets the velocity (m/s, world, up to 1e5). It moves nothing by itself. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_ARGUMENT

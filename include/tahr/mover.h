@@ -13,11 +13,15 @@ extern "C" {
 
 typedef struct tahr_mover tahr_mover;
 
+/* MODE: change to input.mode at the start of this step: WALKING needs a floor within config.snap_distance, SWIMMING a
+ * fluid deep enough, CUSTOM a function; else TAHR_REPORT_MODE_REFUSED.
+ * DROP: fall through the one-way bodies that it stands on, one layer per press: it must be off for a step before it
+ * counts again. A press on another floor, where that holds too, or in the air is spent; a jump pressed with it does not
+ * start. */
 enum {
-    TAHR_INPUT_GRAVITY = 1 << 0,
-    TAHR_INPUT_FACING = 1 << 1,
-    TAHR_INPUT_MODE = 1 << 2,   /* change to input.mode at the start of this step: WALKING needs a floor within
-                                 * config.snap_distance, SWIMMING a fluid deep enough, CUSTOM a function */
+    TAHR_INPUT_GRAVITY = 1 << 0, /* input.gravity counts */
+    TAHR_INPUT_FACING = 1 << 1,  /* input.facing counts */
+    TAHR_INPUT_MODE = 1 << 2,
     TAHR_INPUT_SHAPE = 1 << 3,  /* have radius and half_height in this step; growing waits until there is room */
     TAHR_INPUT_LAUNCH = 1 << 4, /* add launch to the velocity, and leave the ground or an edge; ends a held jump */
     TAHR_INPUT_LAUNCH_LEVEL = 1 << 5, /* with LAUNCH: the part across up replaces that of the velocity */
@@ -26,22 +30,20 @@ enum {
     TAHR_INPUT_DRIVE = 1 << 8,     /* drive is the velocity of this step (root motion); walking, its part across up */
     TAHR_INPUT_DRIVE_ADD = 1 << 9, /* with DRIVE: it comes on top of state.velocity, and is not kept in it */
     TAHR_INPUT_DRIVE_LEVEL = 1 << 10, /* with DRIVE: only across up; falling goes on */
-    TAHR_INPUT_DROP = 1 << 11 /* fall through the one-way bodies that it stands on, one layer per press: it must be
-                                       * off for a step before it counts again. A press on another floor, where that
-                                       * holds too, or in the air is spent; a jump pressed with it does not start */
+    TAHR_INPUT_DROP = 1 << 11
 };
 
-/* What the player or an AI wants during one step. */
+/* What the player or an AI wants during one step. All vectors world frame. move: its length is the part, 0 to 1, of the
+ * mode's speed, longer is shortened to 1; the part along up counts only in swimming and flying. crouch: half height
+ * config.crouched_half_height, about the foot on ground, else about the centre; not of spheres and hulls, not while
+ * hanging. */
 typedef struct tahr_input {
     uint32_t struct_size;
-    uint32_t flags;   /* TAHR_INPUT_*: which of the optional fields below count */
-    uint32_t jump;    /* 1 while the button is held; a jump starts when it goes down */
-    uint32_t crouch;  /* 1 while crouched: half height config.crouched_half_height, about the foot on ground, else about
-                      * the centre; not of spheres and hulls, not while hanging */
-    tahr_vec3 move;   /* world; length 0..1 of the mode's speed, longer is shortened to 1; the part along up counts only
-                     * in
-                        * swimming and flying */
-    tahr_vec3 facing; /* with FACING: turn toward this direction */
+    uint32_t flags;     /* TAHR_INPUT_*: which of the optional fields below count */
+    uint32_t jump;      /* 1 while the button is held; a jump starts when it goes down */
+    uint32_t crouch;    /* 1 while crouched */
+    tahr_vec3 move;     /* where to, and how fast */
+    tahr_vec3 facing;   /* with FACING: turn toward this direction */
     tahr_vec3 gravity;  /* m/s2, with GRAVITY: instead of config.gravity */
     double radius;      /* m, with SHAPE; 0 of boxes, ellipsoids and hulls */
     double half_height; /* m, with SHAPE */

@@ -31,19 +31,20 @@ typedef tahr_status (*tahr_selftest_open_fn)(void *user, const tahr_world_desc *
 /* Closes a world of that function, and what is behind it. */
 typedef void (*tahr_selftest_close_fn)(void *user, tahr_world *world);
 
-/* Zero what you do not use. */
+/* Zero what you do not use. capabilities: without open 0; with open TAHR_CAP_* of the shapes that your sweep takes and
+ * of the bodies that you can build, MARGIN (but with TAHR_CALLBACKS_NO_MARGIN), and CONTACTS, RAY, SENSORS and ONE_WAY
+ * if you do them. */
 typedef struct tahr_selftest_desc {
     uint32_t struct_size;
-    uint32_t capabilities;      /* with open: TAHR_CAP_* of the shapes that your sweep takes, of the bodies that you can
-                             * build, MARGIN, and CONTACTS, RAY, SENSORS, ONE_WAY if you do them; without open: 0 */
-    const void *options;        /* for tahr_world_desc.options of every world that is opened */
-    double gap_tolerance;       /* m, of distances to a shape 1.8 m high, in proportion to others; 0: 9e-5 */
-    double angle_tolerance;     /* rad, of normals, up to 0.5; 0: 2 degrees */
-    const char *only;           /* run the cases whose name begins so; NULL: all */
-    tahr_selftest_fn report;    /* may be NULL */
-    void *user;                 /* of report, open and close */
-    const tahr_log *log;        /* what the worlds complain about; NULL: silent */
-    tahr_selftest_open_fn open; /* or NULL: tahr_world_open on the backend */
+    uint32_t capabilities;
+    const void *options;          /* for tahr_world_desc.options of every world that is opened */
+    double gap_tolerance;         /* m, of distances to a shape 1.8 m high, in proportion to others; 0: 9e-5 */
+    double angle_tolerance;       /* rad, of normals, up to 0.5; 0: 2 degrees */
+    const char *only;             /* run the cases whose name begins so; NULL: all */
+    tahr_selftest_fn report;      /* may be NULL */
+    void *user;                   /* of report, open and close */
+    const tahr_log *log;          /* what the worlds complain about; NULL: silent */
+    tahr_selftest_open_fn open;   /* or NULL: tahr_world_open on the backend */
     tahr_selftest_close_fn close; /* NULL: tahr_world_close */
 } tahr_selftest_desc;
 
@@ -51,10 +52,11 @@ typedef struct tahr_selftest_desc {
  * answers in closed form, near the origin and far away, asked through the same checks as in a step, and with
  * TAHR_CAP_PLANAR in the x-y plane with up = +y. What the capabilities do not claim is not supported; whatever they
  * claim must be right. [in] backend (NULL with desc.open), desc; [out] failed: how many failed, may be NULL; untouched
- * on error. Returns TAHR_OK (also if cases failed), TAHR_E_NULL (desc; backend and open both missing),
- * TAHR_E_STRUCT_SIZE, TAHR_E_ABI, TAHR_E_UNSUPPORTED (an unknown tail of desc not zero), TAHR_E_ARGUMENT (tolerances
- * not finite or out of range; capabilities without open; `only` that no case begins with), TAHR_E_MEMORY. Allocates by
- * malloc. Under a second on a fast backend, some seconds on a slow one. Since 0.1. */
+ * on error. Returns TAHR_OK (also if cases failed), TAHR_E_NULL (desc; backend and open both missing; an empty slot of
+ * the backend), TAHR_E_STRUCT_SIZE, TAHR_E_ABI, TAHR_E_UNSUPPORTED (an unknown tail of desc not zero), TAHR_E_ARGUMENT
+ * (tolerances not finite or out of range; a backend beside open; capabilities without open; `only` that no case begins
+ * with), TAHR_E_MEMORY; the log says which. Allocates by malloc; may run on several threads. Under a second on a fast
+ * backend, some seconds on a slow one. Since 0.1. */
 TAHR_API tahr_status tahr_backend_selftest(const tahr_backend *backend, const tahr_selftest_desc *desc,
                                            uint32_t *failed);
 

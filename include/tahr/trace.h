@@ -29,7 +29,8 @@ enum { TAHR_TRACE_STEPS_ONLY = 1, TAHR_TRACE_FLUSH = 2 };
 typedef size_t (*tahr_trace_write_fn)(void *user, const void *bytes, size_t size);
 typedef size_t (*tahr_trace_read_fn)(void *user, void *bytes, size_t size);
 
-/* Where it is written to or read from: a file by its path, or, where that is NULL, a function. Zero what is not used. */
+/* Where it is written to or read from: a file by its path, or, where that is NULL, a function. Zero what is not
+ * used. */
 typedef struct tahr_trace_desc {
     uint32_t struct_size;
     uint32_t flags; /* TAHR_TRACE_*, writing */
@@ -45,27 +46,28 @@ typedef struct tahr_trace_desc {
  * highest byte first), TAHR_E_MEMORY, TAHR_E_FILE. Allocates by malloc. Since 0.1. */
 TAHR_API tahr_status tahr_trace_open(const tahr_trace_desc *desc, tahr_trace **trace);
 
-/* For tahr_world_record; of one world, once. It holds at most one block of 64 kB and what one record needs, and some 700
- * bytes for each mover that it meets; allocates when it meets one. A write that fails ends it, and no step notices.
+/* For tahr_world_record; of one world, once. It holds at most one block of 64 kB and what one record needs, and some
+ * 700 bytes for each mover that it meets; allocates when it meets one. A write that fails ends it, and no step notices.
  * NULL for NULL. Valid until tahr_trace_close. Since 0.1. */
 TAHR_API const tahr_recorder *tahr_trace_recorder(tahr_trace *trace);
 
-/* What was recorded so far: steps, what the backend was asked, bytes (some may still be
- * buffered). Each may be NULL. Since 0.1. */
+/* What was recorded so far: steps, what the backend was asked, bytes (some may still be buffered). Each may be NULL.
+ * Since 0.1. */
 TAHR_API void tahr_trace_size(const tahr_trace *trace, uint64_t *steps, uint64_t *queries, uint64_t *bytes);
 
 /* Writes what is left and frees the trace, which must not be watching a world any more. Returns TAHR_OK for NULL and
  * where all was written, TAHR_E_FILE where a write failed, TAHR_E_MEMORY. Since 0.1. */
 TAHR_API tahr_status tahr_trace_close(tahr_trace *trace);
 
-/* A replay: a world that holds as many bodies as the file (any; their numbers come from it), with the reader's
- * recorder, which answers in place of the world's own backend. bindings/cli/replay.c is a whole one. */
+/* A replay: a world on tahr_backend_v1_trace that holds as many bodies as the file says (spheres will do: what they are
+ * comes from the file), with the reader's recorder, which answers in place of that backend; and of each step that
+ * tahr_trace_next hands over the same call of tahr_mover_step. bindings/cli/replay.c is a whole one. */
 typedef struct tahr_trace_reader tahr_trace_reader;
 
-/* Opens one and reads how the world began. [out] reader, untouched on failure. Returns TAHR_OK, TAHR_E_NULL (also neither
- * path nor read), TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (as above), TAHR_E_MEMORY, TAHR_E_NOT_FOUND (no such file),
- * TAHR_E_ABI (recorded by another version), TAHR_E_FILE (no trace, or broken): the log names the byte and what was
- * expected there. Allocates by malloc. Since 0.1. */
+/* Opens one and reads how the world began. [out] reader, untouched on failure. Returns TAHR_OK, TAHR_E_NULL (also
+ * neither path nor read), TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (as above), TAHR_E_MEMORY, TAHR_E_NOT_FOUND (no such
+ * file), TAHR_E_ABI (recorded by another version), TAHR_E_FILE (no trace, or broken): the log names the byte and what
+ * was expected there. Allocates by malloc. Since 0.1. */
 TAHR_API tahr_status tahr_trace_read(const tahr_trace_desc *desc, tahr_trace_reader **reader);
 
 /* Of the recorded world: how many bodies the replay's world must have, the name and version of its backend, valid until
@@ -74,22 +76,22 @@ TAHR_API uint32_t tahr_trace_bodies(const tahr_trace_reader *reader);
 TAHR_API const char *tahr_trace_backend_name(const tahr_trace_reader *reader);
 TAHR_API const char *tahr_trace_backend_version(const tahr_trace_reader *reader);
 
-/* A backend that holds the bodies of a replay and knows nothing else: tahr_backend_v1_trace. For tahr_world_record: the
- * world becomes the recorded one, and each query is compared bit for bit with the recorded one and answered like it; the
- * first that differs answers TAHR_E_BACKEND, after a message that names step, query and field. Since 0.1. */
+/* For tahr_world_record, on a world of tahr_backend_v1_trace: the world becomes the recorded one, and each query is
+ * compared bit for bit with the recorded one and answered like it; the first that differs answers TAHR_E_BACKEND, after
+ * a message that names step, query and field. NULL for NULL. Valid until tahr_trace_reader_close. Since 0.1. */
 TAHR_API const tahr_recorder *tahr_trace_answers(tahr_trace_reader *reader);
 
 enum { TAHR_TRACE_END = 0, TAHR_TRACE_MOVE = 1, TAHR_TRACE_STEP = 2, TAHR_TRACE_DONE = 3 };
 
-/* What happened next. Frozen. */
+/* What happened next. Of a step config is NULL but where the mover is new, and state NULL where it is what the mover's
+ * last step left. Of done state is NULL; TAHR_TRUNCATED counts as TAHR_OK: it tells of the report's room. Frozen. */
 typedef struct tahr_trace_event {
     uint32_t kind;         /* TAHR_TRACE_* */
     uint32_t queries_left; /* DONE: queries of the recorded step that nobody asked, but for those outside of steps */
     uint64_t number;       /* STEP, DONE: of the step, from 0; END: how many there were */
     tahr_record_move move; /* MOVE */
-    tahr_record_step step; /* STEP: config only where the mover is new, else NULL; state only where it is not what the
-                            * mover's last step left, else NULL */
-    tahr_record_done done; /* DONE: state is NULL; TAHR_TRUNCATED counts as TAHR_OK: it tells of the report's room */
+    tahr_record_step step; /* STEP */
+    tahr_record_done done; /* DONE */
 } tahr_trace_event;
 
 /* The next event, skipping queries that were not asked. [out] event; what it points to is valid until the next call.

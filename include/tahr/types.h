@@ -43,13 +43,13 @@ enum {
  * Sphere: radius; half_height equals radius. Capsule: radius and half_height with the caps in it (half_height >=
  * radius). Box: half extents half_x, half_y across the axis (in the frame of the orientation) and half_height along it;
  * radius 0. Cylinder: radius and half_height. Cone: radius of its base, which is below, and half_height. Ellipsoid: its
- * semi-axes are half_x, half_y and half_height; radius 0. Hull: the vertices of a body of the scene
- * (TAHR_BODY_HULL with TAHR_BODY_TEMPLATE) in the frame of the orientation, the middle of their extents at the position;
- * half_x, half_y and half_height are half those extents, radius 0; it keeps its size: it does not crouch. Boxes,
- * cylinders, cones and hulls stand on a flat base, which holds on an edge as long as a part of it does; rules that ask
- * how wide a hull is take its extents, and where a thinner one is asked for their box. Every size that counts lies within
- * 1e-6..1e4 m. Which of the shapes a backend sweeps its capabilities say. In a plane (TAHR_CAP_PLANAR) a sphere is a
- * circle and half_x is half the width; half_y does not count. */
+ * semi-axes are half_x, half_y and half_height; radius 0. Hull: the vertices of a body of the scene (TAHR_BODY_HULL
+ * with TAHR_BODY_TEMPLATE) in the frame of the orientation, the middle of their extents at the position; half_x, half_y
+ * and half_height are half those extents, radius 0; it keeps its size: it does not crouch. Boxes, cylinders, cones and
+ * hulls stand on a flat base, which holds on an edge as long as a part of it does; rules that ask how wide a hull is
+ * take its extents, and where a thinner one is asked for their box. Every size that counts lies within 1e-6..1e4 m.
+ * Which of the shapes a backend sweeps its capabilities say. In a plane (TAHR_CAP_PLANAR) a sphere is a circle and
+ * half_x is half the width; half_y does not count. */
 typedef struct tahr_shape {
     uint32_t type;      /* TAHR_SHAPE_* */
     uint32_t hull;      /* id of the body that lends its vertices, hulls only */
@@ -61,9 +61,10 @@ typedef struct tahr_shape {
 
 /* Sweep flags. LEAVE_OVERLAP: a surface that is overlapped at the start blocks only a motion that goes deeper in.
  * ONLY_BODY: the other way round: nothing is there but ignore_body (asked only of bodies that tahr_world_move moves).
- * SENSORS: only sensors are there, and nothing blocks; a motion of zero asks what the shape is inside of.
- * DROP: a one-way body that is within two margins at the start is not there (see TAHR_BODY_ONE_WAY).
- * WHOLE: one-way bodies block from all sides, as any other. PASS: none of them is there. */
+ * SENSORS: only sensors are there, and nothing blocks; a motion of zero asks what the shape is inside of. A
+ * tahr_sweep_fn never sees it: tahr_callbacks.sensors is asked instead.
+ * Of one-way bodies (TAHR_BODY_ONE_WAY), and nothing to who has none: DROP: one that is within two margins at
+ * the start is not there. WHOLE: they block from all sides, as any other. PASS: none of them is there. */
 enum {
     TAHR_SWEEP_LEAVE_OVERLAP = 1,
     TAHR_SWEEP_ONLY_BODY = 2,
@@ -93,7 +94,7 @@ typedef struct tahr_sweep {
 /* Contact query flags. SOLID: sensors are not there. DROP: one-way bodies are not there. */
 enum { TAHR_CONTACTS_SOLID = 1, TAHR_CONTACTS_DROP = 2 };
 
-/* "What is within margin of this shape here?" */
+/* "What is within margin of this shape here?" Fields of one name mean what they mean in tahr_sweep. */
 typedef struct tahr_contact_query {
     tahr_shape shape;
     tahr_vec3 position;
@@ -106,10 +107,10 @@ typedef struct tahr_contact_query {
     uint32_t reserved;
 } tahr_contact_query;
 
-/* "What does this segment meet first?" From origin to origin + motion. */
+/* "What does this segment meet first?" From origin to origin + motion. Sensors are not there. */
 typedef struct tahr_ray {
-    tahr_vec3 origin;
-    tahr_vec3 motion;
+    tahr_vec3 origin; /* world */
+    tahr_vec3 motion; /* m, world */
     uint32_t mask;
     uint32_t ignore_body;
 } tahr_ray;
@@ -118,15 +119,15 @@ typedef struct tahr_ray {
  * angle outside 0..90 degrees is taken as the nearer end. */
 enum { TAHR_WALKABLE_DEFAULT = 0, TAHR_WALKABLE_INCREASE = 1, TAHR_WALKABLE_DECREASE = 2, TAHR_WALKABLE_NEVER = 3 };
 
-/* Where a shape met something. All vectors world frame. */
+/* Where a shape met something. All vectors world frame. distance: the margin of an ordinary hit, less of what was
+ * closer already at the start. */
 typedef struct tahr_hit {
     uint32_t blocking;        /* 1: stops the motion; 0: a sensor, or nothing at all */
     uint32_t start_overlap;   /* 1: overlaps at the start: fraction 0, depth and normal say how to get out */
     uint32_t unknown;         /* 1: the backend gave up; free up to fraction, nothing known beyond */
     uint32_t sensor;          /* 1: reported, does not block */
     double fraction;          /* 0..1 of the motion */
-    double distance;          /* m, signed distance at that place: the margin of an ordinary hit, less if it was closer
-                      * already */
+    double distance;          /* m, signed distance at that place */
     double depth;             /* m, > 0 only with start_overlap */
     tahr_vec3 normal;         /* contact normal, unit, from the surface to the shape */
     tahr_vec3 surface_normal; /* unit, of the face; on an edge or vertex, of its face that opposes the motion most */
@@ -138,18 +139,18 @@ typedef struct tahr_hit {
     uint32_t feature; /* triangle of a mesh, face of a box or a hull, 0 of round bodies */
 } tahr_hit;
 
-/* One feature near a shape. */
+/* One feature near a shape. All vectors world frame; what tells of the surface as in tahr_hit. */
 typedef struct tahr_contact {
     double distance;          /* m, signed: negative is penetration depth */
     tahr_vec3 normal;         /* contact normal, unit, from the surface to the shape: the way out */
     tahr_vec3 surface_normal; /* unit, of the face; on an edge or vertex, of its face that faces the normal most */
     tahr_vec3 point;          /* on the surface */
-    double walkable_angle;
+    double walkable_angle;    /* rad */
     uint32_t walkable_rule;
     uint32_t surface;
     uint32_t body;
     uint32_t feature;
-    uint32_t sensor;
+    uint32_t sensor; /* 1: of a sensor */
     uint32_t reserved;
 } tahr_contact;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * world.h: describing a scene, opening a world on a backend or on your own callbacks, placing bodies,
- * asking directly. */
+ * world.h: describing a scene, opening a world on a backend or on your own callbacks, placing bodies, and asking
+ * directly. */
 #ifndef TAHR_WORLD_H
 #define TAHR_WORLD_H
 
@@ -14,7 +14,8 @@ typedef struct tahr_world tahr_world;
 struct tahr_backend;
 
 /* HULL: the convex hull of its vertices. HEIGHTS: a field of heights over local x and y. CHAIN: a line through its
- * vertices, in a plane (TAHR_CAP_PLANAR). What a backend holds its capabilities say. */
+ * vertices, in a plane (TAHR_CAP_PLANAR). Which of them a backend holds its capabilities say (TAHR_CAP_MESH, _SOLIDS,
+ * _ROUND_SOLIDS, _HULLS, _HEIGHTS, _CHAINS); another one is TAHR_E_UNSUPPORTED when the world is opened. */
 enum {
     TAHR_BODY_MESH = 1,
     TAHR_BODY_BOX = 2,
@@ -36,10 +37,10 @@ enum {
     TAHR_BODY_NO_BASE = 1 << 4,   /* stood on, but does not carry */
     TAHR_BODY_NO_STEP = 1 << 5,   /* not stepped up on */
     TAHR_BODY_CHARACTER = 1 << 6, /* stands for another character: see config.max_depenetration_character */
-    /* Stood on from above, passed from everywhere else: it is there only for a shape that does not overlap it, where the
-     * contact normal is within 60 degrees of up (tahr_one_way_blocks), and its edges only for what comes down on them.
-     * No wall, no ceiling, no step, no ledge to hang on. Bodies side by side are one platform. Of bodies that the world
-     * did not describe tahr_body_motion.flags tells. */
+    /* Stood on from above, passed from everywhere else: it is there only for a shape that does not overlap it, where
+     * the contact normal is within 60 degrees of up (tahr_one_way_blocks), and its edges only for what comes down on
+     * them. No wall, no ceiling, no step, no ledge to hang on. Bodies side by side are one platform. Not with SENSOR.
+     * Of bodies that the world did not describe tahr_body_motion.flags tells. */
     TAHR_BODY_ONE_WAY = 1 << 7,
     TAHR_BODY_LOOP = 1 << 8,    /* a chain: its last vertex is joined to the first */
     TAHR_BODY_TEMPLATE = 1 << 9 /* a hull: not there itself, it lends its vertices to TAHR_SHAPE_HULL */
@@ -49,10 +50,10 @@ enum {
  * Zero what you do not use: mask 0 means "all bits", a zero quaternion means identity. */
 typedef struct tahr_body_desc {
     uint32_t struct_size;
-    uint32_t type;  /* TAHR_BODY_* kind */
-    uint32_t flags; /* TAHR_BODY_* flags */
-    uint32_t mask;
-    tahr_pose pose;
+    uint32_t type;              /* TAHR_BODY_* kind */
+    uint32_t flags;             /* TAHR_BODY_* flags */
+    uint32_t mask;              /* queries with (body.mask & mask) == 0 do not find it */
+    tahr_pose pose;             /* world */
     uint32_t walkable_rule;     /* TAHR_WALKABLE_* */
     uint32_t surface;           /* handed back in hits and contacts */
     double walkable_angle;      /* rad, with INCREASE and DECREASE */
@@ -65,23 +66,24 @@ typedef struct tahr_body_desc {
     double radius;          /* m, sphere, capsule, cylinder, base of a cone */
     double half_height;     /* m, along local z: capsule (caps included), cylinder, cone (apex at +z) */
 
-    /* 3 per vertex, m, local, finite, |x| <= 1e7; copied. Of a mesh, a hull (4 to 256 in general position), a chain (2 or
-     * more; z does not count; its front is on the right hand of who goes along it seen from +z, so that a ring that runs
-     * counter-clockwise has it outside). */
+    /* 3 per vertex, m, local, finite, |x| <= 1e7; copied. Of a mesh, a hull (4 to 256 in general position), a chain (2
+     * or more; z does not count; its front is on the right hand of who goes along it seen from +z, so that a ring that
+     * runs counter-clockwise has it outside). */
     const double *vertices;
     const uint32_t *indices; /* mesh: 3 per triangle, counter-clockwise seen from the front; copied */
     uint32_t vertex_count;
     uint32_t triangle_count;
 
-    /* heights[row * columns + column], m along local z, at local x from -half_extents.x (column 0) to +half_extents.x and
-     * y likewise by row; NaN: a hole. Each cell is cut from its lowest corner (x, y) to its highest: triangle 2 * cell
-     * on the side of larger x, 2 * cell + 1 beside it, where cell = row * (columns - 1) + column; one with a hole at a
-     * corner is not there. At least 2 by 2, at most 65 536 each way, |height| <= 1e7; copied. */
+    /* heights[row * columns + column], m along local z, at local x from -half_extents.x (column 0) to +half_extents.x
+     * and y likewise by row; NaN: a hole. Each cell is cut from its lowest corner (x, y) to its highest: triangle
+     * 2 * cell on the side of larger x, 2 * cell + 1 beside it, where cell = row * (columns - 1) + column; one with a
+     * hole at a corner is not there. At least 2 by 2, at most 65 536 each way, |height| <= 1e7; copied. */
     const double *heights;
     uint32_t columns, rows;
 } tahr_body_desc;
 
-enum { TAHR_POSE_TELEPORT = 1 << 0 }; /* tahr_world_move: this body jumps there, and carries and pushes nobody */
+/* TELEPORT: in tahr_world_move this body jumps there, and carries and pushes nobody. */
+enum { TAHR_POSE_TELEPORT = 1 << 0 };
 
 typedef struct tahr_body_pose {
     uint32_t body;
@@ -106,8 +108,8 @@ typedef struct tahr_fluid_query {
     tahr_vec3 up;       /* unit */
     double radius;      /* m, half width of the shape */
     double half_height; /* m */
-    uint32_t mask;
-    uint32_t reserved;
+    uint32_t mask;      /* bodies with (body.mask & mask) == 0 are not there */
+    uint32_t reserved;  /* 0 */
 } tahr_fluid_query;
 
 typedef struct tahr_fluid {
@@ -129,9 +131,10 @@ typedef struct tahr_world_desc {
 } tahr_world_desc;
 
 /* [in] query, [out] hit (zeroed before the call: leaving it so means "free"). Fill in blocking, fraction and normal, or
- * start_overlap, depth and normal. What stays zero is derived: surface_normal from normal, distance from the margin,
- * point from the shape. Return TAHR_OK, or a negative status to end the step with TAHR_E_BACKEND. Called from the
- * stepping thread, or from the one that asks tahr_world_sweep. */
+ * start_overlap, depth and normal; and body, surface and feature if you have them. What stays zero is derived:
+ * surface_normal from normal, distance from the margin, point from the shape. Return TAHR_OK, or a negative status to
+ * end the step with TAHR_E_BACKEND. Called from the stepping thread, or from the one that asks tahr_world_sweep: from
+ * several at once if you step on several. */
 typedef tahr_status (*tahr_sweep_fn)(void *user, const tahr_sweep *query, tahr_hit *hit);
 /* [in] query, [out] contacts (capacity of them, zeroed before the call) and *count (0 before the call, at most
  * capacity): one per surface within query->margin, ordered by (distance, body, feature), with distance, normal,
@@ -159,22 +162,25 @@ typedef tahr_status (*tahr_body_fn)(void *user, uint32_t body, tahr_body_motion 
 typedef tahr_status (*tahr_fluid_fn)(void *user, const tahr_fluid_query *query, tahr_fluid *fluid);
 
 /* NO_MARGIN: the sweep does not know tahr_sweep.margin, it is always 0: the shape comes larger by it on all sides, and
- * what that overlaps by less is taken as near. Such a sweep must report overlaps at the start with depth and normal, and
- * honour TAHR_SWEEP_LEAVE_OVERLAP (look past what the motion leaves), for the larger shape of who stands on a floor
+ * what that overlaps by less is taken as near. Such a sweep must report overlaps at the start with depth and normal,
+ * and honour TAHR_SWEEP_LEAVE_OVERLAP (look past what the motion leaves), for the larger shape of who stands on a floor
  * overlaps it by a hair in every query. Lost is what a grown shape does not tell: where it overlaps two surfaces at
  * once only the deepest is known; the corners of a grown box are sharp, so beside an edge or corner it keeps up to 1.73
- * margins; distances are as good as the engine's depths of a few millimetres.
+ * margins; distances are as good as the engine's depths of a few millimetres. Hulls are not swept so.
  * PROBE: without a contacts function, what is near is felt for by 14 to 42 short sweeps, each of which counts as a
- * query. Of up to three planes within the margin at right angles all are found; others may be hidden behind nearer ones,
- * and an edge or corner is taken for the plane across its normal. */
+ * query. Of up to three planes within the margin at right angles all are found; others may be hidden behind nearer
+ * ones, and an edge or corner is taken for the plane across its normal. */
 enum { TAHR_CALLBACKS_NO_MARGIN = 1, TAHR_CALLBACKS_PROBE = 2 };
 
-/* Your own collision engine. Only sweep is required; sensors missing: there are none; body missing: nothing moves;
- * fluid missing: there is none; contacts missing: overlaps are those of sweeps that go nowhere, from the shape's place and
- * then from out of each overlap found, up to 4 of them, each told by its plane; what is near and not overlapped is not
- * known (but see PROBE); each of these sweeps counts as a query; ray missing: a sphere of 1 mm is swept, which meets
- * what passes within 1 mm and ends up to that much early. Copied; user must stay valid until the world is closed. The sweep must honour tahr_sweep.margin
- * (unless flags say otherwise) and every shape that a mover has. */
+/* Your own collision engine. Copied; user must stay valid until the world is closed. Only sweep is required; it must
+ * honour tahr_sweep.margin (unless flags say otherwise) and every shape that a mover has, of any size; for capsules
+ * spheres are swept too, for spheres capsules, with config.flat_base and for hulls boxes.
+ * sensors missing: there are none. body missing: nothing moves. fluid missing: there is none.
+ * contacts missing: overlaps are those of sweeps that go nowhere, from the shape's place and then from out of each
+ * overlap found, up to 4 of them, each told by its plane; what is near and not overlapped is not known (but see PROBE);
+ * each of these sweeps counts as a query.
+ * ray missing: a sphere of 1 mm is swept, which meets what passes within 1 mm and ends up to that much early.
+ * tahr_backend_selftest (selftest.h) tells whether your functions keep all this. */
 typedef struct tahr_callbacks {
     uint32_t struct_size;
     uint32_t flags; /* TAHR_CALLBACKS_* */
@@ -196,8 +202,9 @@ TAHR_API tahr_status tahr_body_desc_init(tahr_body_desc *desc, size_t size, uint
 /* Opens a scene on a backend. [out] world, untouched on failure; close it with tahr_world_close.
  * Returns TAHR_OK, TAHR_E_NULL (also an empty slot of the backend), TAHR_E_STRUCT_SIZE, TAHR_E_ABI (backend of another
  * ABI), TAHR_E_FLOAT_MODE, TAHR_E_GEOMETRY (index out of range, vertex not finite or beyond 1e7 m, mesh without
- * triangles), TAHR_E_ARGUMENT (type, flags, pose, size or rule of a body; options), TAHR_E_UNSUPPORTED (unknown tail of
- * a description not zero, or the backend cannot hold such a body), TAHR_E_MEMORY; the log names the body and the field.
+ * triangles, hull without a volume), TAHR_E_ARGUMENT (type, flags, pose, size or rule of a body; options),
+ * TAHR_E_UNSUPPORTED (unknown tail of a description not zero, or the backend cannot hold such a body), TAHR_E_MEMORY,
+ * and what the backend's own header adds; the log names the body and the field.
  * Allocates. Worlds may be opened, and closed, on several threads at once, if what they share (allocator, log, backend)
  * may be called so; an open world belongs to no thread. Since 0.1. */
 TAHR_API tahr_status tahr_world_open(const struct tahr_backend *backend, const tahr_world_desc *desc,
@@ -231,8 +238,7 @@ TAHR_API tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *pos
 TAHR_API tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *poses, uint32_t count, double dt);
 
 /* How a body moves now: its speeds are those of the last tahr_world_move, on the way to this pose. World frame, SI
- * units.
- * [out] motion, untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND, TAHR_E_BACKEND
+ * units. [out] motion, untouched on error. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_NOT_FOUND, TAHR_E_BACKEND
  * (an invalid answer of a callback). Allocates nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_world_body(tahr_world *world, uint32_t body, tahr_body_motion *motion);
 

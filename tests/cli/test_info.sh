@@ -23,4 +23,27 @@ tahr info --nonsense
 expect 2 "--nonsense"
 tahr info --json more
 expect 2 "more"
+
+# Every command explains itself, in both ways; a command that does not exist has no help.
+for command in run replay level info selftest; do
+    tahr help $command
+    expect 0 "usage: tahr $command"
+    cp "$work/out" "$work/help"
+    tahr $command --help
+    expect 0
+    cmp -s "$work/out" "$work/help" || fail "'tahr $command --help' differs from 'tahr help $command'"
+done
+tahr help fly
+expect 2 "unknown command 'fly'"
+tahr --version loud
+expect 2 "loud"
+tahr level side.tmj tour.json
+expect 2 "tour.json"
+if [ -w /dev/full ]; then
+    for arguments in "level side.tmj" info help; do
+        code=0
+        "$TAHR" $arguments >/dev/full 2>"$work/err" || code=$?
+        expect 1 "cannot write to standard output"
+    done
+fi
 finish

@@ -24,6 +24,8 @@ expect 1 "FAIL" "expected" "actual" ": 0 passed, 1 failed"
 
 tahr selftest --help
 expect 0 "usage: tahr selftest" "--only" "--json"
+tahr selftest native --help
+expect 0 "usage: tahr selftest"
 tahr help selftest
 expect 0 "usage: tahr selftest"
 tahr selftest

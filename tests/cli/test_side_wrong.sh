@@ -132,6 +132,11 @@ backends plane | while read -r backend; do
     tahr run --backend "$backend" --seconds 0.1
     expect 2 "expected --2d"
 done
+tahr run --preset platformer
+expect 2 "--preset platformer" "--2d"
+tahr run --level "$work/map.tmj"
+expect 2 "$work/map.tmj" "--2d"
+
 tahr level nonsense
 expect 2 "'nonsense'" side.tmj
 

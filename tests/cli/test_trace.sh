@@ -27,6 +27,10 @@ tahr run --seconds 2 --route "$work/route.json" --trace "$work/route.trace"
 expect 0 "wrote" "$work/route.trace" "bytes per step"
 tahr replay "$work/route.trace"
 expect 0 "repeated   120 steps of 1 character," "ok"
+for named in "--trace $work/route.trace" "--trace=$work/route.trace"; do
+    tahr replay $named
+    expect 0 "repeated   120 steps of 1 character," "ok"
+done
 
 # Cut off, spoiled, no trace at all.
 size=$(wc -c <"$work/native.trace")
@@ -53,10 +57,14 @@ tahr replay
 expect 2 "expected the name of one file"
 tahr replay one two
 expect 2 "expected the name of one file"
+tahr replay --trace
+expect 2 "expected the name of one file"
+tahr replay --csv "$work/route.trace"
+expect 2 "unknown option '--csv'" "--trace"
 tahr replay --help
-expect 0 "usage: tahr replay FILE"
+expect 0 "usage: tahr replay [--trace] FILE"
 tahr help replay
-expect 0 "usage: tahr replay FILE"
+expect 0 "usage: tahr replay [--trace] FILE"
 
 # Files that cannot be written.
 tahr run --seconds 1 --trace "$work/none/a.trace"
