@@ -1,6 +1,7 @@
 #!/bin/sh
 # run.sh: installs into an empty folder, moves it elsewhere, and uses it there as a stranger would: the README's quick
-# start by hand with pkg-config (shared and static), and a CMake project with find_package(tahr). BUILD is the build.
+# start and every backend, by hand with pkg-config (shared and static), in a CMake project with find_package(tahr) (with
+# and without C++), and as plugins. BUILD is the build.
 set -eu
 root=$PWD
 folder=$(mktemp -d)
@@ -36,27 +37,82 @@ if [ -e "$prefix/$LIBDIR/libtahr.so" ]; then
     ${CC:-cc} -std=c11 "$folder/program.c" $(pkg-config --cflags --libs tahr) -o "$folder/shared"
     LD_LIBRARY_PATH=$prefix/$LIBDIR "$folder/shared" | $checker
 fi
+# Only the archives are left in this one, so that -ltahr is libtahr.a.
+archives=$folder/archives
+mkdir -p "$archives/$LIBDIR"
+cp -r "$prefix/include" "$archives/include"
+cp -r "$prefix/$LIBDIR/pkgconfig" "$prefix/$LIBDIR"/*.a "$archives/$LIBDIR"
+pc_static() {
+    PKG_CONFIG_PATH=$archives/$LIBDIR/pkgconfig pkg-config --static --cflags --libs "$@"
+}
 # shellcheck disable=SC2046,SC2086
-${CC:-cc} -std=c11 "$folder/program.c" $(pkg-config --cflags tahr) "$prefix/$LIBDIR/libtahr.a" -lm \
-    -o "$folder/static"
+${CC:-cc} -std=c11 "$folder/program.c" $(pc_static tahr) -o "$folder/static"
 "$folder/static" | $checker
 
-# find_package: every exported target, in a project without C++; the second backend beside the library, both static and
-# both shared, whose shared code must not clash.
+# Which backends were built, and what a program that has all of them prints: the way to the cube is half of the ray.
+backends=
+expected="native 0.500"
+for backend in ccd fcl box2d trace template; do
+    [ -e "$prefix/$LIBDIR/libtahr_$backend.a" ] || continue
+    backends="$backends $backend"
+    case $backend in
+    trace) answer=trace ;;
+    *) answer="$backend 0.500" ;;
+    esac
+    expected="$expected
+$answer"
+done
+# runs WHAT COMMAND...: the program asks every backend that it was linked with.
+runs() {
+    what=$1
+    shift
+    out=$("$@") && [ "$out" = "$expected" ] || { printf 'install: %s prints\n%s\n' "$what" "$out"; exit 1; }
+    echo "install: $what runs with native$backends"
+}
+packages=tahr
+defines=
+for backend in $backends; do
+    packages="tahr_$backend $packages"
+    defines="$defines -DHAVE_$(echo "$backend" | tr a-z A-Z)"
+done
+# shellcheck disable=SC2046,SC2086
+${CC:-cc} -std=c11 $defines tests/install/project/backends.c $(pc_static $packages) -o "$folder/all_static"
+runs "the program by pkg-config --static" "$folder/all_static"
+plugins=
+for plugin in "$prefix/$LIBDIR"/libtahr_*.so; do
+    [ ! -e "$plugin" ] || plugins="$plugins $plugin"
+done
+if [ -e "$prefix/$LIBDIR/libtahr.so" ]; then
+    # shellcheck disable=SC2046,SC2086
+    ${CC:-cc} -std=c11 $defines tests/install/project/backends.c $(pkg-config --cflags --libs $packages) \
+        -o "$folder/all_shared"
+    runs "the program by pkg-config" env LD_LIBRARY_PATH="$prefix/$LIBDIR" "$folder/all_shared"
+    # shellcheck disable=SC2046,SC2086
+    ${CC:-cc} -std=c11 tests/install/project/backends.c $(pc_static tahr) -o "$folder/loader"
+    # shellcheck disable=SC2086
+    loaded=$("$folder/loader" $plugins | sort -u)
+    [ "$loaded" = "$(printf '%s\n' "$expected" | sort -u)" ] ||
+        { printf 'install: the plugins print\n%s\n' "$loaded"; exit 1; }
+    echo "install: every plugin loads by its path"
+fi
+
+# find_package: every exported target, in a project without C++ and in one with it; the backends beside the library, all
+# static, all shared, and mixed, whose shared code must not clash.
 cp -r tests/install/project "$folder/project"
 cp "$folder/program.c" "$folder/project/program.c"
-cmake -S "$folder/project" -B "$folder/project/build" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="${CC:-cc}" \
-    >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
-cmake --build "$folder/project/build" >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
-for program in "$folder"/project/build/program_*; do
-    [ -x "$program" ] && [ -f "$program" ] || continue
-    "$program" | $checker
-    echo "install: ${program##*/} runs"
-done
-for program in "$folder"/project/build/backends_*; do
-    [ -x "$program" ] && [ -f "$program" ] || continue
-    [ "$("$program")" = "native ccd" ] || { echo "install: ${program##*/} does not name both backends"; exit 1; }
-    echo "install: ${program##*/} runs"
+with_cxx=
+if command -v "${CXX:-c++}" >/dev/null 2>&1; then with_cxx=ON; fi
+for cxx in OFF $with_cxx; do
+    made=$folder/project/build_$cxx
+    cmake -S "$folder/project" -B "$made" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="${CC:-cc}" \
+        -DWITH_CXX=$cxx >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+    cmake --build "$made" --parallel 2 >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+    for kind in shared static mixed; do
+        runs "backends_$kind (C++ $cxx)" "$made/backends_$kind"
+    done
+    for kind in tahr tahr_static; do
+        "$made/program_$kind" | $checker
+    done
 done
 
 # Versions: an equal minor number fits, another does not.
