@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "backend_check.h"
 #include "message.h"
 #include "selftest.h"
 #include "sized.h"
@@ -95,11 +96,9 @@ static tahr_status check_arguments(const tahr_backend *backend, const tahr_selft
     if (!backend && !desc->open) {
         return tahr__complain(desc->log, TAHR_E_NULL, function, "backend", "is NULL, and so is desc.open");
     }
-    if (backend && backend->struct_size < sizeof *backend) {
-        return tahr__complain(desc->log, TAHR_E_STRUCT_SIZE, function, "backend.struct_size", "is too small");
-    }
-    if (backend && tahr_abi_check((uint32_t)backend->abi_major << 16 | backend->abi_minor) < 0) {
-        return tahr__complain(desc->log, TAHR_E_ABI, function, "backend", "was built for another ABI");
+    status = backend ? tahr__backend_check(backend, desc->log, function, NULL) : TAHR_OK;
+    if (status < 0) {
+        return status;
     }
     const char *bad = bad_field(backend, desc);
     if (bad) {
