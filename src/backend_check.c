@@ -60,8 +60,7 @@ static tahr_status find_problem(const tahr_backend *b, char *text, size_t room)
     }
     const char *missing = missing_slot(b);
     if (missing) {
-        snprintf(text, room, "%s is NULL, expected %s", missing,
-                 strstr(".name .version", strchr(missing, '.')) ? "a text" : "a function");
+        snprintf(text, room, "%s is NULL, expected %s", missing, b->name && b->version ? "a function" : "a text");
         return TAHR_E_NULL;
     }
     return TAHR_OK;

@@ -6,6 +6,7 @@
 #include "base_motion.h"
 #include "core.h"
 #include "drop.h"
+#include "fit.h"
 #include "jump.h"
 #include "launch.h"
 #include "limits.h"
@@ -32,38 +33,6 @@ static const double MIN_SLICE = 1e-9;
  * Each time costs some 40 queries to find where the floor ended. */
 enum { MAX_SLICES = 6 };
 
-/* In a world of two dimensions everybody stays in its plane. Returns the field that does not, or NULL. */
-static const char *out_of_plane(const tahr_world *world, const tahr_config *c)
-{
-    if (!(world->backend->capabilities & TAHR_CAP_PLANAR)) {
-        return NULL;
-    }
-    int planar = c->plane.x == 0 && c->plane.y == 0 && c->plane.z != 0;
-    return !planar ? "plane" : c->gravity.z != 0 ? "gravity" : NULL;
-}
-
-static int differs(double size, double half)
-{
-    return !(fabs(size - half) <= 1e-6 * half);
-}
-
-/* Described bodies only: of callbacks nothing is known. */
-static const char *bad_hull(const tahr_world *world, const tahr_shape *s)
-{
-    if (!world->bodies) {
-        return NULL;
-    }
-    const uint32_t id = s->hull;
-    if (id >= world->body_count || !(world->bodies[id].flags & TAHR_BODY_TEMPLATE)) {
-        return "shape.hull";
-    }
-    const vec3 half = world->bodies[id].half;
-    if (differs(s->half_x, half.x) || differs(s->half_y, half.y)) {
-        return differs(s->half_x, half.x) ? "shape.half_x" : "shape.half_y";
-    }
-    return differs(s->half_height, half.z) ? "shape.half_height" : NULL;
-}
-
 tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **out)
 {
     const char *field = NULL;
@@ -78,20 +47,9 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
         return tahr__complain(&world->log, status, "tahr_mover_create", field ? field : "config:",
                               field ? "is out of range or not finite" : tahr_status_message(status));
     }
-    if (!tahr__can_sweep(world, &config->shape)) {
-        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", "shape.type",
-                              "is not among the backend's shapes");
-    }
-    field = out_of_plane(world, config);
-    if (field) {
-        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", field,
-                              strcmp(field, "plane") == 0 ? "must be (0, 0, 1): the world has two dimensions, x and y"
-                                                          : "must have no z: the world has two dimensions, x and y");
-    }
-    field = config->shape.type == TAHR_SHAPE_HULL ? bad_hull(world, &config->shape) : NULL;
-    if (field) {
-        return tahr__complain(&world->log, TAHR_E_ARGUMENT, "tahr_mover_create", field,
-                              "does not fit a hull of the scene with TAHR_BODY_TEMPLATE");
+    status = tahr__fit_check(world, config, "tahr_mover_create");
+    if (status < 0) {
+        return status;
     }
     tahr_allocator a = world->memory.user;
     size_t cache_size = world->backend->cache_size ? world->backend->cache_size(world->self) : 0;

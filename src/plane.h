@@ -4,6 +4,7 @@
 #define TAHR_PLANE_H
 
 #include "core.h"
+#include "shape.h"
 
 static inline int is_in_plane(const tahr__step *step)
 {
@@ -27,10 +28,8 @@ static inline int may_rise(const tahr__step *step)
  * turned it would be another one in the plane. */
 static inline int is_flat(const tahr__step *step)
 {
-    uint32_t type = step->limits->shape.type;
     int planar = (step->world->backend->capabilities & TAHR_CAP_PLANAR) != 0;
-    int round = type != TAHR_SHAPE_BOX && type != TAHR_SHAPE_ELLIPSOID && type != TAHR_SHAPE_HULL;
-    return is_in_plane(step) && may_rise(step) && (planar || !round);
+    return is_in_plane(step) && may_rise(step) && (planar || !shape_is_round(&step->limits->shape));
 }
 
 /* Makes what a surface forbids into what it forbids in the plane: normal . x >= offset. Returns 0, and a half-space

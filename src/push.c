@@ -230,13 +230,12 @@ static uint32_t first_met(tahr__step *step, vec3 own, uint32_t *inside)
         if (time > 2 && meets(step, body, from, from, &m)) {
             time = 1 + m.time;
         }
-        if (time > 2 && is_inside(step, body, from)) {
-            time = 2;
-        }
-        *inside = time < soonest ? time == 2 : *inside;
+        int within = time > 2 && is_inside(step, body, from);
+        time = within ? 2 : time;
         if (time < soonest) {
             soonest = time;
             first = body;
+            *inside = (uint32_t)within;
         }
     }
     return first;

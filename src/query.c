@@ -7,6 +7,7 @@
 #include "drop.h"
 #include "plane.h"
 #include "query_record.h"
+#include "record.h"
 #include "trail.h"
 
 /* Field by field: compilers clear more than 96 bytes at once with a slow string instruction. */
@@ -36,10 +37,11 @@ static int may_ask(tahr__step *step)
     return 1;
 }
 
-/* A user's callbacks, if contacts are derived from their sweep. */
+/* A user's callbacks, if contacts are derived from their sweep; who watches the world changes nothing of that. */
 static const tahr_callbacks *derives_contacts(const tahr_world *world)
 {
-    const tahr_callbacks *user = is_callbacks(world->backend) ? world->self : NULL;
+    const struct tahr__recording *r = world->recording;
+    const tahr_callbacks *user = is_callbacks(r ? r->backend : world->backend) ? (r ? r->self : world->self) : NULL;
     return user && !user->contacts ? user : NULL;
 }
 
@@ -64,18 +66,23 @@ static void blocked_here(const tahr__step *step, tahr_hit *hit)
 /* Deeper than this (m) is an overlap; less is the rounding of a touch: of somebody put exactly onto a floor. */
 static const double TOUCHING = 1e-7;
 
-/* An overlap that is a touch blocks what approaches, and what leaves is asked for again. */
-static tahr_status touch(tahr__step *step, tahr_sweep *q, tahr_hit *hit, uint32_t *count)
+static tahr_status ask(tahr__step *step, const tahr_shape *shape, const tahr_sweep *q, tahr_hit *hit, uint32_t *count)
 {
-    if (dot(hit->normal, q->motion) < 0 || q->flags & TAHR_SWEEP_LEAVE_OVERLAP) {
+    step->report.sweeps++;
+    return step->trail && shape == &step->limits->shape ? tahr__sensing_sweep(step, q, hit, count)
+                                                        : answer_sweep(step->world, &step->context, q, hit, 1, count);
+}
+
+/* An overlap that is a touch blocks what approaches, and what leaves is asked for again, which counts as another. */
+static tahr_status touch(tahr__step *step, const tahr_shape *shape, tahr_sweep *q, tahr_hit *hit, uint32_t *count)
+{
+    if (dot(hit->normal, q->motion) < 0 || q->flags & TAHR_SWEEP_LEAVE_OVERLAP || !may_ask(step)) {
         hit->start_overlap = 0;
         hit->distance = hit->depth = 0;
         return TAHR_OK;
     }
-    tahr_sweep leaving = *q;
-    leaving.flags |= TAHR_SWEEP_LEAVE_OVERLAP;
-    step->report.sweeps++;
-    return answer_sweep(step->world, &step->context, &leaving, hit, 1, count);
+    q->flags |= TAHR_SWEEP_LEAVE_OVERLAP;
+    return ask(step, shape, q, hit, count);
 }
 
 void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
@@ -100,12 +107,9 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
                     .mask = step->config->mask,
                     .ignore_body = step->ignore_body,
                     .flags = flags};
-    step->report.sweeps++;
-    tahr_status status = step->trail && shape == &step->limits->shape
-                             ? tahr__sensing_sweep(step, &q, hit, &count)
-                             : answer_sweep(step->world, &step->context, &q, hit, 1, &count);
+    tahr_status status = ask(step, shape, &q, hit, &count);
     if (status >= 0 && count > 0 && hit->start_overlap && hit->depth <= TOUCHING) {
-        status = touch(step, &q, hit, &count);
+        status = touch(step, shape, &q, hit, &count);
     }
     if (status < 0) {
         step->error = status;

@@ -297,6 +297,45 @@ static void prepare_changes_nothing(tahr__lab *lab)
     same_bits(lab, 2);
 }
 
+/* The same of contacts and rays. */
+static void nan_contacts_and_rays(tahr__lab *lab)
+{
+    const tahr_backend *backend = lab->world->backend;
+    for (int i = 0; i < 4 && lab_goes_on(lab); i++) {
+        tahr_contact contact[2];
+        tahr_hit hit[2];
+        uint32_t contacts = 77, rays = 77;
+        tahr_contact_query place = {.shape = lab->shape,
+                                    .position = tahr__lab_at(lab, 0, 1.5),
+                                    .up = tahr__lab_up(lab),
+                                    .orientation = tahr__lab_upright(lab),
+                                    .margin = 1,
+                                    .mask = 0xFFFFFFFFu,
+                                    .ignore_body = TAHR_NO_BODY};
+        tahr_ray ray = {tahr__lab_at(lab, 0, 1.5), tahr__lab_along(lab, 0, -3), 0xFFFFFFFFu, TAHR_NO_BODY};
+        tahr_query_context context = {0};
+        double *in_place[] = {&place.position.x, &place.margin, &place.shape.half_height, &place.position.y};
+        double *in_ray[] = {&ray.origin.x, &ray.motion.x, &ray.motion.y, &ray.origin.y};
+        *in_place[i] = *in_ray[i] = i == 3 ? INFINITY : NAN;
+        tahr_status felt = tahr_world_contacts(lab->world, &place, contact, 1, &contacts);
+        tahr_status seen = tahr_world_ray(lab->world, &ray, hit, &rays);
+        tahr__lab_check(lab, felt == TAHR_E_ARGUMENT && seen == TAHR_E_ARGUMENT && contacts == 77 && rays == 77,
+                        "contacts and a ray that are no numbers: argument", "%s, field %d: %s and %s", lab->shape_name,
+                        i, tahr_status_name(felt), tahr_status_name(seen));
+        contacts = rays = 0;
+        memset(contact, CANARY, sizeof contact);
+        memset(hit, CANARY, sizeof hit);
+        felt = backend->contacts(lab->world->self, &context, &place, contact, 1, &contacts);
+        seen = backend->ray(lab->world->self, &context, &ray, hit, &rays);
+        const uint8_t *beyond = (const uint8_t *)&contact[1], *behind = (const uint8_t *)&hit[1];
+        tahr__lab_check(
+            lab, (felt < 0 || contacts <= 1) && (seen < 0 || rays <= 1) && beyond[0] == CANARY && behind[0] == CANARY,
+            "the slots contacts and ray come back: refused, or at most one answer",
+            "%s, field %d: %s with %u, %s with %u", lab->shape_name, i, tahr_status_name(felt), contacts,
+            tahr_status_name(seen), rays);
+    }
+}
+
 /* The library refuses such questions before a backend sees them; one that is asked all the same comes back. */
 static void nan_input(tahr__lab *lab)
 {
@@ -323,6 +362,7 @@ static void nan_input(tahr__lab *lab)
                             "the slot itself comes back: refused, or at most one answer",
                             "%s, field %d: %s, %u answers", lab->shape_name, i, tahr_status_name(status), count);
         }
+        nan_contacts_and_rays(lab);
     }
 }
 

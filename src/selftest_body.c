@@ -157,6 +157,11 @@ static void fluid(tahr__lab *lab)
     if (!tahr__lab_open(lab)) {
         return;
     }
+    if (!(lab->world->has & TAHR__HAS_FLUIDS)) { /* a user's callbacks need not know of fluids */
+        lab->checks = 0;
+        tahr__lab_lacks(lab, "the function fluid");
+        return;
+    }
     static const double heights[] = {-1, -0.5, 0, 0.25, 0.8, 1.5};
     for (int i = 0; i < 6; i++) {
         tahr_fluid found;

@@ -226,6 +226,27 @@ static void sensor_contacts(tahr__lab *lab)
     }
 }
 
+/* What is at -2 is met there by rays and contacts too, and nothing is left where it was. */
+static void placed_is_felt(tahr__lab *lab)
+{
+    tahr_hit hit;
+    tahr_contact c[4];
+    tahr_status status;
+    if (lab->claims & TAHR_CAP_RAY) {
+        int met = tahr__lab_ray(lab, tahr__lab_at(lab, 0, 1), tahr__lab_along(lab, 0, -4), &hit);
+        tahr__lab_check(lab, met && fabs(hit.fraction - 0.75) * 4 <= tahr__lab_slack(lab),
+                        "a ray onto it 2 m lower: fraction 0.75", "met %d, fraction %.9g", met, hit.fraction);
+    }
+    if (lab->claims & TAHR_CAP_CONTACTS) {
+        tahr_sweep here = tahr__lab_sweep(lab, 0, low_of(lab) + 0.005, 0, 0),
+                   there = tahr__lab_sweep(lab, 0, low_of(lab) - 1.995, 0, 0);
+        uint32_t none = tahr__lab_touch(lab, &here, 0.01, 0, c, 4, &status);
+        uint32_t some = tahr__lab_touch(lab, &there, 0.01, 0, c, 4, &status);
+        tahr__lab_check(lab, none == 0 && some >= 1, "contacts: none where it was, some where it is", "%s: %u and %u",
+                        lab->shape_name, none, some);
+    }
+}
+
 /* A floor that is lowered and put back. */
 static void placed(tahr__lab *lab)
 {
@@ -251,6 +272,7 @@ static void placed(tahr__lab *lab)
             return;
         }
         tahr__lab_stops(lab, &q, 2.99 / 8, tahr__lab_up(lab), "onto a floor that was placed 2 m lower");
+        placed_is_felt(lab);
         tahr_world_set(lab->world, &turned, 1);
         /* A quarter turn about its own origin: what was 8 m wide and 1 m thick is upright. */
         double top = lab->material == TAHR__OF_BOXES ? -0.5 + 4 : 4;
