@@ -2,7 +2,8 @@
  * bench_query.c: asks what wandering characters asked, one query at a time, and times and scores the answers.
  *
  * The score is the backward error: how far from its margin the shape is where the answer stops it. It is measured by the
- * contacts of the exact backend at that place, so no time of impact is compared, which a graze would make meaningless. */
+ * contacts of the exact backend at that place, so no time of impact is compared, which a graze would make meaningless.
+ * A one-way body counts there only if it is what stopped the sweep, or stops it in the exact answer. */
 #include "bench_query.h"
 
 #include <math.h>
@@ -11,12 +12,11 @@
 #include <string.h>
 #include <time.h>
 
-#include "scene_wander.h"
-
-enum { WALKERS = 16, RECORDS = 320, MAX_TICKS = 4000, ROUNDS = 5 };
+enum { WALKERS = 16, RECORDS = 320, MAX_TICKS = 4000, ROUNDS = 5, NEAR = 64 };
 
 static const double DT = 1.0 / 60;
-static const double TAU = 1e-6; /* m: what is nearer to a hit than this is neither hit nor miss */
+static const double TAU = 1e-6;    /* m: what is nearer to a hit than this is neither hit nor miss */
+static const double PASSED = 0.09; /* m of the way on or of the gap: no graze is that long */
 
 static double processor_seconds(void)
 {
@@ -47,21 +47,21 @@ static void keep(bench_queries *b, const tahr_query_record *r, const tahr_state 
     }
 }
 
-static int record(bench_queries *b, const bench_world *world, const tahr_config *config, tahr_mover *mover, char *error)
+static int record(bench_queries *b, const tahr_config *config, tahr_mover *mover, char *error)
 {
     static tahr_query_record records[RECORDS];
     uint64_t seed = 23;
     for (uint32_t i = 0; i < WALKERS; i++) {
         scene_wanderer wanderer;
         tahr_state state;
-        if (!scene_wander_spawn(b->exact, config, &world->spawn, &seed, &state)) {
+        if (!scene_wander_spawn(b->exact, config, &b->world->spawn, &seed, &state)) {
             snprintf(error, 256, "no place to start at");
             return 0;
         }
         scene_wander_start(&wanderer, 1, i);
         for (uint32_t t = 0; t < MAX_TICKS && b->sweep_count < (i + 1) * BENCH_MAX_QUERIES / WALKERS; t++) {
             tahr_report report = {.struct_size = sizeof report, .queries = records, .query_capacity = RECORDS};
-            if (tahr_mover_step(mover, scene_wander_next(&wanderer, DT), DT, &state, &report) < 0) {
+            if (tahr_mover_step(mover, bench_world_wish(b->world, &wanderer, DT), DT, &state, &report) < 0) {
                 snprintf(error, 256, "a step failed");
                 return 0;
             }
@@ -73,6 +73,23 @@ static int record(bench_queries *b, const bench_world *world, const tahr_config 
     return 1;
 }
 
+/* A world of the same bodies that block from all sides. */
+static tahr_status open_plain(bench_queries *b, const scene_backend *exact)
+{
+    const bench_world *w = b->world;
+    tahr_body_desc *bodies = malloc(w->body_count * sizeof *bodies);
+    if (!bodies) {
+        return TAHR_E_MEMORY;
+    }
+    memcpy(bodies, bench_world_bodies(w, exact), w->body_count * sizeof *bodies);
+    for (uint32_t i = 0; i < w->body_count; i++) {
+        bodies[i].flags &= ~(uint32_t)TAHR_BODY_ONE_WAY;
+    }
+    tahr_status status = scene_backend_open(exact, bodies, w->body_count, NULL, &b->plain);
+    free(bodies);
+    return status;
+}
+
 int bench_queries_make(bench_queries *b, const bench_world *world, char *error)
 {
     static const scene_backend exact = {
@@ -80,15 +97,20 @@ int bench_queries_make(bench_queries *b, const bench_world *world, char *error)
     tahr_config config;
     tahr_mover *mover = NULL;
     memset(b, 0, sizeof *b);
-    tahr_config_init(&config, sizeof config, TAHR_PRESET_PRECISE);
-    tahr_status status = scene_backend_open(&exact, &world->body, 1, NULL, &b->exact);
+    b->world = world;
+    bench_world_config(world, &config);
+    tahr_status status =
+        scene_backend_open(&exact, bench_world_bodies(world, &exact), world->body_count, NULL, &b->exact);
+    if (status >= 0) {
+        status = open_plain(b, &exact);
+    }
     if (status >= 0) {
         status = tahr_mover_create(b->exact, &config, &mover);
     }
     if (status < 0) {
         snprintf(error, 256, "%s", tahr_status_name(status));
     }
-    int ok = status >= 0 && record(b, world, &config, mover, error);
+    int ok = status >= 0 && record(b, &config, mover, error);
     tahr_mover_destroy(mover);
     if (!ok) {
         bench_queries_free(b);
@@ -99,13 +121,21 @@ int bench_queries_make(bench_queries *b, const bench_world *world, char *error)
 void bench_queries_free(bench_queries *b)
 {
     tahr_world_close(b->exact);
-    b->exact = NULL;
+    tahr_world_close(b->plain);
+    b->exact = b->plain = NULL;
 }
 
-/* How far the shape is from the nearest surface after a part of a sweep; HUGE_VAL if nothing is near. */
-static double clearance(const bench_queries *b, const tahr_sweep *q, double fraction)
+static int is_one_way(const bench_queries *b, uint32_t body)
 {
-    tahr_contact nearest;
+    const scene_tiles *tiles = b->world->tiles;
+    return tiles && body < SCENE_TILE_BODIES && (tiles->bodies[body].flags & TAHR_BODY_ONE_WAY) != 0;
+}
+
+/* How far the shape is from the nearest surface after a part of a sweep, of one-way bodies only that of stopped_by;
+ * HUGE_VAL if nothing is near. */
+static double clearance(const bench_queries *b, const tahr_sweep *q, double fraction, uint32_t stopped_by)
+{
+    tahr_contact near[NEAR];
     uint32_t count = 0;
     tahr_contact_query c = {.shape = q->shape,
                             .position = {q->position.x + q->motion.x * fraction, q->position.y + q->motion.y * fraction,
@@ -115,8 +145,36 @@ static double clearance(const bench_queries *b, const tahr_sweep *q, double frac
                             .margin = q->margin + 0.1,
                             .mask = q->mask,
                             .ignore_body = q->ignore_body};
-    tahr_status status = tahr_world_contacts(b->exact, &c, &nearest, 1, &count);
-    return status >= 0 && count > 0 ? nearest.distance : HUGE_VAL;
+    if (tahr_world_contacts(b->plain, &c, near, NEAR, &count) < 0) {
+        return HUGE_VAL;
+    }
+    for (uint32_t i = 0; i < count; i++) { /* the nearest first */
+        if (near[i].body == stopped_by || !is_one_way(b, near[i].body)) {
+            return near[i].distance;
+        }
+    }
+    return HUGE_VAL;
+}
+
+/* m of the way up to the hit of the exact answer, HUGE_VAL if it is free; *body is what it hits. */
+static double exact_way(const bench_queries *b, const tahr_sweep *q, uint32_t *body)
+{
+    tahr_hit hit;
+    uint32_t count = 0;
+    *body = TAHR_NO_BODY;
+    if (tahr_world_sweep(b->exact, q, &hit, 1, &count) < 0 || count == 0) {
+        return HUGE_VAL;
+    }
+    *body = hit.body;
+    return hit.fraction * sqrt(q->motion.x * q->motion.x + q->motion.y * q->motion.y + q->motion.z * q->motion.z);
+}
+
+/* Whether a one-way body stopped a sweep where the exact answer goes on. */
+static int is_passed(const bench_queries *b, const tahr_sweep *q, const tahr_hit *hit)
+{
+    uint32_t body;
+    double way = sqrt(q->motion.x * q->motion.x + q->motion.y * q->motion.y + q->motion.z * q->motion.z);
+    return is_one_way(b, hit->body) && exact_way(b, q, &body) > hit->fraction * way + PASSED;
 }
 
 static int by_value(const void *a, const void *b)
@@ -139,12 +197,14 @@ static void score(const bench_queries *b, const tahr_hit *hits, const uint32_t *
         if (!is_scored(&hits[i], counts[i])) {
             continue;
         }
-        double gap = clearance(b, q, counts[i] ? hits[i].fraction : 1) - q->margin;
         if (counts[i]) {
+            double gap = clearance(b, q, hits[i].fraction, hits[i].body) - q->margin;
             gaps[r->hits++] = fabs(gap);
-            r->false_hits += gap > 0.09;
+            r->false_hits += gap > PASSED || is_passed(b, q, &hits[i]);
         } else {
-            r->misses += gap < -TAU && clearance(b, q, 0) >= q->margin;
+            uint32_t body;
+            exact_way(b, q, &body);
+            r->misses += clearance(b, q, 1, body) < q->margin - TAU && clearance(b, q, 0, body) >= q->margin;
         }
     }
     qsort(gaps, r->hits, sizeof gaps[0], by_value);
@@ -195,7 +255,8 @@ tahr_status bench_queries_run(const bench_queries *b, const bench_world *world, 
     static uint32_t counts[BENCH_MAX_QUERIES];
     tahr_world *opened = NULL;
     memset(result, 0, sizeof *result);
-    tahr_status status = scene_backend_open(backend, &world->body, 1, NULL, &opened);
+    tahr_status status =
+        scene_backend_open(backend, bench_world_bodies(world, backend), world->body_count, NULL, &opened);
     if (status >= 0) {
         status = time_sweeps(b, opened, hits, counts, &result->sweep_ns);
     }

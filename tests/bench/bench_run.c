@@ -11,8 +11,6 @@
 #include <string.h>
 #include <time.h>
 
-#include "scene_wander.h"
-
 enum { WARM_UP_TICKS = 30, CLOCK_SAMPLES = 2001 };
 
 static const double DT = 1.0 / 60;
@@ -76,17 +74,17 @@ static void complain(void *user, int32_t level, const char *message)
 
 tahr_status bench_open(bench_opened *opened, const bench_world *world, const scene_backend *backend)
 {
-    tahr_native_desc native = {.struct_size = sizeof native, .precision = backend->precision};
+    scene_options options;
     tahr_allocator allocator = {opened, count_alloc, count_free};
     tahr_log log = {NULL, complain};
     tahr_world_desc desc;
     memset(opened, 0, sizeof *opened);
     tahr_world_desc_init(&desc, sizeof desc);
-    desc.bodies = &world->body;
-    desc.body_count = 1;
+    desc.bodies = bench_world_bodies(world, backend);
+    desc.body_count = world->body_count;
     desc.allocator = &allocator;
     desc.log = &log;
-    desc.options = backend->native ? &native : NULL;
+    desc.options = scene_backend_options(backend, &options);
     uint64_t before = nanoseconds(CLOCK_THREAD_CPUTIME_ID);
     tahr_status status = tahr_world_open(backend->get(), &desc, &opened->world);
     opened->build_seconds = 1e-9 * (double)(nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before);
@@ -110,7 +108,7 @@ static void crowd_free(crowd *c)
     free(c->wanderers);
 }
 
-static int crowd_make(crowd *c, bench_opened *opened, const tahr_bounds *spawn, char *error)
+static int crowd_make(crowd *c, bench_opened *opened, const bench_world *world, char *error)
 {
     c->movers = calloc(c->count, sizeof *c->movers);
     c->states = calloc(c->count, sizeof *c->states);
@@ -119,10 +117,10 @@ static int crowd_make(crowd *c, bench_opened *opened, const tahr_bounds *spawn, 
         snprintf(error, 256, "out of memory");
         return 0;
     }
-    tahr_config_init(&c->config, sizeof c->config, TAHR_PRESET_PRECISE);
+    bench_world_config(world, &c->config);
     for (uint32_t i = 0; i < c->count; i++) {
         tahr_status status = tahr_mover_create(opened->world, &c->config, &c->movers[i]);
-        if (status < 0 || !scene_wander_spawn(opened->world, &c->config, spawn, &c->seed, &c->states[i])) {
+        if (status < 0 || !scene_wander_spawn(opened->world, &c->config, &world->spawn, &c->seed, &c->states[i])) {
             snprintf(error, 256, "character %u: %s", i, status < 0 ? tahr_status_name(status) : "no place to start at");
             return 0;
         }
@@ -145,11 +143,12 @@ static void count(bench_result *r, const tahr_report *report, const tahr_state *
 }
 
 /* One step of everybody. times may be NULL: not counted then. */
-static int tick(crowd *c, tahr_world *world, const tahr_bounds *spawn, bench_result *r, uint32_t *times)
+static int tick(crowd *c, const bench_opened *opened, const bench_world *world, bench_result *r, uint32_t *times)
 {
+    const tahr_bounds *spawn = &world->spawn;
     for (uint32_t i = 0; i < c->count; i++) {
         tahr_report report = {.struct_size = sizeof report};
-        const tahr_input *input = scene_wander_next(&c->wanderers[i], DT);
+        const tahr_input *input = bench_world_wish(world, &c->wanderers[i], DT);
         uint64_t before = nanoseconds(CLOCK_MONOTONIC);
         tahr_status status = tahr_mover_step(c->movers[i], input, DT, &c->states[i], &report);
         uint64_t after = nanoseconds(CLOCK_MONOTONIC);
@@ -160,9 +159,10 @@ static int tick(crowd *c, tahr_world *world, const tahr_bounds *spawn, bench_res
             times[i] = after - before < UINT32_MAX ? (uint32_t)(after - before) : UINT32_MAX;
             count(r, &report, &c->states[i]);
         }
-        if (c->states[i].position.z < spawn->min.z - 10) {
+        tahr_vec3 at = c->states[i].position;
+        if (world->planar ? at.y < spawn->min.y - 10 : at.z < spawn->min.z - 10) {
             r->lost++;
-            if (!scene_wander_spawn(world, &c->config, spawn, &c->seed, &c->states[i])) {
+            if (!scene_wander_spawn(opened->world, &c->config, spawn, &c->seed, &c->states[i])) {
                 return 0;
             }
         }
@@ -192,14 +192,14 @@ int bench_run(bench_opened *opened, const bench_world *world, uint32_t character
     uint32_t *times = malloc(sizeof *times * characters * ticks);
     memset(result, 0, sizeof *result);
     result->characters = characters;
-    int ok = times != NULL && crowd_make(&c, opened, &world->spawn, error);
+    int ok = times != NULL && crowd_make(&c, opened, world, error);
     result->bytes_per_mover = (opened->held - held) / characters;
     for (uint32_t t = 0; ok && t < WARM_UP_TICKS; t++) {
-        ok = tick(&c, opened->world, &world->spawn, result, NULL);
+        ok = tick(&c, opened, world, result, NULL);
     }
     uint64_t before = nanoseconds(CLOCK_THREAD_CPUTIME_ID);
     for (uint32_t t = 0; ok && t < ticks; t++) {
-        ok = tick(&c, opened->world, &world->spawn, result, times + (size_t)t * characters);
+        ok = tick(&c, opened, world, result, times + (size_t)t * characters);
     }
     uint64_t cpu = nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before;
     if (ok) {

@@ -4,7 +4,6 @@
 #define TAHR_BENCH_RUN_H
 
 #include "bench_world.h"
-#include "scene_backend.h"
 
 typedef struct bench_result {
     uint32_t characters;

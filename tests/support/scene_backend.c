@@ -4,9 +4,6 @@
 
 #include <stdio.h>
 
-#ifdef TAHR_HAVE_BOX2D
-#include <tahr/box2d.h>
-#endif
 #ifdef TAHR_HAVE_CCD
 #include <tahr/ccd.h>
 #endif
@@ -50,27 +47,31 @@ static void complain(void *user, int32_t level, const char *message)
     }
 }
 
+const void *scene_backend_options(const scene_backend *backend, scene_options *room)
+{
+    if (backend->planar) {
+        room->box2d = (tahr_box2d_desc){.struct_size = sizeof room->box2d, .engine = backend->precision};
+    } else if (backend->native) {
+        room->native = (tahr_native_desc){.struct_size = sizeof room->native, .precision = backend->precision};
+    }
+    return backend->planar || backend->native ? room : NULL;
+}
+
 tahr_status scene_backend_open(const scene_backend *backend, const tahr_body_desc *bodies, uint32_t count,
                                const tahr_native_desc *options, tahr_world **world)
 {
     tahr_log log = {NULL, complain};
-    tahr_native_desc native = {.struct_size = sizeof native};
-#ifdef TAHR_HAVE_BOX2D
-    tahr_box2d_desc box2d = {.struct_size = sizeof box2d, .engine = backend->precision};
-#endif
+    scene_options own;
     tahr_world_desc desc;
     tahr_world_desc_init(&desc, sizeof desc);
-    if (options) {
-        native = *options;
-    }
-    native.struct_size = sizeof native;
-    native.precision = backend->precision;
     desc.bodies = bodies;
     desc.body_count = count;
     desc.log = &log;
-    desc.options = backend->native ? &native : NULL;
-#ifdef TAHR_HAVE_BOX2D
-    desc.options = backend->planar ? (const void *)&box2d : desc.options;
-#endif
+    desc.options = scene_backend_options(backend, &own);
+    if (options && backend->native) {
+        own.native = *options;
+        own.native.struct_size = sizeof own.native;
+        own.native.precision = backend->precision;
+    }
     return tahr_world_open(backend->get(), &desc, world);
 }

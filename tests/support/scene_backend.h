@@ -3,6 +3,7 @@
 #ifndef TAHR_TEST_SCENE_BACKEND_H
 #define TAHR_TEST_SCENE_BACKEND_H
 
+#include <tahr/box2d.h>
 #include <tahr/native.h>
 #include <tahr/tahr.h>
 
@@ -30,6 +31,15 @@ extern const int SCENE_BACKEND_COUNT;
 /* Those of two. One more than the count, so that there may be none. */
 extern const scene_backend SCENE_PLANAR_BACKENDS[];
 extern const int SCENE_PLANAR_BACKEND_COUNT;
+
+/* Room for what a backend's own description is. */
+typedef union scene_options {
+    tahr_native_desc native;
+    tahr_box2d_desc box2d;
+} scene_options;
+
+/* What tahr_world_desc.options has to be for a backend: room, filled in, or NULL. */
+const void *scene_backend_options(const scene_backend *backend, scene_options *room);
 
 /* Opens bodies on a backend. options, for native backends only, may be NULL; its precision is overwritten. */
 tahr_status scene_backend_open(const scene_backend *backend, const tahr_body_desc *bodies, uint32_t count,

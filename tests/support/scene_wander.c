@@ -45,12 +45,31 @@ static int is_free(tahr_world *world, const tahr_config *config, const tahr_stat
     return tahr_world_contacts(world, &query, &contact, 1, &count) == TAHR_OK && count == 0;
 }
 
-/* The ground of one storey under (x, y), the one at or below from. */
+static int is_planar(const tahr_config *config)
+{
+    return config->plane.z != 0;
+}
+
+/* The part of v along up. */
+static double height(const tahr_config *config, tahr_vec3 v)
+{
+    return is_planar(config) ? v.y : v.z;
+}
+
+static tahr_vec3 at_height(const tahr_config *config, tahr_vec3 v, double h)
+{
+    return is_planar(config) ? (tahr_vec3){v.x, h, 0} : (tahr_vec3){v.x, v.y, h};
+}
+
+/* The ground of one storey under a place, the one at or below from. */
 static int ground(tahr_world *world, const tahr_config *config, tahr_vec3 from, double low, tahr_hit *hit)
 {
     uint32_t count = 0;
-    double way = low - 1 - from.z;
-    tahr_ray ray = {.origin = from, .motion = {0, 0, way}, .mask = config->mask, .ignore_body = TAHR_NO_BODY};
+    double way = low - 1 - height(config, from);
+    tahr_ray ray = {.origin = from,
+                    .motion = at_height(config, (tahr_vec3){0, 0, 0}, way),
+                    .mask = config->mask,
+                    .ignore_body = TAHR_NO_BODY};
     return way < 0 && tahr_world_ray(world, &ray, hit, &count) == TAHR_OK && count == 1;
 }
 
@@ -58,19 +77,20 @@ int scene_wander_spawn(tahr_world *world, const tahr_config *config, const tahr_
                        tahr_state *state)
 {
     for (int i = 0; i < SPAWN_TRIES; i++) {
-        tahr_vec3 from = {between(seed, bounds->min.x, bounds->max.x), between(seed, bounds->min.y, bounds->max.y),
-                          bounds->max.z + 1};
+        tahr_vec3 from = {between(seed, bounds->min.x, bounds->max.x), between(seed, bounds->min.y, bounds->max.y), 0};
+        from = at_height(config, from, height(config, bounds->max) + 1);
         uint32_t storey = draw(seed) % MAX_STOREYS;
         for (uint32_t k = 0; k <= storey; k++) {
             tahr_hit hit;
-            if (!ground(world, config, from, bounds->min.z, &hit)) {
+            if (!ground(world, config, from, height(config, bounds->min), &hit)) {
                 break;
             }
-            from.z = hit.point.z - 0.01;
+            double h = height(config, hit.point);
+            from = at_height(config, from, h - 0.01);
             /* 0.2 m above the ground: free of it on slopes of up to 45 degrees, (1/cos 45 - 1) * 0.35 = 0.145 m */
-            tahr_vec3 place = {from.x, from.y, hit.point.z + config->shape.half_height + 0.2};
+            tahr_vec3 place = at_height(config, from, h + config->shape.half_height + 0.2);
             tahr_state_init(state, config, &place);
-            if (k % 2 == storey % 2 && hit.surface_normal.z > 0.71 && is_free(world, config, state)) {
+            if (k % 2 == storey % 2 && height(config, hit.surface_normal) > 0.71 && is_free(world, config, state)) {
                 return 1;
             }
         }
@@ -109,6 +129,19 @@ const tahr_input *scene_wander_next(scene_wanderer *w, double dt)
         w->input.move = (tahr_vec3){speed * cos(angle), speed * sin(angle), 0};
         w->time_left += 0.5 + 1.5 * unit(w);
         w->input.jump = unit(w) < 0.05;
+        w->changes++;
+    }
+    w->time_left -= dt;
+    return &w->input;
+}
+
+const tahr_input *scene_wander_next_side(scene_wanderer *w, double dt)
+{
+    w->input.jump = 0;
+    if (w->time_left <= 0) {
+        w->input.move = (tahr_vec3){unit(w) < 0.5 ? -5.0 / 6 : 5.0 / 6, 0, 0};
+        w->time_left += 0.5 + 1.5 * unit(w);
+        w->input.jump = unit(w) < 0.5;
         w->changes++;
     }
     w->time_left -= dt;

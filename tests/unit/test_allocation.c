@@ -15,7 +15,14 @@
 #ifdef TAHR_HAVE_CCD
 #include <tahr/ccd.h>
 #endif
+#ifdef TAHR_HAVE_FCL
+#include <tahr/fcl.h>
+#endif
 #include <tahr/native.h>
+
+#include "scene_backend.h"
+#include "scene_tiles.h"
+#include "scene_wander.h"
 
 /* Every call of the C library's allocator in this process, libccd's included: the user's allocator sees only what is
  * asked of it. */
@@ -242,6 +249,9 @@ static void no_step_of_any_backend_touches_the_heap(void **unused)
 #ifdef TAHR_HAVE_CCD
         tahr_backend_v1_ccd(),
 #endif
+#ifdef TAHR_HAVE_FCL
+        tahr_backend_v1_fcl(),
+#endif
     };
     (void)unused;
     if (!watch_heap()) {
@@ -276,6 +286,60 @@ static void no_step_of_any_backend_touches_the_heap(void **unused)
             tahr_mover_destroy(mover);
             tahr_world_close(world);
         }
+    }
+}
+
+/* Running, jumping and dropping through tiles, stairs, slopes, walls and one-way platforms. */
+static uint64_t heap_calls_in_a_plane(const scene_backend *backend, const scene_tiles *tiles)
+{
+    tahr_world *world = NULL;
+    tahr_mover *mover = NULL;
+    uint64_t seed = 3, calls = 0;
+    long modes[TAHR_MODE_CUSTOM + 1] = {0};
+    tahr_config c;
+    tahr_config_init(&c, sizeof c, TAHR_PRESET_PLATFORMER);
+    assert_int_equal(
+        scene_backend_open(backend, scene_tiles_for(tiles, backend->get()), SCENE_TILE_BODIES, NULL, &world), TAHR_OK);
+    assert_int_equal(tahr_mover_create(world, &c, &mover), TAHR_OK);
+    for (uint32_t i = 0; i < 8; i++) {
+        scene_wanderer wanderer;
+        tahr_state state;
+        assert_true(scene_wander_spawn(world, &c, &tiles->bounds, &seed, &state));
+        scene_wander_start(&wanderer, 1, i);
+        for (int n = 0; n < 300; n++) {
+            tahr_input input = *scene_wander_next_side(&wanderer, 1.0 / 60);
+            input.flags = n % 50 == 49 ? TAHR_INPUT_DROP : 0;
+            input.crouch = n % 90 > 80;
+            if (n % 100 == 99) { /* into the ground */
+                state.position.y = -0.3;
+                state.floor_revision = 0;
+            }
+            uint64_t before = heap_calls;
+            assert_true(tahr_mover_step(mover, &input, 1.0 / 60, &state, NULL) >= 0);
+            calls += heap_calls - before;
+            modes[state.mode]++;
+        }
+    }
+    assert_true(modes[TAHR_MODE_WALKING] > 400 && modes[TAHR_MODE_FALLING] > 100);
+    tahr_mover_destroy(mover);
+    tahr_world_close(world);
+    return calls;
+}
+
+static void no_step_in_a_plane_touches_the_heap(void **unused)
+{
+    static scene_tiles tiles;
+    (void)unused;
+    if (!watch_heap()) {
+        print_message("SKIP: unit_allocation: no way to count this C library's allocations\n");
+        skip();
+    }
+    scene_tiles_make(&tiles);
+    for (int i = 0; i < SCENE_BACKEND_COUNT; i++) {
+        assert_int_equal(heap_calls_in_a_plane(&SCENE_BACKENDS[i], &tiles), 0);
+    }
+    for (int i = 0; i < SCENE_PLANAR_BACKEND_COUNT; i++) {
+        assert_int_equal(heap_calls_in_a_plane(&SCENE_PLANAR_BACKENDS[i], &tiles), 0);
     }
 }
 
@@ -519,6 +583,7 @@ int main(void)
                                        cmocka_unit_test(a_thousand_steps_allocate_nothing),
                                        cmocka_unit_test(no_step_of_any_backend_touches_the_heap),
                                        cmocka_unit_test(no_step_of_any_feature_touches_the_heap),
+                                       cmocka_unit_test(no_step_in_a_plane_touches_the_heap),
 #ifdef TAHR_HAVE_CCD
                                        cmocka_unit_test(no_query_of_any_convex_shape_touches_the_heap),
 #endif

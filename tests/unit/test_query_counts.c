@@ -18,6 +18,7 @@
 #include "parity.h"
 #include "perch.h"
 #include "rig.h"
+#include "scene_backend.h"
 #include "slide.h"
 #include "step_up.h"
 #include "walk_two_walls.h"
@@ -80,6 +81,64 @@ static void bodies_are_asked_as_often_as_closed_forms(void **unused)
         rig_steps(&r, 60, 1.0 / 60);
         expect_each(&r, 20, standing);
         rig_close(&r);
+    }
+}
+
+static void walk(tahr_mover *mover, const tahr_input *input, tahr_state *s, int steps)
+{
+    for (int i = 0; i < steps; i++) {
+        assert_true(tahr_mover_step(mover, input, 1.0 / 60, s, NULL) >= 0);
+    }
+}
+
+static void expect_each_step(tahr_mover *mover, const tahr_input *input, tahr_state *s, int steps, uint32_t sweeps)
+{
+    for (int i = 0; i < steps; i++) {
+        tahr_report report = {.struct_size = sizeof report};
+        assert_true(tahr_mover_step(mover, input, 1.0 / 60, s, &report) >= 0);
+        assert_int_equal(s->mode, TAHR_MODE_WALKING);
+        assert_int_equal(report.sweeps, sweeps);
+        assert_int_equal(report.contact_queries + report.rays + report.fluid_queries, 0);
+    }
+}
+
+/* Twenty-five flush tiles of a metre; 2 s at 6 m/s pass over twelve seams. In a plane up is +y. */
+static void walk_over_tiles(const scene_backend *backend)
+{
+    tahr_body_desc tiles[25];
+    tahr_world *world = NULL;
+    tahr_mover *mover = NULL;
+    tahr_state s;
+    tahr_config c;
+    tahr_input input = {.struct_size = sizeof input};
+    tahr_config_init(&c, sizeof c, backend->planar ? TAHR_PRESET_PLATFORMER : TAHR_PRESET_PRECISE);
+    for (int i = 0; i < 25; i++) {
+        tahr_vec3 middle = backend->planar ? fake_vec(i - 2, -0.5, 0) : fake_vec(i - 2, 0, -0.5);
+        tiles[i] = native_box(middle, backend->planar ? fake_vec(0.5, 0.5, 5) : fake_vec(0.5, 5, 0.5));
+    }
+    tahr_vec3 at = backend->planar ? fake_vec(0, 1, 0) : fake_vec(0, 0, 1);
+    assert_int_equal(scene_backend_open(backend, tiles, 25, NULL, &world), TAHR_OK);
+    assert_int_equal(tahr_mover_create(world, &c, &mover), TAHR_OK);
+    tahr_state_init(&s, &c, &at);
+    walk(mover, &input, &s, 60);
+    expect_each_step(mover, &input, &s, 20, 0); /* asleep */
+    input.move.x = 1;
+    walk(mover, &input, &s, 30); /* up to speed, which is a bend of the way and one sweep more */
+    double from = s.position.x;
+    expect_each_step(mover, &input, &s, 120, 2);
+    assert_near(s.position.x - from, 12, 1e-9);
+    tahr_mover_destroy(mover);
+    tahr_world_close(world);
+}
+
+static void a_walk_over_flush_tiles_asks_two_sweeps_on_every_backend(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < SCENE_BACKEND_COUNT; i++) {
+        walk_over_tiles(&SCENE_BACKENDS[i]);
+    }
+    for (int i = 0; i < SCENE_PLANAR_BACKEND_COUNT; i++) {
+        walk_over_tiles(&SCENE_PLANAR_BACKENDS[i]);
     }
 }
 
@@ -357,6 +416,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(walking_on_flat_ground_asks_two_standing_one_cached_none),
         cmocka_unit_test(bodies_are_asked_as_often_as_closed_forms),
+        cmocka_unit_test(a_walk_over_flush_tiles_asks_two_sweeps_on_every_backend),
         cmocka_unit_test(crouching_asks_at_most_one_and_standing_up_at_most_three),
         cmocka_unit_test(every_slice_of_a_long_step_asks_as_a_step),
         cmocka_unit_test(a_correction_of_the_height_asks_one_more),
