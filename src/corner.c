@@ -6,6 +6,7 @@
  * so not on the frame rate. */
 #include "corner.h"
 
+#include "launch.h"
 #include "plane.h"
 #include "query.h"
 #include "report.h"
@@ -84,7 +85,7 @@ static uint32_t directions_of(const tahr__step *step, const tahr_hit *hit, vec3 
     return length_squared(level) > 0;
 }
 
-int tahr__clear_corner(tahr__step *step, const tahr_hit *hit)
+int tahr__clear_corner(tahr__step *step, const tahr_hit *hit, vec3 *aside)
 {
     tahr_state *s = &step->state;
     vec3 directions[4];
@@ -95,15 +96,22 @@ int tahr__clear_corner(tahr__step *step, const tahr_hit *hit)
     }
     uint32_t count = directions_of(step, hit, directions);
     for (uint32_t i = 0; i < count; i++) {
-        double aside = way_aside(step, directions[i]);
-        if (aside < least) {
-            least = aside;
+        double way = way_aside(step, directions[i]);
+        if (way < least) {
+            least = way;
             best = i;
         }
     }
     if (least > most || step->error < 0) {
         return tahr__decide(step, TAHR_RULE_CORNER, 0, hit, least, most, "no way past the corner");
     }
-    s->position = add_scaled(s->position, directions[best], least);
+    *aside = directions[best];
+    s->position = add_scaled(s->position, *aside, least);
     return tahr__decide(step, TAHR_RULE_CORNER, 1, hit, least, most, "aside, past the corner");
+}
+
+int tahr__returns_to_corner(const tahr__step *step, vec3 aside)
+{
+    return dot(step->state.velocity, aside) < 0 || dot(step->input->move, aside) < 0 ||
+           (is_drifting(step) && dot(drive_of(step), aside) < 0);
 }

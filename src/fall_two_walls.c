@@ -151,14 +151,18 @@ static int hangs(tahr__step *step, fall *f)
 }
 
 /* What was met and is no floor: a corner is gone past, a wall noted and perhaps jumped off. Returns 1 if the slice is
- * over for it. */
-static int feels(tahr__step *step, fall *f, const tahr_hit *hit)
+ * over for it. What is beside a corner that it would come back to is slid along as a wall. */
+static int feels(tahr__step *step, fall *f, tahr_hit *hit)
 {
+    vec3 aside;
     int asked = press_is_remembered(step), feel = (int)step->limits->feel;
     const vec3 end = step->state.velocity; /* of the slice; here it is as far as its time is */
     step->state.velocity = add_scaled(f->before, sub(end, f->before), 1 - f->rest / f->h);
-    int over = feel & TAHR__FEEL_CORNERS && tahr__clear_corner(step, hit);
-    if (!over && feel & TAHR__FEEL_WALLS && tahr__meet_wall(step, hit)) {
+    int over = feel & TAHR__FEEL_CORNERS && tahr__clear_corner(step, hit, &aside);
+    if (over && tahr__returns_to_corner(step, aside)) {
+        hit->normal = hit->surface_normal = aside;
+        over = 0;
+    } else if (!over && feel & TAHR__FEEL_WALLS && tahr__meet_wall(step, hit)) {
         over = asked && !press_is_remembered(step);
     }
     if (over) {
@@ -316,7 +320,7 @@ static int meet_second(tahr__step *step, fall *f, const tahr_hit *first, vec3 mo
 /* Blocked: lands, or slides. */
 static int meet(tahr__step *step, fall *f)
 {
-    const tahr_hit first = f->swept.hit;
+    tahr_hit first = f->swept.hit;
     if (tahr__is_valid_landing_spot(step, &f->swept) ||
         (tahr__should_check_landing_spot(step, &first) && tahr__finds_landing_spot(step))) {
         return LANDS;

@@ -363,6 +363,19 @@ static int hangs(tahr__step *step, fall *f)
     return depth >= -c->ledge_grab && tahr__grab_edge(step, facing, &f->edge);
 }
 
+/* The head is past the corner but for its rounding, which would meet it again and again without rising: what is beside
+ * it is a wall already. */
+static void keep_beside(tahr__step *step, fall *f, const tahr_hit *hit, vec3 aside)
+{
+    if (tahr__returns_to_corner(step, aside)) {
+        tahr__plane wall = tahr__plane_of(step, hit);
+        wall.normal = aside;
+        wall.offset = 0;
+        tahr__planes_add(f->planes, &f->plane_count, &wall);
+        step->state.velocity = slide_in_air(step, f, step->state.velocity);
+    }
+}
+
 /* Held by steep faces on all sides: that is a floor too. */
 static int lands_in_wedge(tahr__step *step, tahr_floor *floor)
 {
@@ -375,7 +388,7 @@ static tahr__next fall_slice(tahr__step *step, double time)
     fall f; /* of its planes only what is counted is read */
     tahr_floor floor;
     tahr_hit hit;
-    vec3 start = step->state.position;
+    vec3 start = step->state.position, aside;
     uint32_t hits = 0;
     f.left = time;
     f.plane_count = 0;
@@ -403,7 +416,8 @@ static tahr__next fall_slice(tahr__step *step, double time)
         if (lands(step, &hit, &floor)) {
             return land(step, &hit, &floor, f.left);
         }
-        if (step->limits->feel & TAHR__FEEL_CORNERS && tahr__clear_corner(step, &hit)) {
+        if (step->limits->feel & TAHR__FEEL_CORNERS && tahr__clear_corner(step, &hit, &aside)) {
+            keep_beside(step, &f, &hit, aside);
             hits++;
             continue;
         }

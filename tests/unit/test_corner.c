@@ -60,6 +60,43 @@ static void head_goes_past_a_corner_by_the_least_way_aside(void **unused)
     }
 }
 
+/* Pushed toward the corner its velocity would take it back under the head's rounding for good: it goes up beside what is
+ * there. Slides of TWO_WALLS take off a part of the rise at any wall. */
+static void head_that_is_pushed_toward_the_corner_goes_past_it_too(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < 8 * RIG_RATES; i++) {
+        fake_world w;
+        rig r;
+        player p;
+        tahr_config c = corner_config(i & 1 ? TAHR_SHAPE_BOX : TAHR_SHAPE_CAPSULE);
+        int exact = (i & 2) == 0, turned = i & 4;
+        c.slide_solver = exact ? TAHR_SLIDE_JOINT : TAHR_SLIDE_TWO_WALLS;
+        c.air_control = 1;
+        c.corner_correction = 0.3; /* the round head meets the corner later and farther in */
+        fake_world_flat(&w);
+        fake_add_box(&w, turned ? fake_vec(-5, 0.545, 2.5) : fake_vec(0.545, -5, 2.5), fake_vec(10, 10, 6));
+        rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
+        double z = r.state.position.z, rate = rig_rates[i / 8];
+        player_begin(&p, &r, rate);
+        r.input.move = turned ? fake_vec(0, 0.2, 0) : fake_vec(0.2, 0, 0);
+        player_press(&p, 0.42); /* just before its apex */
+        double beside = turned ? r.state.position.y : r.state.position.x;
+        /* 0.22 m of the round head, skin included, are above the ceiling's face (of TWO_WALLS, 0.19): its widest part is
+         * 0.14 (0.17) m below and leaves 0.36 - sqrt(0.36^2 - 0.14^2) beside the corner. */
+        double room = i & 1 ? 1e-5 : exact ? 0.0285 : 0.0427;
+        assert_true(beside > 0.545 - 0.36 - 1e-5 && beside < 0.545 - 0.36 + room);
+        assert_true(r.report.time_lost == 0);
+        assert_true(p.top <= z + V * V / (2 * G) + 1e-6);
+        if (exact) {
+            assert_near(r.state.position.z, z + V * 0.42 - G / 2 * 0.42 * 0.42, 1e-6);
+        } else if (rate >= 60) {
+            assert_true(p.top > z + 0.8);
+        }
+        rig_close(&r);
+    }
+}
+
 static void corner_farther_in_than_the_correction_stops_the_rise(void **unused)
 {
     (void)unused;
@@ -130,6 +167,7 @@ static void turned_off_the_corner_stops_the_rise(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(head_goes_past_a_corner_by_the_least_way_aside),
+                                       cmocka_unit_test(head_that_is_pushed_toward_the_corner_goes_past_it_too),
                                        cmocka_unit_test(corner_farther_in_than_the_correction_stops_the_rise),
                                        cmocka_unit_test(way_aside_that_is_not_free_is_not_taken),
                                        cmocka_unit_test(slot_that_is_too_narrow_is_not_entered),
