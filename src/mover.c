@@ -79,8 +79,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
                               field ? "is out of range or not finite" : tahr_status_message(status));
     }
     if (!tahr__can_sweep(world, &config->shape)) {
-        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_mover_create", "shape.type",
-                              "is not among the backend's shapes");
+        return tahr__cannot_sweep(world, "tahr_mover_create", &config->shape);
     }
     field = out_of_plane(world, config);
     if (field) {
