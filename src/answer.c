@@ -2,6 +2,7 @@
  * answer.c: calling backend slots and checking what they answer. */
 #include "answer.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "message.h"
@@ -86,6 +87,14 @@ tahr_status tahr__bad_answer(const tahr_world *world, const char *slot, const ch
     return tahr__complain(&world->log, TAHR_E_BACKEND, slot, field, "in the answer is invalid");
 }
 
+tahr_status tahr__bad_status(const tahr_world *world, const char *slot, tahr_status status)
+{
+    char text[160];
+    snprintf(text, sizeof text, "in the answer of %.40s is %s: %s", world->backend->name, tahr_status_name(status),
+             tahr_status_message(status));
+    return tahr__complain(&world->log, TAHR_E_BACKEND, slot, "status", text);
+}
+
 /* A backend without the margin gets the shape inflated: then its overlap of depth d is a gap of margin - d. Of a sphere
  * and a capsule that is exact, of the others as shape_grow says; hulls are refused. */
 static void inflate(tahr_sweep *q)
@@ -113,8 +122,11 @@ static void deflate(const tahr_sweep *q, double margin, tahr_hit *h)
 tahr_status tahr__refine_hits(const tahr_world *world, tahr_status status, tahr_hit *hits, uint32_t capacity,
                               uint32_t count)
 {
-    if (status < 0 || count > capacity) {
-        return tahr__bad_answer(world, "sweep", status < 0 ? "status" : "count");
+    if (status < 0) {
+        return tahr__bad_status(world, "sweep", status);
+    }
+    if (count > capacity) {
+        return tahr__bad_answer(world, "sweep", "count");
     }
     for (uint32_t i = 0; i < count; i++) {
         const char *bad = refine(&hits[i]);
@@ -143,8 +155,11 @@ tahr_status tahr__answer_contacts(const tahr_world *world, tahr_query_context *c
 {
     *count = 0;
     tahr_status status = world->backend->contacts(world->self, context, query, contacts, capacity, count);
-    if (status < 0 || *count > capacity) {
-        return tahr__bad_answer(world, "contacts", status < 0 ? "status" : "count");
+    if (status < 0) {
+        return tahr__bad_status(world, "contacts", status);
+    }
+    if (*count > capacity) {
+        return tahr__bad_answer(world, "contacts", "count");
     }
     for (uint32_t i = 0; i < *count; i++) {
         const char *bad = bad_contact(&contacts[i]);
@@ -163,8 +178,11 @@ tahr_status tahr__answer_ray(const tahr_world *world, tahr_query_context *contex
 {
     *count = 0;
     tahr_status status = world->backend->ray(world->self, context, query, hit, count);
-    if (status < 0 || *count > 1) {
-        return tahr__bad_answer(world, "ray", status < 0 ? "status" : "count");
+    if (status < 0) {
+        return tahr__bad_status(world, "ray", status);
+    }
+    if (*count > 1) {
+        return tahr__bad_answer(world, "ray", "count");
     }
     const char *bad = *count ? bad_hit(hit) : NULL;
     bad = *count && !bad ? out_of_plane(world, hit->normal, hit->surface_normal) : bad;
@@ -190,7 +208,10 @@ tahr_status tahr__answer_fluid(const tahr_world *world, tahr_query_context *cont
         return TAHR_OK;
     }
     tahr_status status = world->backend->fluid(world->self, context, query, fluid);
-    const char *bad = status < 0 ? "status" : bad_fluid(fluid);
+    if (status < 0) {
+        return tahr__bad_status(world, "fluid", status);
+    }
+    const char *bad = bad_fluid(fluid);
     return bad ? tahr__bad_answer(world, "fluid", bad) : TAHR_OK;
 }
 
@@ -223,7 +244,7 @@ tahr_status tahr__answer_motion(const tahr_world *world, uint32_t body, tahr_bod
     }
     tahr_status status = backend->body_motion(world->self, body, motion);
     if (status < 0) {
-        return status == TAHR_E_NOT_FOUND ? status : tahr__bad_answer(world, "body_motion", "status");
+        return status == TAHR_E_NOT_FOUND ? status : tahr__bad_status(world, "body_motion", status);
     }
     const char *bad = bad_motion(motion);
     if (bad) {

@@ -19,6 +19,8 @@ tahr_status tahr__answer_motion(const tahr_world *world, uint32_t body, tahr_bod
 
 /* Says which field of a slot's answer is invalid. Returns TAHR_E_BACKEND. */
 tahr_status tahr__bad_answer(const tahr_world *world, const char *slot, const char *field);
+/* Says which negative status a slot returned. Returns TAHR_E_BACKEND. */
+tahr_status tahr__bad_status(const tahr_world *world, const char *slot, tahr_status status);
 
 /* The slow ways of answer_sweep. */
 tahr_status tahr__refine_hits(const tahr_world *world, tahr_status status, tahr_hit *hits, uint32_t capacity,
@@ -78,8 +80,8 @@ static inline tahr_status answer_prepare(const tahr_world *world, tahr_query_con
                                          const tahr_prepare *announcement)
 {
     const tahr_backend *backend = world->backend;
-    int bad = backend->prepare && backend->prepare(world->self, context, announcement) < 0;
-    return bad ? tahr__bad_answer(world, "prepare", "status") : TAHR_OK;
+    tahr_status status = backend->prepare ? backend->prepare(world->self, context, announcement) : TAHR_OK;
+    return status < 0 ? tahr__bad_status(world, "prepare", status) : TAHR_OK;
 }
 
 #endif

@@ -69,8 +69,7 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
         return bad_argument(world, "tahr_world_sweep", bad ? bad : "capacity");
     }
     if (!tahr__can_sweep(world, &query->shape)) {
-        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_sweep", "shape.type",
-                              "is not among the backend's shapes");
+        return tahr__cannot_sweep(world, "tahr_world_sweep", &query->shape);
     }
     tahr_status status =
         answer_sweep(world, &context, query, found, capacity < DIRECT_ANSWERS ? capacity : DIRECT_ANSWERS, &n);
@@ -106,8 +105,7 @@ tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *que
         return bad_argument(world, "tahr_world_contacts", bad);
     }
     if (!tahr__can_sweep(world, &query->shape)) {
-        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, "tahr_world_contacts", "shape.type",
-                              "is not among the backend's shapes");
+        return tahr__cannot_sweep(world, "tahr_world_contacts", &query->shape);
     }
     tahr_status status =
         tahr__answer_contacts(world, &context, query, found, capacity < DIRECT_ANSWERS ? capacity : DIRECT_ANSWERS, &n);

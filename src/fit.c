@@ -43,8 +43,7 @@ static const char *bad_hull(const tahr_world *world, const tahr_shape *s)
 tahr_status tahr__fit_check(const tahr_world *world, const tahr_config *config, const char *function)
 {
     if (!tahr__can_sweep(world, &config->shape)) {
-        return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, function, "shape.type",
-                              "is not among the backend's shapes");
+        return tahr__cannot_sweep(world, function, &config->shape);
     }
     const char *field = out_of_plane(world, config);
     if (field) {

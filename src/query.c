@@ -2,9 +2,13 @@
  * query.c: the questions of a step: what is asked is counted and capped, and recorded if somebody wants to see it. */
 #include "query.h"
 
+#include <stdio.h>
+
 #include "answer.h"
+#include "backend_check.h"
 #include "callbacks.h"
 #include "drop.h"
+#include "message.h"
 #include "plane.h"
 #include "query_record.h"
 #include "record.h"
@@ -265,7 +269,8 @@ void tahr__announce(tahr__step *step, const tahr_prepare *announcement)
     }
 }
 
-int tahr__can_sweep(const tahr_world *world, const tahr_shape *shape)
+/* What a backend must be able to do to sweep a shape; all bits for one that nobody knows. */
+static uint32_t needed_by(const tahr_shape *shape)
 {
     static const uint32_t needed[] = {0,
                                       TAHR_CAP_SPHERE,
@@ -275,6 +280,18 @@ int tahr__can_sweep(const tahr_world *world, const tahr_shape *shape)
                                       TAHR_CAP_CONE,
                                       TAHR_CAP_ELLIPSOID,
                                       TAHR_CAP_HULL | TAHR_CAP_MARGIN}; /* nothing inflates a hull */
-    uint32_t need = shape->type < sizeof needed / sizeof needed[0] ? needed[shape->type] : 0;
-    return need != 0 && (world->backend->capabilities & need) == need;
+    return shape->type > 0 && shape->type < sizeof needed / sizeof needed[0] ? needed[shape->type] : ~0u;
+}
+
+int tahr__can_sweep(const tahr_world *world, const tahr_shape *shape)
+{
+    return (needed_by(shape) & ~world->backend->capabilities) == 0;
+}
+
+tahr_status tahr__cannot_sweep(const tahr_world *world, const char *function, const tahr_shape *shape)
+{
+    char text[128];
+    snprintf(text, sizeof text, "is not among the shapes that backend %.40s sweeps: it lacks %s", world->backend->name,
+             tahr__capability_name(needed_by(shape) & ~world->backend->capabilities));
+    return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, function, "shape.type", text);
 }

@@ -39,6 +39,8 @@ static inline int step_has_fluids(const tahr__step *step)
 
 /* Does the backend sweep such a shape? */
 int tahr__can_sweep(const tahr_world *world, const tahr_shape *shape);
+/* Says why not. Returns TAHR_E_UNSUPPORTED. */
+tahr_status tahr__cannot_sweep(const tahr_world *world, const char *function, const tahr_shape *shape);
 
 /* Tells the backend where this step is expected to ask. No query. */
 void tahr__announce(tahr__step *step, const tahr_prepare *announcement);

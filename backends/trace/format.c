@@ -2,6 +2,7 @@
  * format.c: numbers, structs and checksums as bytes. */
 #include "format.h"
 
+#include <stdio.h>
 #include <string.h>
 
 void tahr__trace_head_fill(tahr__trace_head *head)
@@ -38,6 +39,15 @@ uint64_t tahr__trace_hash(uint64_t seed, const void *bytes, size_t size)
     for (size_t i = 0; i < size; i++)
         hash = (hash ^ b[i]) * 0x100000001B3u;
     return hash;
+}
+
+void tahr__trace_complain(const tahr_log *log, const char *function, const char *name, const char *what)
+{
+    char text[240];
+
+    if (!log || !log->write) return;
+    snprintf(text, sizeof text, "%s: %.160s %s", function, name, what);
+    log->write(log->user, TAHR_LOG_ERROR, text);
 }
 
 int tahr__trace_is_little(void)

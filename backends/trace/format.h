@@ -47,6 +47,8 @@ void tahr__trace_head_fill(tahr__trace_head *head);
 /* FNV-1a, 64 bits, going on from seed; 0 begins. */
 uint64_t tahr__trace_hash(uint64_t seed, const void *bytes, size_t size);
 int tahr__trace_is_little(void);
+/* Writes "function: name what" to the log (log may be NULL). */
+void tahr__trace_complain(const tahr_log *log, const char *function, const char *name, const char *what);
 
 /* What a query or answer is measured against: only words that differ from the last one of its kind are written. */
 typedef struct tahr__trace_bases {

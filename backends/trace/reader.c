@@ -15,7 +15,9 @@ static tahr_status check(const tahr_trace_desc *desc)
         if (((const unsigned char *)desc)[i]) return TAHR_E_UNSUPPORTED;
     }
     if (desc->flags || !tahr__trace_is_little()) return TAHR_E_UNSUPPORTED;
-    return desc->path || desc->read ? TAHR_OK : TAHR_E_NULL;
+    if (desc->path || desc->read) return TAHR_OK;
+    tahr__trace_complain(desc->log, "tahr_trace_read", "desc.path", "is NULL, and so is desc.read");
+    return TAHR_E_NULL;
 }
 
 tahr_status tahr_trace_read(const tahr_trace_desc *desc, tahr_trace_reader **out)
@@ -32,7 +34,7 @@ tahr_status tahr_trace_read(const tahr_trace_desc *desc, tahr_trace_reader **out
     if (desc->path) r->file = fopen(desc->path, "rb");
     if (desc->path && !r->file) {
         status = TAHR_E_NOT_FOUND;
-        if (r->log.write) r->log.write(r->log.user, TAHR_LOG_ERROR, "tahr_trace: the file cannot be opened");
+        tahr__trace_complain(desc->log, "tahr_trace_read", desc->path, "cannot be opened");
     }
     if (status >= 0) status = tahr__trace_read_begin(r);
     if (status < 0) {

@@ -183,7 +183,9 @@ static tahr_status check(const tahr_trace_desc *desc)
     }
     if (desc->flags & ~(uint32_t)(TAHR_TRACE_STEPS_ONLY | TAHR_TRACE_FLUSH) || !tahr__trace_is_little())
         return TAHR_E_UNSUPPORTED;
-    return desc->path || desc->write ? TAHR_OK : TAHR_E_NULL;
+    if (desc->path || desc->write) return TAHR_OK;
+    tahr__trace_complain(desc->log, "tahr_trace_open", "desc.path", "is NULL, and so is desc.write");
+    return TAHR_E_NULL;
 }
 
 tahr_status tahr_trace_open(const tahr_trace_desc *desc, tahr_trace **out)
@@ -204,7 +206,10 @@ tahr_status tahr_trace_open(const tahr_trace_desc *desc, tahr_trace **out)
         .struct_size = sizeof trace->recorder, .user = trace, .begin = begin, .move = move, .step = step, .done = done};
     if (desc->path) {
         trace->file = fopen(desc->path, "wb");
-        if (!trace->file) tahr__trace_give_up(trace, TAHR_E_FILE, "the file cannot be opened for writing");
+        if (!trace->file) {
+            tahr__trace_complain(desc->log, "tahr_trace_open", desc->path, "cannot be opened for writing");
+            trace->status = TAHR_E_FILE;
+        }
     }
     tahr__trace_head_fill(&head);
     write_bytes(trace, &head, sizeof head);

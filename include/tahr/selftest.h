@@ -24,16 +24,16 @@ typedef void (*tahr_selftest_fn)(void *user, const tahr_selftest_result *result)
 
 /* For your own callbacks: "open me a world with these bodies": build them in your engine and open your callbacks over
  * them (tahr_world_open_callbacks). [in] desc is valid during the call only; all its bodies are of the kinds and have
- * the flags that tahr_selftest_desc.capabilities claims. [out] world, untouched on failure. Returns TAHR_OK or what
- * went wrong. */
+ * the flags that tahr_selftest_desc.capabilities claims. In your answers a body is its index there, with its mask,
+ * surface and walkable rule. [out] world, untouched on failure. Returns TAHR_OK or what went wrong. */
 typedef tahr_status (*tahr_selftest_open_fn)(void *user, const tahr_world_desc *desc, tahr_world **world);
 
 /* Closes a world of that function, and what is behind it. */
 typedef void (*tahr_selftest_close_fn)(void *user, tahr_world *world);
 
 /* Zero what you do not use. capabilities: without open 0; with open TAHR_CAP_* of the shapes that your sweep takes and
- * of the bodies that you can build, MARGIN (but with TAHR_CALLBACKS_NO_MARGIN), and CONTACTS, RAY, SENSORS and ONE_WAY
- * if you do them. */
+ * of the bodies that you can build (SOLIDS: boxes, spheres and capsules), MARGIN (but with TAHR_CALLBACKS_NO_MARGIN),
+ * and CONTACTS, RAY, SENSORS and ONE_WAY if you do them. */
 typedef struct tahr_selftest_desc {
     uint32_t struct_size;
     uint32_t capabilities;

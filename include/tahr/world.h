@@ -137,12 +137,13 @@ typedef struct tahr_world_desc {
  * several at once if you step on several. */
 typedef tahr_status (*tahr_sweep_fn)(void *user, const tahr_sweep *query, tahr_hit *hit);
 /* [in] query, [out] contacts (capacity of them, zeroed before the call) and *count (0 before the call, at most
- * capacity): one per surface within query->margin, ordered by (distance, body, feature), with distance, normal,
- * surface_normal and point. Nothing is derived. Statuses and threads as for tahr_sweep_fn. */
+ * capacity): one per surface within query->margin, ordered by (distance, body, feature), with distance, normal and
+ * point; surface_normal is derived. Return TAHR_TRUNCATED if there are more. Other statuses and threads as for
+ * tahr_sweep_fn. */
 typedef tahr_status (*tahr_contacts_fn)(void *user, const tahr_contact_query *query, tahr_contact *contacts,
                                         uint32_t capacity, uint32_t *count);
-/* [in] query, [out] hit (zeroed before the call): fill in blocking, fraction, normal and point of the first blocking
- * hit; only surface_normal is derived. Statuses and threads as for tahr_sweep_fn. */
+/* [in] query, [out] hit (zeroed before the call): fill in blocking, fraction and normal of the first blocking hit; what
+ * stays zero of surface_normal and point is derived. Statuses and threads as for tahr_sweep_fn. */
 typedef tahr_status (*tahr_ray_fn)(void *user, const tahr_ray *query, tahr_hit *hit);
 
 /* [in] query, [out] hits (capacity of them, zeroed) and *count (0 before the call, at most capacity): the sensors that

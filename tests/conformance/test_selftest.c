@@ -212,11 +212,17 @@ static void every_case_has_a_mutant(void **state)
     assert_int_equal(uncovered, 0);
 }
 
+static tahr_status cannot_open(void *user, const tahr_world_desc *desc, tahr_world **world)
+{
+    (void)user, (void)desc, (void)world;
+    return TAHR_E_MEMORY;
+}
+
 static void wrong_arguments_are_refused(void **state)
 {
     (void)state;
     const tahr_backend *native = tahr_backend_v1_native();
-    tahr_backend small = *native, old = *native;
+    tahr_backend small = *native, old = *native, hollow = *native;
     uint32_t failed = 77;
     tahr_selftest_desc desc = {.struct_size = sizeof desc}, bad = desc;
     struct {
@@ -225,10 +231,12 @@ static void wrong_arguments_are_refused(void **state)
     } longer = {.known = desc, .tail = {1, 0, 0, 0}};
     small.struct_size = 8;
     old.abi_major = 200;
+    hollow.ray = NULL;
     assert_int_equal(tahr_backend_selftest(native, NULL, &failed), TAHR_E_NULL);
     assert_int_equal(tahr_backend_selftest(NULL, &desc, &failed), TAHR_E_NULL);
     assert_int_equal(tahr_backend_selftest(&small, &desc, &failed), TAHR_E_STRUCT_SIZE);
     assert_int_equal(tahr_backend_selftest(&old, &desc, &failed), TAHR_E_ABI);
+    assert_int_equal(tahr_backend_selftest(&hollow, &desc, &failed), TAHR_E_NULL);
     bad.struct_size = 4;
     assert_int_equal(tahr_backend_selftest(native, &bad, &failed), TAHR_E_STRUCT_SIZE);
     longer.known.struct_size = sizeof longer;
@@ -241,6 +249,9 @@ static void wrong_arguments_are_refused(void **state)
     assert_int_equal(tahr_backend_selftest(native, &bad, &failed), TAHR_E_ARGUMENT);
     bad = desc;
     bad.capabilities = TAHR_CAP_MESH;
+    assert_int_equal(tahr_backend_selftest(native, &bad, &failed), TAHR_E_ARGUMENT);
+    bad = desc;
+    bad.open = cannot_open;
     assert_int_equal(tahr_backend_selftest(native, &bad, &failed), TAHR_E_ARGUMENT);
     bad = desc;
     bad.only = "no case begins like this";
@@ -259,12 +270,6 @@ static void only_runs_what_begins_so(void **state)
 }
 
 /* A backend that cannot open its worlds fails every case that needs one, and nothing crashes. */
-static tahr_status cannot_open(void *user, const tahr_world_desc *desc, tahr_world **world)
-{
-    (void)user, (void)desc, (void)world;
-    return TAHR_E_MEMORY;
-}
-
 static void worlds_that_do_not_open_fail_their_cases(void **state)
 {
     (void)state;

@@ -155,12 +155,56 @@ static void what_is_placed_is_met_where_it_is(void **unused)
     tahr_world_close(world);
 }
 
+static void what_it_does_not_claim_is_refused_by_name(void **unused)
+{
+    static const struct {
+        uint32_t type, flags;
+        const char *named, *lacks;
+    } cases[] = {{TAHR_BODY_CYLINDER, 0, "is TAHR_BODY_CYLINDER, ", "TAHR_CAP_ROUND_SOLIDS"},
+                 {TAHR_BODY_ELLIPSOID, 0, "is TAHR_BODY_ELLIPSOID, ", "TAHR_CAP_ROUND_SOLIDS"},
+                 {TAHR_BODY_BOX, TAHR_BODY_SENSOR, "is TAHR_BODY_SENSOR, ", "TAHR_CAP_SENSORS"},
+                 {TAHR_BODY_BOX, TAHR_BODY_FLUID, "is TAHR_BODY_FLUID, ", "TAHR_CAP_SENSORS"},
+                 {TAHR_BODY_BOX, TAHR_BODY_ONE_WAY, "is TAHR_BODY_ONE_WAY, ", "TAHR_CAP_ONE_WAY"}};
+    fake_log messages = {0};
+    const tahr_log log = fake_log_of(&messages);
+    tahr_body_desc bodies[2];
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    tahr_mover *mover = NULL;
+    tahr_config config;
+    (void)unused;
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = bodies, desc.body_count = 2, desc.log = &log;
+    for (size_t i = 0; i <= sizeof cases / sizeof cases[0]; i++) {
+        const int last = i == sizeof cases / sizeof cases[0];
+        for (int b = 0; b < 2; b++) {
+            tahr_body_desc_init(&bodies[b], sizeof bodies[b], b && !last ? cases[i].type : TAHR_BODY_BOX);
+            bodies[b].half_extents = at(1, 1, 1), bodies[b].radius = bodies[b].half_height = 1;
+        }
+        bodies[1].flags = last ? 0 : cases[i].flags;
+        tahr_status status = tahr_world_open(tahr_backend_v1_template(), &desc, &world);
+        assert_int_equal(status, last ? TAHR_OK : TAHR_E_UNSUPPORTED);
+        if (!last) {
+            assert_non_null(strstr(messages.text, "bodies[1] "));
+            assert_non_null(strstr(messages.text, cases[i].named));
+            assert_non_null(strstr(messages.text, cases[i].lacks));
+        }
+    }
+    tahr_config_init(&config, sizeof config, TAHR_PRESET_PRECISE);
+    config.shape.type = TAHR_SHAPE_CYLINDER;
+    assert_int_equal(tahr_mover_create(world, &config, &mover), TAHR_E_UNSUPPORTED);
+    assert_non_null(strstr(messages.text, "shape.type "));
+    assert_non_null(strstr(messages.text, "backend template sweeps: it lacks TAHR_CAP_CYLINDER"));
+    tahr_world_close(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sweeps_agree_with_the_native_backend),
         cmocka_unit_test(contacts_are_ordered_and_the_farthest_are_dropped),
         cmocka_unit_test(what_is_placed_is_met_where_it_is),
+        cmocka_unit_test(what_it_does_not_claim_is_refused_by_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -274,10 +274,14 @@ static void wrong_descriptions_are_refused(void **unused)
     assert_int_equal(tahr_trace_open(&desc, NULL), TAHR_E_NULL);
     assert_int_equal(tahr_trace_open(&desc, &trace), TAHR_E_NULL);
     assert_int_equal(tahr_trace_read(&desc, &reader), TAHR_E_NULL);
-    desc.path = "nowhere/at/all", desc.log = &log;
+    desc.log = &log;
+    assert_int_equal(tahr_trace_open(&desc, &trace), TAHR_E_NULL);
+    assert_string_equal(messages.text, "tahr_trace_open: desc.path is NULL, and so is desc.write");
+    desc.path = "nowhere/at/all";
     assert_int_equal(tahr_trace_open(&desc, &trace), TAHR_E_FILE);
-    assert_non_null(strstr(messages.text, "cannot be opened"));
+    assert_string_equal(messages.text, "tahr_trace_open: nowhere/at/all cannot be opened for writing");
     assert_int_equal(tahr_trace_read(&desc, &reader), TAHR_E_NOT_FOUND);
+    assert_string_equal(messages.text, "tahr_trace_read: nowhere/at/all cannot be opened");
     desc.flags = 64;
     assert_int_equal(tahr_trace_open(&desc, &trace), TAHR_E_UNSUPPORTED);
     desc.flags = TAHR_TRACE_FLUSH;
