@@ -41,6 +41,8 @@ void picture_data(const struct picture *picture, const struct axes *axes);
 
 /* The ground of a level of two dimensions, and its share of the legend. */
 void picture_side(const struct picture *picture, const struct axes *axes);
+/* Over the paths. */
+void picture_side_labels(const struct picture *picture, const struct axes *axes);
 
 /* One patch of the legend; returns where the next line goes. */
 double picture_patch(const struct picture *picture, double x, double y, const double colour[3], const char *text);

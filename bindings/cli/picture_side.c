@@ -10,6 +10,9 @@ static const double solid[3] = {0.80, 0.78, 0.74}, edge[3] = {0.25, 0.25, 0.28},
                     water[3] = {0.66, 0.81, 0.89}, moving[3] = {0.70, 0.86, 0.70}, dark[3] = {0.15, 0.40, 0.15},
                     zone[3] = {0.55, 0.45, 0.75}, belt[3] = {0.80, 0.35, 0.20};
 
+/* Points, of lines that can be stood on from above only, of the other end of a mover's way, of places. */
+static const double plank_dashes[2] = {6, 3}, goal_dashes[2] = {4, 3}, dots[2] = {1.5, 2.5};
+
 static void set_colour(cairo_t *cairo, const double colour[3])
 {
     cairo_set_source_rgb(cairo, colour[0], colour[1], colour[2]);
@@ -49,6 +52,26 @@ static void add_path(cairo_t *cairo, const struct axes *axes, const struct side_
     }
 }
 
+/* What encloses something solid. */
+static int is_filled(const struct side_piece *piece)
+{
+    return piece->kind == SIDE_SOLID && !piece->moves && (piece->form != SIDE_LINE || piece->part != 0);
+}
+
+/* Under the fill, which covers their inner half: where pieces overlap or touch, only the outline of all is left. */
+static void draw_edges(cairo_t *cairo, const struct axes *axes, const struct side *side)
+{
+    const struct side_point still = {0, 0};
+    for (size_t i = 0; i < side->count; i++) {
+        if (is_filled(&side->pieces[i])) {
+            add_path(cairo, axes, &side->pieces[i], still);
+        }
+    }
+    set_colour(cairo, edge);
+    cairo_set_line_width(cairo, 2.4);
+    cairo_stroke(cairo);
+}
+
 /* Everything solid in one path: an outline round a hole runs the other way, and the hole stays empty. */
 static void fill_solids(cairo_t *cairo, const struct axes *axes, const struct side *side)
 {
@@ -70,7 +93,6 @@ static void fill_solids(cairo_t *cairo, const struct axes *axes, const struct si
 
 static void draw_outline(cairo_t *cairo, const struct axes *axes, const struct side_piece *piece)
 {
-    static const double dashes[2] = {6, 3};
     const struct side_point still = {0, 0};
     add_path(cairo, axes, piece, still);
     if (piece->kind == SIDE_WATER) {
@@ -79,14 +101,15 @@ static void draw_outline(cairo_t *cairo, const struct axes *axes, const struct s
     } else if (piece->kind == SIDE_ONE_WAY) {
         set_colour(cairo, plank);
         cairo_set_line_width(cairo, 2);
-        cairo_set_dash(cairo, dashes, 2, 0);
+        cairo_set_dash(cairo, plank_dashes, 2, 0);
         cairo_stroke(cairo);
+    } else if (is_filled(piece) && piece->belt == 0) {
+        cairo_new_path(cairo); /* its edge is there */
     } else if (piece->kind == SIDE_SOLID) {
         set_colour(cairo, piece->belt != 0 ? belt : edge);
         cairo_set_line_width(cairo, piece->belt != 0 ? 2.4 : 1.1);
         cairo_stroke(cairo);
     } else {
-        static const double dots[2] = {1.5, 2.5};
         set_colour(cairo, zone);
         cairo_set_line_width(cairo, 1);
         cairo_set_dash(cairo, dots, 2, 0);
@@ -114,7 +137,6 @@ static void draw_arrow(cairo_t *cairo, double x0, double y0, double x1, double y
 /* Where it is at the start, the other end of its way, and an arrow between them. */
 static void draw_mover(cairo_t *cairo, const struct axes *axes, const struct side_piece *piece)
 {
-    static const double dashes[2] = {4, 3}, plank_dashes[2] = {6, 3};
     const struct side_point still = {0, 0}, low = piece->points[0], high = piece->points[1];
     double x = (low.x + high.x) / 2, y = (low.y + high.y) / 2;
     add_path(cairo, axes, piece, still);
@@ -127,7 +149,7 @@ static void draw_mover(cairo_t *cairo, const struct axes *axes, const struct sid
     add_path(cairo, axes, piece, piece->swing);
     set_colour(cairo, dark);
     cairo_set_line_width(cairo, 0.8);
-    cairo_set_dash(cairo, dashes, 2, 0);
+    cairo_set_dash(cairo, goal_dashes, 2, 0);
     cairo_stroke(cairo);
     cairo_set_dash(cairo, NULL, 0, 0);
     draw_arrow(cairo, axes_x(axes, x), axes_y(axes, y), axes_x(axes, x + piece->swing.x),
@@ -164,6 +186,7 @@ void picture_side(const struct picture *picture, const struct axes *axes)
             draw_outline(cairo, axes, &side->pieces[i]);
         }
     }
+    draw_edges(cairo, axes, side);
     fill_solids(cairo, axes, side);
     axes_grid(axes);
     for (size_t i = 0; i < side->count; i++) {
@@ -180,6 +203,16 @@ void picture_side(const struct picture *picture, const struct axes *axes)
             draw_mover(cairo, axes, &side->pieces[i]);
         }
     }
+    cairo_restore(cairo);
+}
+
+void picture_side_labels(const struct picture *picture, const struct axes *axes)
+{
+    const struct side *side = picture->plot->level->side;
+    cairo_t *cairo = picture->cairo;
+    cairo_save(cairo);
+    cairo_rectangle(cairo, axes->left, axes->top, axes->width, axes->height);
+    cairo_clip(cairo);
     for (size_t i = 0; i < side->label_count; i++) {
         const struct side_label *label = &side->labels[i];
         text_on_map(cairo, axes_x(axes, label->at.x), axes_y(axes, label->at.y), 10, label->text);
@@ -197,6 +230,27 @@ static int has_kind(const struct side *side, enum side_kind kind)
     return 0;
 }
 
+/* A line of the legend, drawn as it is in the map. Returns where the next one goes. */
+static double legend_line(const struct picture *picture, double x, double y, const double dashes[2], const char *text)
+{
+    cairo_t *cairo = picture->cairo;
+    int is_plank = dashes == plank_dashes;
+    if (is_plank) {
+        cairo_move_to(cairo, x, y - 4);
+        cairo_rel_line_to(cairo, 26, 0);
+    } else {
+        cairo_rectangle(cairo, x + 4, y - 11, 18, 12);
+    }
+    set_colour(cairo, is_plank ? plank : dashes == dots ? zone : dark);
+    cairo_set_line_width(cairo, is_plank ? 2 : 1);
+    cairo_set_dash(cairo, dashes, 2, 0);
+    cairo_stroke(cairo);
+    cairo_set_dash(cairo, NULL, 0, 0);
+    cairo_set_source_rgb(cairo, 0.16, 0.18, 0.22);
+    text_at(cairo, x + 34, y, 12, 0, text);
+    return y + 20;
+}
+
 double picture_side_legend(const struct picture *picture, double x, double y)
 {
     const struct side *side = picture->plot->level->side;
@@ -205,9 +259,12 @@ double picture_side_legend(const struct picture *picture, double x, double y)
         belts |= side->pieces[i].belt != 0;
     }
     y = picture_patch(picture, x, y, solid, "solid");
-    y = has_kind(side, SIDE_ONE_WAY) ? picture_patch(picture, x, y, plank, "from above only") : y;
+    y = has_kind(side, SIDE_ONE_WAY) ? legend_line(picture, x, y, plank_dashes, "one-way, from above") : y;
     y = has_kind(side, SIDE_WATER) ? picture_patch(picture, x, y, water, "water") : y;
-    y = movers ? picture_patch(picture, x, y, moving, "moving (dashed: to)") : y;
+    if (movers) {
+        y = picture_patch(picture, x, y, moving, "moving, at the start");
+        y = legend_line(picture, x, y, goal_dashes, "and at the other end");
+    }
     y = belts ? picture_patch(picture, x, y, belt, "moving surface") : y;
-    return has_kind(side, SIDE_SENSOR) ? picture_patch(picture, x, y, zone, "watched place") : y;
+    return has_kind(side, SIDE_SENSOR) ? legend_line(picture, x, y, dots, "watched place") : y;
 }

@@ -110,6 +110,7 @@ static void draw_map(const struct picture *picture, const struct axes *map)
     if (picture->plot->level->side != NULL) {
         picture_side(picture, map);
         picture_data(picture, map);
+        picture_side_labels(picture, map);
     } else {
         draw_relief(picture);
         draw_rides(picture);

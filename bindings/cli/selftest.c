@@ -132,6 +132,11 @@ static int run(struct selftest *test, const tahr_backend *backend, const void *o
                test->counts[TAHR_SELFTEST_PASS], test->counts[TAHR_SELFTEST_FAIL],
                test->counts[TAHR_SELFTEST_NOT_SUPPORTED]);
     }
+    if (!test->only && test->counts[TAHR_SELFTEST_PASS] == 0 && test->counts[TAHR_SELFTEST_FAIL] == 0) {
+        say_error("tahr selftest: %s opens none of the worlds that the cases are about: nothing was tested",
+                  backend->name);
+        return EXIT_CHECK_FAILED;
+    }
     return test->counts[TAHR_SELFTEST_FAIL] ? EXIT_CHECK_FAILED : EXIT_GOOD;
 }
 

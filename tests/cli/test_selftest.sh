@@ -46,11 +46,51 @@ echo "this is no library" >"$work/text.so"
 tahr selftest "$work/text.so"
 expect 1 "text.so"
 
+# Every backend of this shell, whole: nothing fails, and who says that a case is not supported is its README's business.
+"$TAHR" info --json | sed -n 's/^      "name": "\(.*\)",$/\1/p' >"$work/names"
+[ -s "$work/names" ] || fail "info names no backend"
+# tested FOLDER: the last call passed, and the README says with which counts.
+tested() {
+    expect 0 " 0 failed"
+    echo "self-test: $(tail -n 1 "$work/out")"
+    counts=$(sed -n 's/^.*: \([0-9]*\) passed, 0 failed, \([0-9]*\) not supported$/\1 pass, \2 are not supported/p' "$work/out")
+    grep -qF "$counts" "$here/../../backends/$1/README.md" || fail "backends/$1/README.md does not say '$counts'"
+}
+while read -r name; do
+    tahr selftest "$name"
+    case $name in
+    native-double) tested native ;;
+    box2d-2) tested box2d ;;
+    *) tested "$name" ;;
+    esac
+done <"$work/names"
+
 # Every plugin of the build, where the build's folder is known (ctest runs beside it).
-for plugin in "$(dirname "$TAHR")"/../lib/libtahr_ccd.so "$(dirname "$TAHR")"/../lib/libtahr_native.so; do
-    [ -f "$plugin" ] || continue
-    tahr selftest "$plugin" --only rest_
+plugins=$(dirname "$TAHR")/../lib
+for plugin in native ccd fcl box2d template; do
+    [ -f "$plugins/libtahr_$plugin.so" ] || continue
+    tahr selftest "$plugins/libtahr_$plugin.so" --only rest_
     grep -q "not supported here" "$work/err" && echo "SKIP: cli_selftest: this platform loads no plugins" && break
-    expect 0 "rest_at_margin" " 0 failed"
+    expect 0 "rest_at_margin" " 0 failed" "$plugin "
 done
+if [ -f "$plugins/libtahr_template.so" ] && ! grep -q "not supported here" "$work/err"; then
+    tahr selftest "$plugins/libtahr_template.so"
+    tested template
+fi
+# A replay is no backend without its file, and what is broken is not loaded.
+if [ -f "$plugins/libtahr_trace.so" ]; then
+    tahr selftest "$plugins/libtahr_trace.so"
+    expect 1 "nothing was tested" "0 passed, 0 failed"
+fi
+while read -r broken words; do
+    [ -f "$plugins/../tests/plugins/$broken.so" ] || continue
+    tahr selftest "$plugins/../tests/plugins/$broken.so"
+    expect 1 "cannot load '$plugins/../tests/plugins/$broken.so'" "$words"
+done <<END
+no_symbol no function tahr_backend_v1
+tiny_struct struct_size
+bad_major backend.abi_major and abi_minor are 1.1, expected 0.1
+null_slot is NULL, expected a function
+null_name name
+END
 finish

@@ -9,6 +9,11 @@
 
 #include <cmocka.h>
 
+#include <tahr/native.h>
+#ifdef TAHR_HAVE_CCD
+#include <tahr/ccd.h>
+#endif
+
 #include "recording.h"
 #include "room.h"
 
@@ -135,6 +140,95 @@ static void a_run_over_own_callbacks_repeats(void **unused)
     expect_repeated(&file, 120, tahr_state_hash(&r.state));
     rig_close(&r);
 }
+
+/* A floor and a wall across x = 2, handed over triangle by triangle. */
+static tahr_status corner_of_a_room(void *user, const tahr_bounds *box, uint32_t mask, tahr_gather *out)
+{
+    static const tahr_vec3 p[] = {{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}, {2, -9, -1}, {2, 9, -1}, {2, 9, 5}};
+    static const int corners[3][3] = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}};
+    (void)user, (void)box, (void)mask;
+    for (int i = 0; i < 3; i++) {
+        tahr_triangle t = {.body = 7, .feature = (uint32_t)i};
+        for (int k = 0; k < 3; k++) {
+            t.corners[k] = p[corners[i][k]];
+        }
+        out->add(out, &t);
+    }
+    return TAHR_OK;
+}
+
+static void walk_and_jump(rig *r)
+{
+    for (int i = 0; i < 180; i++) {
+        r->input.move = fake_vec(i < 120 ? 0.7 : -0.3, i % 50 < 25 ? 0.2 : -0.2, 0);
+        r->input.jump = i % 45 == 20;
+        rig_step(r, 1.0 / 60);
+    }
+}
+
+static void a_run_over_gathered_triangles_repeats_without_them(void **unused)
+{
+    rig r = {0};
+    recording file = {0};
+    tahr_native_desc native = {.struct_size = sizeof native, .gather = corner_of_a_room};
+    const tahr_vec3 at = {0, 0, 0.95};
+    tahr_world_desc desc;
+    (void)unused;
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.options = &native;
+    r.config = rig_config();
+    r.input.struct_size = sizeof r.input;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &r.world), TAHR_OK);
+    assert_int_equal(tahr_mover_create(r.world, &r.config, &r.mover), TAHR_OK);
+    assert_int_equal(tahr_state_init(&r.state, &r.config, &at), TAHR_OK);
+    tahr_trace *trace = recording_begin(&file, r.world, 0);
+    walk_and_jump(&r);
+    assert_true(r.state.position.x < 2 - 0.35 && r.state.jump_count == 0);
+    assert_int_equal(recording_end(trace, r.world), TAHR_OK);
+    expect_repeated(&file, 180, tahr_state_hash(&r.state));
+    rig_close(&r);
+}
+
+#ifdef TAHR_HAVE_CCD
+/* The hull of the last one is lent by a body, of which a replay knows no corner. */
+static void characters_of_every_shape_repeat(void **unused)
+{
+    static const double corners[] = {-0.3, -0.4, -0.8, 0.3, -0.4, -0.8, 0, 0.4, -0.8,
+                                     -0.2, -0.2, 0.8,  0.2, -0.2, 0.8,  0, 0.3, 0.8};
+    const tahr_shape shapes[] = {
+        {.type = TAHR_SHAPE_CYLINDER, .radius = 0.3, .half_height = 0.9},
+        {.type = TAHR_SHAPE_CONE, .radius = 0.4, .half_height = 0.9},
+        {.type = TAHR_SHAPE_ELLIPSOID, .half_x = 0.3, .half_y = 0.4, .half_height = 0.9},
+        {.type = TAHR_SHAPE_HULL, .hull = 1, .half_x = 0.3, .half_y = 0.4, .half_height = 0.8},
+    };
+    tahr_body_desc bodies[3];
+    (void)unused;
+    tahr_body_desc_init(&bodies[0], sizeof bodies[0], TAHR_BODY_BOX);
+    bodies[0].half_extents = fake_vec(20, 20, 1);
+    bodies[0].pose.position.z = -1;
+    tahr_body_desc_init(&bodies[1], sizeof bodies[1], TAHR_BODY_HULL);
+    bodies[1].vertices = corners;
+    bodies[1].vertex_count = 6;
+    bodies[1].flags = TAHR_BODY_TEMPLATE;
+    tahr_body_desc_init(&bodies[2], sizeof bodies[2], TAHR_BODY_BOX);
+    bodies[2].half_extents = fake_vec(1, 2, 0.15);
+    bodies[2].pose.position = fake_vec(3, 0, 0.15);
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+        rig r;
+        recording file = {0};
+        tahr_config config = rig_config();
+        config.shape = shapes[i];
+        config.crouched_half_height = shapes[i].half_height;
+        rig_open_bodies_on(&r, tahr_backend_v1_ccd(), bodies, 3, &config, fake_vec(0, 0, 0.95));
+        tahr_trace *trace = recording_begin(&file, r.world, 0);
+        walk_and_jump(&r);
+        assert_true(r.state.position.x > 2);
+        assert_int_equal(recording_end(trace, r.world), TAHR_OK);
+        expect_repeated(&file, 180, tahr_state_hash(&r.state));
+        rig_close(&r);
+    }
+}
+#endif
 
 static void a_state_that_was_written_between_steps_is_in_the_file(void **unused)
 {
@@ -337,6 +431,10 @@ int main(void)
         cmocka_unit_test(a_run_with_everything_in_it_repeats_whenever_it_was_begun),
         cmocka_unit_test(being_watched_changes_no_bit),
         cmocka_unit_test(a_run_over_own_callbacks_repeats),
+        cmocka_unit_test(a_run_over_gathered_triangles_repeats_without_them),
+#ifdef TAHR_HAVE_CCD
+        cmocka_unit_test(characters_of_every_shape_repeat),
+#endif
         cmocka_unit_test(a_state_that_was_written_between_steps_is_in_the_file),
         cmocka_unit_test(another_run_is_told_apart_by_step_query_and_field),
         cmocka_unit_test(what_a_backend_did_wrong_is_repeated_too),
