@@ -8,6 +8,8 @@
 #define TOUCHING 1e-10
 /* Arrived (m). */
 #define ARRIVED 1e-9
+/* By iteration (m): a tangent leads no deeper than this, and where it seems to, a triangle was crossed. */
+#define CROSSED 1e-6
 /* Tangents converge quadratically, and halve the rest where the motion grazes: 30 halvings of a metre are 1e-9 m. */
 enum { MAX_TANGENTS = 64 };
 
@@ -197,15 +199,34 @@ static void side_of(const tahr__piece *piece, tahr__convex_side *side)
         side->convex.axis[i] = piece->solid.axis[i];
 }
 
+static void shape_side(const tahr__shape *shape, tahr_vec3 centre, tahr__convex_side *side)
+{
+    *side = (tahr__convex_side){.radius = shape->radius};
+    if (shape->is_convex) *side = shape->convex;
+    for (int i = 0; i < shape->core.axis_count && !shape->is_convex; i++)
+        side->convex.axis[side->convex.count++] = shape->core.axis[i];
+    side->convex.centre = v_add(side->convex.centre, centre);
+}
+
+/* Of cores that have left each other: of two flat faces some point that both hold. */
+static tahr_vec3 touching_point(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, double depth,
+                                tahr_vec3 normal)
+{
+    tahr__convex_side own, other;
+    tahr__gap gap;
+
+    shape_side(shape, centre, &own);
+    side_of(piece, &other);
+    tahr__convex_touch(&own.convex, &other.convex, depth, normal, &gap);
+    return gap.on_b;
+}
+
 static void measure_convex(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece,
                            const tahr__clearance *enough, tahr__near *near)
 {
-    tahr__convex_side own = {.radius = shape->radius}, other;
+    tahr__convex_side own, other;
 
-    if (shape->is_convex) own = shape->convex;
-    for (int i = 0; i < shape->core.axis_count && !shape->is_convex; i++)
-        own.convex.axis[own.convex.count++] = shape->core.axis[i];
-    own.convex.centre = v_add(own.convex.centre, centre);
+    shape_side(shape, centre, &own);
     side_of(piece, &other);
     tahr__convex_measure(&own, &other, enough, near);
 }
@@ -232,8 +253,7 @@ static void measure_core(const tahr__shape *shape, tahr_vec3 centre, const tahr_
     near->part = depth >= 0 ? TAHR__FACE : w.feature;
     near->normal = depth >= 0 ? way_out : w.normal;
     near->distance = (depth >= 0 ? -depth : w.distance) - shape->radius - piece->radius;
-    if (depth >= 0 && piece->kind == TAHR__BOX)
-        near->point = v_mad(centre, near->normal, depth - tahr__core_extent(core, near->normal));
+    if (depth >= 0) near->point = touching_point(shape, centre, piece, depth, near->normal);
     near->point = v_mad(near->point, near->normal, piece->radius);
 }
 
@@ -255,14 +275,14 @@ void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr_
     measure(shape, centre, piece, NULL, near);
 }
 
-/* A bare core (no radius, no margin) that arrives at a one-sided triangle touches it, and out of what it touches the only
- * way is the front, however far that is. A little earlier it is still free, and the nearest points say where it came
- * from: looks back 1e-9, 1e-8, 1e-7 m. */
+/* What a bare core (no radius, no margin) or any convex shape arrives at it touches, and out of what it touches the way
+ * may lead anywhere: of a one-sided triangle to its front, however far that is. A little earlier it is still free, and
+ * the nearest points say where it came from: looks back 1e-9, 1e-8, 1e-7 m; by iteration 1e-6 to 1e-4 m. */
 static int look_back(const tahr__motion *motion, const tahr__piece *piece, double *fraction, tahr__near *near)
 {
-    double length = v_length(motion->motion);
+    double length = v_length(motion->motion), first = near->rough ? CROSSED : ARRIVED;
 
-    for (double back = ARRIVED; back < 2e-7; back *= 10) {
+    for (double back = first; back < 200 * first; back *= 10) {
         double t = d_max(0, *fraction - back / length);
         tahr__piece_measure(motion->shape, v_scale(motion->motion, t), piece, near);
         if (near->distance < motion->margin - ARRIVED) continue;
@@ -279,6 +299,7 @@ tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece 
 {
     const tahr__clearance enough = {motion->motion, motion->shape->radius + piece->radius + motion->margin};
     double t = *fraction;
+    int by_tangent = t > 0; /* t is the root of one */
 
     for (int i = 0; i < MAX_TANGENTS; i++) {
         measure(motion->shape, v_scale(motion->motion, t), piece, &enough, near);
@@ -288,6 +309,9 @@ tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece 
         if (gap <= ARRIVED && gap >= -ARRIVED) return TAHR__HIT;
         if (gap < 0 && piece->kind == TAHR__TRIANGLE && motion->shape->radius + motion->margin <= 0)
             return look_back(motion, piece, fraction, near) ? TAHR__HIT : TAHR__UNKNOWN;
+        if (near->rough && gap < 0 && by_tangent)
+            return gap >= -CROSSED || look_back(motion, piece, fraction, near) ? TAHR__HIT : TAHR__UNKNOWN;
+        by_tangent = gap > 0;
         if (!(speed > 0)) return gap > 0 ? TAHR__FREE : TAHR__UNKNOWN;
         t += gap / speed;
         if (t > limit) return TAHR__FREE;
