@@ -76,8 +76,8 @@ void tahr__ccd_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece
         break;
     case TAHR_BODY_HULL:
         c->kind = TAHR__CONVEX_POINTS;
-        c->points = b->vertices;
-        c->count = b->vertex_count;
+        c->points = b->hull.vertices;
+        c->count = b->hull.count;
         c->turn = &b->turn;
         c->scale = probe->unit;
         break;
@@ -91,8 +91,21 @@ void tahr__ccd_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece
     }
 }
 
-tahr_vec3 tahr__ccd_triangle_normal(const tahr_vec3 v[3])
+/* One without neighbours may be left past its edges. */
+uint32_t tahr__ccd_ways_out(const tahr__ccd_piece *piece)
 {
-    tahr_vec3 n = v_cross(v_sub(v[1], v[0]), v_sub(v[2], v[0]));
-    return v_dot(n, n) > 0 ? v_unit(n) : v_make(0, 0, 1);
+    const tahr__triangle *t = &piece->body->mesh.triangles[piece->triangle];
+    int alone = t->ring[0] == piece->triangle && t->ring[1] == piece->triangle && t->ring[2] == piece->triangle;
+
+    if (!(piece->body->surface.flags & TAHR_BODY_TWO_SIDED)) return 1;
+    return alone ? 7 : 3;
+}
+
+void tahr__ccd_side(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr__convex_side *side)
+{
+    tahr__ccd_convex(probe, piece, &side->convex);
+    side->radius = piece->radius;
+    side->planes = piece->body->type == TAHR_BODY_HULL ? &piece->body->hull.planes : NULL;
+    side->ways_out = piece->body->type == TAHR_BODY_MESH ? tahr__ccd_ways_out(piece) : 0;
+    side->reserved = 0;
 }

@@ -70,11 +70,11 @@ static tahr_status set_hull(tahr__ccd_probe *probe, uint32_t id)
     const tahr__ccd_body *body = &scene->bodies[id];
     probe->hull = body;
     probe->shape.kind = TAHR__CONVEX_POINTS;
-    probe->shape.points = body->vertices;
-    probe->shape.count = body->vertex_count;
+    probe->shape.points = body->hull.vertices;
+    probe->shape.count = body->hull.count;
     probe->shape.turn = &probe->turn;
     probe->shape.scale = probe->unit;
-    probe->shape.centre = v_scale(m_apply(&probe->turn, body->middle), -probe->unit);
+    probe->shape.centre = v_scale(m_apply(&probe->turn, body->hull.middle), -probe->unit);
     return TAHR_OK;
 }
 

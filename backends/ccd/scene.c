@@ -15,7 +15,7 @@ static tahr_vec3 local_half_size(const tahr__ccd_body *b, tahr_vec3 *middle)
     case TAHR_BODY_MESH:
         *middle = v_scale(v_add(b->mesh.bounds.min, b->mesh.bounds.max), 0.5);
         return v_scale(v_sub(b->mesh.bounds.max, b->mesh.bounds.min), 0.5);
-    case TAHR_BODY_HULL: *middle = b->middle; return b->half_extents;
+    case TAHR_BODY_HULL: *middle = b->hull.middle; return b->hull.half;
     case TAHR_BODY_BOX:
     case TAHR_BODY_ELLIPSOID: return b->half_extents;
     case TAHR_BODY_CYLINDER:
@@ -40,34 +40,6 @@ static void place_body(tahr__ccd_body *b, const tahr_pose *pose)
     half = v_add(half, grow);
     b->bounds.min = v_sub(centre, half);
     b->bounds.max = v_add(centre, half);
-}
-
-static tahr_status open_hull(tahr__ccd_scene *scene, const tahr_body_desc *d, tahr__ccd_body *b)
-{
-    const tahr_allocator *a = &scene->host->allocator;
-    const char *reason;
-    tahr_status status;
-
-    if (d->vertex_count < 4 || d->vertex_count > TAHR__HULL_VERTICES || !d->vertices) {
-        tahr__log_body(scene->host, b->surface.id, "vertex_count: a hull has 4 to 256 vertices");
-        return TAHR_E_GEOMETRY;
-    }
-    b->vertices = a->alloc(a->user, d->vertex_count * sizeof *b->vertices, 64);
-    if (!b->vertices) return TAHR_E_MEMORY;
-    b->vertex_count = d->vertex_count;
-    for (uint32_t i = 0; i < d->vertex_count; i++)
-        b->vertices[i] = v_make(d->vertices[3 * i], d->vertices[3 * i + 1], d->vertices[3 * i + 2]);
-    status = tahr__hull_planes_build(scene->host, b->vertices, b->vertex_count, &b->planes, &reason);
-    if (status == TAHR_E_GEOMETRY) tahr__log_body(scene->host, b->surface.id, reason);
-    if (status < 0) return status;
-    tahr_vec3 low = b->vertices[0], high = b->vertices[0];
-    for (uint32_t i = 1; i < b->vertex_count; i++) {
-        low = v_min(low, b->vertices[i]);
-        high = v_max(high, b->vertices[i]);
-    }
-    b->middle = v_scale(v_add(low, high), 0.5);
-    b->half_extents = v_scale(v_sub(high, low), 0.5);
-    return TAHR_OK;
 }
 
 static double reach_of(const tahr_body_desc *d)
@@ -95,7 +67,7 @@ static tahr_status open_body(tahr__ccd_scene *scene, const tahr_body_desc *d, ui
         status = tahr__mesh_build(scene->host, &source, &b->mesh);
         if (status < 0) b->type = 0; /* nothing to free */
     }
-    if (d->type == TAHR_BODY_HULL) status = open_hull(scene, d, b);
+    if (d->type == TAHR_BODY_HULL) status = tahr__hull_open(scene->host, d, id, &b->hull);
     if (status >= 0) place_body(b, &d->pose);
     return status;
 }
@@ -162,11 +134,8 @@ tahr_status tahr__ccd_scene_open(tahr__ccd_scene *scene, const tahr_host *host, 
 
 static void close_body(const tahr_host *host, tahr__ccd_body *b)
 {
-    const tahr_allocator *a = &host->allocator;
-
     if (b->type == TAHR_BODY_MESH) tahr__mesh_free(host, &b->mesh);
-    if (b->vertices) a->free(a->user, b->vertices, b->vertex_count * sizeof *b->vertices, 64);
-    tahr__hull_planes_free(host, &b->planes);
+    tahr__hull_close(host, &b->hull);
 }
 
 void tahr__ccd_scene_close(tahr__ccd_scene *scene)

@@ -4,10 +4,9 @@
 #define TAHR_CCD_SCENE_H
 
 #include "../common/body_tree.h"
-#include "../common/convex.h"
-#include "../common/core.h"
+#include "../common/convex_near.h"
 #include "../common/fluid.h"
-#include "../common/hull_planes.h"
+#include "../common/hull.h"
 #include "../common/mesh.h"
 #include "../common/one_way.h"
 #include "../common/surface.h"
@@ -17,24 +16,17 @@
 /* A contact whose normal leans behind a one-sided face by more than this came from behind and is none. */
 #define TAHR__CCD_BEHIND (-1e-6)
 
-/* Between two shapes of which at least one is met by its support function: the distance is certain to 1e-12 of the
- * character's size, and so a direction to its square root. Directions closer than this are one, and so are places. */
-#define TAHR__CCD_SAME_DIRECTION 3e-6
-#define TAHR__CCD_SAME_PLACE 1e-5
-
 typedef struct tahr__ccd_body {
     tahr__surface surface;
-    uint32_t type, vertex_count; /* of hulls */
+    uint32_t type, reserved;
     tahr_vec3 position;
     tahr__mat turn;         /* local to world */
-    tahr_vec3 half_extents; /* boxes, ellipsoids; hulls: half their extents */
+    tahr_vec3 half_extents; /* boxes, ellipsoids */
     double radius;          /* spheres, capsules, cylinders, cones */
     double reach;           /* capsules: half the length of the axis; cylinders, cones: half height */
     tahr_bounds bounds;     /* world */
     tahr__mesh mesh;
-    tahr_vec3 *vertices;      /* hulls, local */
-    tahr_vec3 middle;         /* hulls: of their extents, local */
-    tahr__hull_planes planes; /* hulls */
+    tahr__hull hull;
 } tahr__ccd_body;
 
 typedef struct tahr__ccd_scene {
@@ -73,14 +65,8 @@ typedef struct tahr__ccd_probe {
     tahr__filter filter;
 } tahr__ccd_probe;
 
-/* The nearest points of the shape and a piece. */
-typedef struct tahr__ccd_near {
-    double distance;  /* signed, between the surfaces */
-    tahr_vec3 normal; /* unit, from the piece to the shape, or the way out */
-    tahr_vec3 point;  /* on the piece's surface, relative to the query's start */
-    uint32_t part;    /* of a mesh triangle: TAHR__FACE, TAHR__EDGE + i, TAHR__CORNER + i */
-    uint32_t reserved;
-} tahr__ccd_near;
+/* The nearest points of the shape and a piece, relative to the query's start. */
+typedef tahr__near tahr__ccd_near;
 
 /* scene.c */
 tahr_status tahr__ccd_scene_open(tahr__ccd_scene *scene, const tahr_host *host, const tahr_world_desc *desc);
@@ -114,8 +100,10 @@ static inline int tahr__ccd_is_convex(const tahr__ccd_piece *piece)
 void tahr__ccd_whole_body(const tahr__ccd_probe *probe, const tahr__ccd_body *body, tahr__ccd_piece *piece);
 /* The piece by its support function, without its radius. */
 void tahr__ccd_convex(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr__convex *convex);
-/* The winding's normal of a triangle. */
-tahr_vec3 tahr__ccd_triangle_normal(const tahr_vec3 v[3]);
+/* The same with all that the distance of convex shapes asks for. */
+void tahr__ccd_side(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr__convex_side *side);
+/* By which sides a triangle is left, see core.h. */
+uint32_t tahr__ccd_ways_out(const tahr__ccd_piece *piece);
 
 /* measure.c: everything that the distance decides. */
 void tahr__ccd_measure(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, tahr_vec3 centre,

@@ -24,17 +24,11 @@ static uint32_t box_face(const tahr__ccd_piece *piece, tahr_vec3 direction, tahr
     return best;
 }
 
-/* The face of a hull that is most along a direction. */
-static uint32_t hull_face(const tahr__ccd_body *body, tahr_vec3 direction, tahr_vec3 *normal)
+/* A hull by itself: where it lies does not matter for its faces. */
+static uint32_t hull_face(const tahr__ccd_body *body, tahr_vec3 direction)
 {
-    tahr_vec3 local = m_unapply(&body->turn, direction);
-    uint32_t best = 0;
-
-    for (uint32_t i = 1; i < body->planes.count; i++) {
-        if (v_dot(body->planes.normals[i], local) > v_dot(body->planes.normals[best], local)) best = i;
-    }
-    *normal = m_apply(&body->turn, body->planes.normals[best]);
-    return best;
+    const tahr__convex_side side = {.convex.turn = &body->turn, .planes = &body->hull.planes};
+    return tahr__convex_hull_face(&side, direction);
 }
 
 uint32_t tahr__ccd_feature(const tahr__ccd_piece *piece, const tahr__ccd_near *near)
@@ -43,7 +37,7 @@ uint32_t tahr__ccd_feature(const tahr__ccd_piece *piece, const tahr__ccd_near *n
 
     if (piece->body->type == TAHR_BODY_MESH)
         return tahr__triangle_source(&piece->body->mesh.triangles[piece->triangle]);
-    if (piece->body->type == TAHR_BODY_HULL) return hull_face(piece->body, near->normal, &n);
+    if (piece->body->type == TAHR_BODY_HULL) return hull_face(piece->body, near->normal);
     return piece->body->type == TAHR_BODY_BOX ? box_face(piece, near->normal, &n) : 0;
 }
 
@@ -53,8 +47,8 @@ uint32_t tahr__ccd_feature(const tahr__ccd_piece *piece, const tahr__ccd_near *n
 static void box_surface(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, const tahr__ccd_near *near,
                         tahr_vec3 direction, tahr_vec3 *face)
 {
-    double most = -2, same = probe->is_core ? 1e-9 : TAHR__CCD_SAME_PLACE;
-    double toward = probe->is_core ? 1e-9 : TAHR__CCD_SAME_DIRECTION;
+    double most = -2, same = probe->is_core ? 1e-9 : TAHR__SAME_PLACE;
+    double toward = probe->is_core ? 1e-9 : TAHR__SAME_DIRECTION;
 
     box_face(piece, near->normal, face);
     for (int i = 0; i < 3; i++) {
@@ -67,84 +61,6 @@ static void box_surface(const tahr__ccd_probe *probe, const tahr__ccd_piece *pie
             *face = outward;
         }
     }
-}
-
-/* --- Cylinders, cones, ellipsoids, hulls --- */
-
-/* Takes a face that holds the nearest point, if it is more along direction than the one so far. */
-static void take_face(tahr_vec3 n, const tahr__ccd_near *near, tahr_vec3 direction, tahr_vec3 *face, double *most)
-{
-    if (v_dot(n, near->normal) <= TAHR__CCD_SAME_DIRECTION || v_dot(n, direction) <= *most) return;
-    *most = v_dot(n, direction);
-    *face = n;
-}
-
-/* A level direction in the frame of a round body: from its axis to a point, or where that is on the axis along what the
- * question is about. */
-static tahr_vec3 outward_of(tahr_vec3 p, tahr_vec3 direction)
-{
-    double length = sqrt(p.x * p.x + p.y * p.y), own = sqrt(direction.x * direction.x + direction.y * direction.y);
-    if (length > TAHR__CCD_SAME_PLACE) return v_make(p.x / length, p.y / length, 0);
-    return own > 0 ? v_make(direction.x / own, direction.y / own, 0) : v_make(1, 0, 0);
-}
-
-static void cylinder_surface(const tahr__ccd_body *b, double unit, const tahr__ccd_near *at, tahr_vec3 direction,
-                             tahr_vec3 *face)
-{
-    tahr_vec3 p = at->point, side = outward_of(p, direction);
-    double h = b->reach * unit, r = b->radius * unit, most = -2;
-
-    if (p.z > h - TAHR__CCD_SAME_PLACE) take_face(v_make(0, 0, 1), at, direction, face, &most);
-    if (p.z < -h + TAHR__CCD_SAME_PLACE) take_face(v_make(0, 0, -1), at, direction, face, &most);
-    if (v_dot(p, side) > r - TAHR__CCD_SAME_PLACE) take_face(side, at, direction, face, &most);
-}
-
-static void cone_surface(const tahr__ccd_body *b, double unit, const tahr__ccd_near *at, tahr_vec3 direction,
-                         tahr_vec3 *face)
-{
-    tahr_vec3 p = at->point, side = outward_of(p, direction);
-    double h = b->reach * unit, r = b->radius * unit, most = -2;
-    /* The side leans inward by r over the whole height. */
-    tahr_vec3 n = v_unit(v_mad(v_make(0, 0, r), side, 2 * h));
-
-    if (p.z < -h + TAHR__CCD_SAME_PLACE) take_face(v_make(0, 0, -1), at, direction, face, &most);
-    if (v_dot(n, v_sub(p, v_make(0, 0, h))) > -TAHR__CCD_SAME_PLACE) take_face(n, at, direction, face, &most);
-}
-
-static void ellipsoid_surface(const tahr__ccd_body *b, tahr_vec3 p, tahr_vec3 *face)
-{
-    tahr_vec3 h = b->half_extents, n = v_make(p.x / (h.x * h.x), p.y / (h.y * h.y), p.z / (h.z * h.z));
-    if (v_dot(n, n) > 0) *face = v_unit(n);
-}
-
-static void hull_surface(const tahr__ccd_body *b, double unit, const tahr__ccd_near *at, tahr_vec3 direction,
-                         tahr_vec3 *face)
-{
-    double most = -2;
-    for (uint32_t i = 0; i < b->planes.count; i++) {
-        double height = v_dot(b->planes.normals[i], at->point) - b->planes.offsets[i] * unit;
-        if (height > -TAHR__CCD_SAME_PLACE) take_face(b->planes.normals[i], at, direction, face, &most);
-    }
-}
-
-/* In the frame of the body, and back. */
-static void convex_surface(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, const tahr__ccd_near *near,
-                           tahr_vec3 direction, tahr_vec3 *face)
-{
-    const tahr__ccd_body *b = piece->body;
-    tahr__ccd_near local = *near;
-    tahr_vec3 n;
-
-    local.point = m_unapply(&b->turn, v_sub(near->point, piece->corner[0]));
-    local.normal = n = m_unapply(&b->turn, near->normal);
-    direction = m_unapply(&b->turn, direction);
-    switch (b->type) {
-    case TAHR_BODY_CYLINDER: cylinder_surface(b, probe->unit, &local, direction, &n); break;
-    case TAHR_BODY_CONE: cone_surface(b, probe->unit, &local, direction, &n); break;
-    case TAHR_BODY_ELLIPSOID: ellipsoid_surface(b, local.point, &n); break;
-    default: hull_surface(b, probe->unit, &local, direction, &n); break;
-    }
-    *face = m_apply(&b->turn, n);
 }
 
 /* --- Meshes --- */
@@ -174,7 +90,7 @@ static int is_nearer(const tahr__ccd_piece *other, uint32_t at, uint32_t to, tah
 /* The face of a mesh triangle, turned to the side of the contact if it has two. */
 static tahr_vec3 facing_normal(const tahr__ccd_piece *piece, tahr_vec3 contact)
 {
-    tahr_vec3 n = tahr__ccd_triangle_normal(piece->corner);
+    tahr_vec3 n = tahr__convex_triangle_normal(piece->corner);
     return piece->body->surface.flags & TAHR_BODY_TWO_SIDED && v_dot(n, contact) < 0 ? v_scale(n, -1) : n;
 }
 
@@ -211,7 +127,7 @@ int tahr__ccd_face(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, t
                    tahr__ccd_near *near, tahr_vec3 *face)
 {
     int exact = probe->is_core && !tahr__ccd_is_convex(piece);
-    double snap = exact ? SNAP : TAHR__CCD_SAME_DIRECTION;
+    double snap = exact ? SNAP : TAHR__SAME_DIRECTION;
     tahr_vec3 tilt;
 
     *face = near->normal;
@@ -220,7 +136,9 @@ int tahr__ccd_face(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, t
         box_surface(probe, piece, near, direction, face);
         if (exact) return 1;
     } else if (piece->body->type != TAHR_BODY_MESH) {
-        convex_surface(probe, piece, near, direction, face);
+        tahr__convex_side side;
+        tahr__ccd_side(probe, piece, &side);
+        tahr__convex_face(&side, near, direction, face);
     } else {
         *face = facing_normal(piece, near->normal);
         if (near->part != TAHR__FACE && !mesh_surface(probe, piece, near, direction, face)) return 0;

@@ -50,8 +50,7 @@ static int overlap(const tahr_bounds *a, const tahr_bounds *b)
 static int passes(const tahr__ccd_walk *walk, const tahr__ccd_body *body)
 {
     tahr_bounds world = {v_add(walk->box.min, walk->probe->origin), v_add(walk->box.max, walk->probe->origin)};
-    return !(body->surface.flags & TAHR_BODY_TEMPLATE) && tahr__filter_passes(&walk->probe->filter, &body->surface) &&
-           overlap(&world, &body->bounds);
+    return tahr__filter_passes(&walk->probe->filter, &body->surface) && overlap(&world, &body->bounds);
 }
 
 /* The query's box in the frame of the mesh. */

@@ -8,6 +8,8 @@
 #define TOUCHING 1e-10
 /* Arrived (m). */
 #define ARRIVED 1e-9
+/* By iteration (m): a tangent leads no deeper than this, and where it seems to, a triangle was crossed. */
+#define CROSSED 1e-6
 /* Tangents converge quadratically, and halve the rest where the motion grazes: 30 halvings of a metre are 1e-9 m. */
 enum { MAX_TANGENTS = 64 };
 
@@ -73,39 +75,38 @@ void tahr__piece_round(const tahr__placement *frame, double radius, double reach
     tahr__facet_finish(&piece->facet);
 }
 
+void tahr__piece_swept(const tahr__placement *frame, uint32_t kind, double radius, double reach, tahr__piece *piece)
+{
+    begin(piece, TAHR__CONVEX, frame);
+    piece->convex = (tahr__convex_side){.convex = {.kind = kind, .centre = frame->base, .radius = radius}};
+    piece->convex.convex.axis[0] = column(frame, 2, reach);
+}
+
+void tahr__piece_ellipsoid(const tahr__placement *frame, tahr_vec3 half, tahr__piece *piece)
+{
+    begin(piece, TAHR__CONVEX, frame);
+    piece->convex = (tahr__convex_side){.convex = {.kind = TAHR__CONVEX_ELLIPSOID, .centre = frame->base}};
+    for (int i = 0; i < 3; i++)
+        piece->convex.convex.axis[i] = column(frame, i, v_get(half, i));
+}
+
+void tahr__piece_hull(const tahr__placement *frame, const tahr__hull *hull, tahr__piece *piece)
+{
+    begin(piece, TAHR__CONVEX, frame);
+    piece->convex = (tahr__convex_side){.convex = {.kind = TAHR__CONVEX_POINTS,
+                                                   .count = hull->count,
+                                                   .centre = frame->base,
+                                                   .points = hull->vertices,
+                                                   .turn = frame->turned ? &frame->turn : NULL,
+                                                   .scale = 1},
+                                        .planes = &hull->planes};
+}
+
 void tahr__piece_half_space(const tahr__placement *frame, tahr_vec3 normal, double offset, tahr__piece *piece)
 {
     begin(piece, TAHR__HALF_SPACE, frame);
     piece->solid.axis[0] = m_apply(&frame->turn, normal);
     piece->middle = place(frame, v_scale(normal, offset));
-}
-
-static int is_finite_vec(tahr_vec3 v)
-{
-    return v.x * 0 == 0 && v.y * 0 == 0 && v.z * 0 == 0;
-}
-
-int tahr__shape_make(const tahr_shape *shape, tahr_vec3 up, tahr_quat orientation, tahr__shape *out)
-{
-    tahr__mat turn;
-    int fine;
-
-    out->core.axis_count = 0;
-    out->radius = shape->type == TAHR_SHAPE_BOX ? 0 : shape->radius;
-    if (shape->type == TAHR_SHAPE_CAPSULE && shape->half_height > shape->radius) {
-        out->core.axis_count = 1;
-        out->core.axis[0] = v_scale(up, shape->half_height - shape->radius);
-    } else if (shape->type == TAHR_SHAPE_BOX) {
-        turn = m_from_quat(orientation);
-        out->core.axis_count = 3;
-        out->core.axis[0] = m_apply(&turn, v_make(shape->half_x, 0, 0));
-        out->core.axis[1] = m_apply(&turn, v_make(0, shape->half_y, 0));
-        out->core.axis[2] = m_apply(&turn, v_make(0, 0, shape->half_height));
-    }
-    fine = out->radius >= 0 && out->radius * 0 == 0;
-    for (int i = 0; i < out->core.axis_count; i++)
-        fine = fine && is_finite_vec(out->core.axis[i]);
-    return fine && shape->type >= TAHR_SHAPE_SPHERE && shape->type <= TAHR_SHAPE_BOX;
 }
 
 /* Corners of a box by bit: +x 1, +y 2, +z 4. Two triangles per face. */
@@ -151,14 +152,20 @@ static double solid_depth(const tahr__core *core, tahr_vec3 centre, const tahr__
     return 0;
 }
 
-static double triangle_depth(const tahr__core *core, tahr_vec3 centre, const tahr__piece *piece, tahr_vec3 *normal)
+/* One without neighbours may be left past its edges. */
+static uint32_t ways_out(const tahr__piece *piece)
 {
     const tahr__triangle *t = &piece->mesh->triangles[piece->triangle];
     int alone = 1;
 
     for (int i = 0; i < 3; i++)
         alone &= t->ring[i] == piece->triangle;
-    return tahr__core_leave_triangle(core, centre, piece->facet.v, !piece->two_sided ? 1u : alone ? 7u : 3u, normal);
+    return !piece->two_sided ? 1u : alone ? 7u : 3u;
+}
+
+static double triangle_depth(const tahr__core *core, tahr_vec3 centre, const tahr__piece *piece, tahr_vec3 *normal)
+{
+    return tahr__core_leave_triangle(core, centre, piece->facet.v, ways_out(piece), normal);
 }
 
 static void measure_half_space(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, tahr__near *near)
@@ -169,22 +176,68 @@ static void measure_half_space(const tahr__shape *shape, tahr_vec3 centre, const
     if (piece->two_sided && height < 0) n = v_scale(n, -1);
     near->normal = n;
     near->part = TAHR__FACE;
-    near->distance = (piece->two_sided ? fabs(height) : height) - tahr__core_extent(&shape->core, n) - shape->radius;
+    near->distance =
+        (piece->two_sided ? fabs(height) : height) - tahr__shape_extent(shape, v_scale(n, -1)) - shape->radius;
     near->point = v_mad(centre, piece->solid.axis[0], -height);
 }
 
-void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, tahr__near *near)
+/* A piece of any kind by its support function. */
+static void side_of(const tahr__piece *piece, tahr__convex_side *side)
+{
+    if (piece->kind == TAHR__CONVEX) {
+        *side = piece->convex;
+        return;
+    }
+    *side = (tahr__convex_side){.radius = piece->radius};
+    if (piece->kind == TAHR__TRIANGLE) {
+        side->convex = (tahr__convex){.kind = TAHR__CONVEX_POINTS, .count = 3, .points = piece->facet.v, .scale = 1};
+        side->ways_out = ways_out(piece);
+        return;
+    }
+    side->convex = (tahr__convex){.count = (uint32_t)piece->solid.axis_count, .centre = piece->middle};
+    for (int i = 0; i < piece->solid.axis_count; i++)
+        side->convex.axis[i] = piece->solid.axis[i];
+}
+
+static void shape_side(const tahr__shape *shape, tahr_vec3 centre, tahr__convex_side *side)
+{
+    *side = (tahr__convex_side){.radius = shape->radius};
+    if (shape->is_convex) *side = shape->convex;
+    for (int i = 0; i < shape->core.axis_count && !shape->is_convex; i++)
+        side->convex.axis[side->convex.count++] = shape->core.axis[i];
+    side->convex.centre = v_add(side->convex.centre, centre);
+}
+
+/* Of cores that have left each other: of two flat faces some point that both hold. */
+static tahr_vec3 touching_point(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, double depth,
+                                tahr_vec3 normal)
+{
+    tahr__convex_side own, other;
+    tahr__gap gap;
+
+    shape_side(shape, centre, &own);
+    side_of(piece, &other);
+    tahr__convex_touch(&own.convex, &other.convex, depth, normal, &gap);
+    return gap.on_b;
+}
+
+static void measure_convex(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece,
+                           const tahr__clearance *enough, tahr__near *near)
+{
+    tahr__convex_side own, other;
+
+    shape_side(shape, centre, &own);
+    side_of(piece, &other);
+    tahr__convex_measure(&own, &other, enough, near);
+}
+
+static void measure_core(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, tahr__near *near)
 {
     const tahr__core *core = &shape->core;
     tahr__witness w = {0};
     tahr_vec3 way_out = v_make(0, 0, 1);
     double depth = -1;
 
-    near->reserved = 0;
-    if (piece->kind == TAHR__HALF_SPACE) {
-        measure_half_space(shape, centre, piece, near);
-        return;
-    }
     if (piece->kind == TAHR__BOX && core->axis_count < 3)
         tahr__core_box(core, centre,
                        &(tahr__box){piece->middle, piece->half, piece->frame->turned ? &piece->frame->turn : NULL}, &w);
@@ -200,19 +253,36 @@ void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr_
     near->part = depth >= 0 ? TAHR__FACE : w.feature;
     near->normal = depth >= 0 ? way_out : w.normal;
     near->distance = (depth >= 0 ? -depth : w.distance) - shape->radius - piece->radius;
-    if (depth >= 0 && piece->kind == TAHR__BOX)
-        near->point = v_mad(centre, near->normal, depth - tahr__core_extent(core, near->normal));
+    if (depth >= 0) near->point = touching_point(shape, centre, piece, depth, near->normal);
     near->point = v_mad(near->point, near->normal, piece->radius);
 }
 
-/* A bare core (no radius, no margin) that arrives at a one-sided triangle touches it, and out of what it touches the only
- * way is the front, however far that is. A little earlier it is still free, and the nearest points say where it came
- * from: looks back 1e-9, 1e-8, 1e-7 m. */
+/* enough: of a motion, or NULL (convex.h). */
+static void measure(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, const tahr__clearance *enough,
+                    tahr__near *near)
+{
+    near->rough = 0;
+    if (piece->kind == TAHR__HALF_SPACE)
+        measure_half_space(shape, centre, piece, near);
+    else if (shape->is_convex || piece->kind == TAHR__CONVEX)
+        measure_convex(shape, centre, piece, enough, near);
+    else
+        measure_core(shape, centre, piece, near);
+}
+
+void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, tahr__near *near)
+{
+    measure(shape, centre, piece, NULL, near);
+}
+
+/* What a bare core (no radius, no margin) or any convex shape arrives at it touches, and out of what it touches the way
+ * may lead anywhere: of a one-sided triangle to its front, however far that is. A little earlier it is still free, and
+ * the nearest points say where it came from: looks back 1e-9, 1e-8, 1e-7 m; by iteration 1e-6 to 1e-4 m. */
 static int look_back(const tahr__motion *motion, const tahr__piece *piece, double *fraction, tahr__near *near)
 {
-    double length = v_length(motion->motion);
+    double length = v_length(motion->motion), first = near->rough ? CROSSED : ARRIVED;
 
-    for (double back = ARRIVED; back < 2e-7; back *= 10) {
+    for (double back = first; back < 200 * first; back *= 10) {
         double t = d_max(0, *fraction - back / length);
         tahr__piece_measure(motion->shape, v_scale(motion->motion, t), piece, near);
         if (near->distance < motion->margin - ARRIVED) continue;
@@ -227,16 +297,21 @@ static int look_back(const tahr__motion *motion, const tahr__piece *piece, doubl
 tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece *piece, double limit, double *fraction,
                                   tahr__near *near)
 {
+    const tahr__clearance enough = {motion->motion, motion->shape->radius + piece->radius + motion->margin};
     double t = *fraction;
+    int by_tangent = t > 0; /* t is the root of one */
 
     for (int i = 0; i < MAX_TANGENTS; i++) {
-        tahr__piece_measure(motion->shape, v_scale(motion->motion, t), piece, near);
+        measure(motion->shape, v_scale(motion->motion, t), piece, &enough, near);
         double gap = near->distance - motion->margin, speed = -v_dot(motion->motion, near->normal);
         ++*motion->iterations;
         *fraction = t;
         if (gap <= ARRIVED && gap >= -ARRIVED) return TAHR__HIT;
         if (gap < 0 && piece->kind == TAHR__TRIANGLE && motion->shape->radius + motion->margin <= 0)
             return look_back(motion, piece, fraction, near) ? TAHR__HIT : TAHR__UNKNOWN;
+        if (near->rough && gap < 0 && by_tangent)
+            return gap >= -CROSSED || look_back(motion, piece, fraction, near) ? TAHR__HIT : TAHR__UNKNOWN;
+        by_tangent = gap > 0;
         if (!(speed > 0)) return gap > 0 ? TAHR__FREE : TAHR__UNKNOWN;
         t += gap / speed;
         if (t > limit) return TAHR__FREE;

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT
  * piece.h: one convex piece of a body as a query sees it (a triangle of a mesh, a box, a sphere, a capsule, a half
- * space), with everything that the core distance decides about it: signed distance, both normals, which face, and
+ * space, or any other convex body), with everything that the core distance decides about it: signed distance, both normals, which face, and
  * whether an edge of a mesh is to be felt. All coordinates are relative to the start of the query. */
 #ifndef TAHR_COMMON_PIECE_H
 #define TAHR_COMMON_PIECE_H
 
+#include "convex_near.h"
 #include "core.h"
+#include "hull.h"
 #include "mesh.h"
 
-enum { TAHR__TRIANGLE = 0, TAHR__BOX = 1, TAHR__ROUND = 2, TAHR__HALF_SPACE = 3 };
+enum { TAHR__TRIANGLE = 0, TAHR__BOX = 1, TAHR__ROUND = 2, TAHR__HALF_SPACE = 3, TAHR__CONVEX = 4 };
 
 /* Where the frame of a body is: corners are base + turn * local. */
 typedef struct tahr__placement {
@@ -31,22 +33,23 @@ typedef struct tahr__piece {
     tahr__core solid;
     tahr_vec3 middle, half; /* half: of boxes */
     double radius;
+    tahr__convex_side convex; /* cylinders, cones, ellipsoids, hulls */
 } tahr__piece;
 
-/* A shape as core and radius. */
+/* A shape as core and radius, or if is_convex as convex, without a radius. Not to be copied: convex points into it. */
 typedef struct tahr__shape {
     tahr__core core;
     double radius;
+    uint32_t is_convex, reserved;
+    tahr__mat turn; /* of hulls */
+    tahr__convex_side convex;
 } tahr__shape;
 
-/* The nearest points of a shape and a piece. */
-typedef struct tahr__near {
-    double distance;  /* signed, between the surfaces */
-    tahr_vec3 normal; /* unit, from the piece to the shape, or the way out */
-    tahr_vec3 point;  /* on the surface of the piece */
-    uint32_t part;    /* of a triangle: TAHR__FACE, TAHR__EDGE + i, TAHR__CORNER + i */
-    uint32_t reserved;
-} tahr__near;
+/* Extent along n from the centre. */
+static inline double tahr__shape_extent(const tahr__shape *shape, tahr_vec3 n)
+{
+    return shape->is_convex ? tahr__convex_extent(&shape->convex.convex, n) : tahr__core_extent(&shape->core, n);
+}
 
 /* A frame from a pose, seen from the start of a query. */
 void tahr__placement_make(const tahr_vec3 *position, const tahr__mat *turn, tahr_vec3 start, tahr__placement *frame);
@@ -57,8 +60,23 @@ void tahr__piece_box(const tahr__placement *frame, tahr_vec3 middle, tahr_vec3 h
 void tahr__piece_round(const tahr__placement *frame, double radius, double reach, tahr__piece *piece);
 void tahr__piece_half_space(const tahr__placement *frame, tahr_vec3 normal, double offset, tahr__piece *piece);
 
-/* The shape of a query; 0 if it is none of sphere, capsule, box or not finite. */
-int tahr__shape_make(const tahr_shape *shape, tahr_vec3 up, tahr_quat orientation, tahr__shape *out);
+/* Cylinders and cones (reach: half the height along z), ellipsoids (half: their semi-axes); kind: TAHR__CONVEX_*. */
+void tahr__piece_swept(const tahr__placement *frame, uint32_t kind, double radius, double reach, tahr__piece *piece);
+void tahr__piece_ellipsoid(const tahr__placement *frame, tahr_vec3 half, tahr__piece *piece);
+void tahr__piece_hull(const tahr__placement *frame, const tahr__hull *hull, tahr__piece *piece);
+
+/* A query's shape. */
+typedef struct tahr__shape_source {
+    const tahr_shape *shape;
+    tahr_vec3 up;
+    tahr_quat orientation;
+    const tahr__hull *hull; /* who lends the vertices of a TAHR_SHAPE_HULL, or NULL */
+} tahr__shape_source;
+
+/* A point, for rays. */
+void tahr__shape_point(tahr__shape *out);
+/* TAHR_OK; TAHR_E_UNSUPPORTED for no kind of shape; TAHR_E_ARGUMENT if it is not finite, or without its hull. */
+tahr_status tahr__shape_make(const tahr__shape_source *source, tahr__shape *out);
 
 /* Nearest points, or the way out, of a shape at centre. */
 void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, tahr__near *near);
@@ -70,7 +88,7 @@ int tahr__piece_in_front(const tahr__piece *piece, const tahr__near *near);
  * rounding. Returns 0 if a neighbour at a shared edge or corner is nearer: an internal edge, not to be felt. */
 int tahr__piece_face(const tahr__piece *piece, tahr_vec3 direction, tahr__near *near, tahr_vec3 *face);
 
-/* Triangle of the caller, face of a box (-x, +x, -y, +y, -z, +z), 0. */
+/* Triangle of the caller, face of a box (-x, +x, -y, +y, -z, +z), face of a hull, 0. */
 uint32_t tahr__piece_feature(const tahr__piece *piece, tahr_vec3 normal);
 
 /* The first fraction in [*fraction, limit] of a motion at which the distance falls to margin, from a fraction that is

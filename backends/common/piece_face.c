@@ -43,6 +43,7 @@ uint32_t tahr__piece_feature(const tahr__piece *piece, tahr_vec3 normal)
     tahr_vec3 n;
 
     if (piece->kind == TAHR__TRIANGLE) return tahr__triangle_source(&piece->mesh->triangles[piece->triangle]);
+    if (piece->kind == TAHR__CONVEX && piece->convex.planes) return tahr__convex_hull_face(&piece->convex, normal);
     return piece->kind == TAHR__BOX ? box_face(piece, normal, &n) : 0;
 }
 
@@ -50,13 +51,14 @@ uint32_t tahr__piece_feature(const tahr__piece *piece, tahr_vec3 normal)
 static void box_surface(const tahr__piece *piece, const tahr__near *near, tahr_vec3 direction, tahr_vec3 *face)
 {
     tahr_vec3 at = v_sub(near->point, piece->middle);
-    double most = -2;
+    double most = -2, beside = near->rough ? TAHR__SAME_PLACE : ON_FACE;
+    double lean = near->rough ? TAHR__SAME_DIRECTION : ON_FACE;
 
     box_face(piece, near->normal, face);
     for (int i = 0; i < 6; i++) {
         double half = v_length(piece->solid.axis[i / 2]);
         tahr_vec3 outward = v_scale(piece->solid.axis[i / 2], (i & 1 ? 1 : -1) / half);
-        if (v_dot(at, outward) < half - ON_FACE || v_dot(outward, near->normal) <= ON_FACE ||
+        if (v_dot(at, outward) < half - beside || v_dot(outward, near->normal) <= lean ||
             v_dot(outward, direction) <= most)
             continue;
         most = v_dot(outward, direction);
@@ -168,14 +170,20 @@ static int mesh_surface(const tahr__piece *piece, const tahr__near *near, tahr_v
 
 int tahr__piece_face(const tahr__piece *piece, tahr_vec3 direction, tahr__near *near, tahr_vec3 *face)
 {
+    double snap = near->rough ? TAHR__SAME_DIRECTION : SNAP;
     tahr_vec3 tilt;
 
     *face = near->normal;
     if (piece->kind == TAHR__BOX) box_surface(piece, near, direction, face);
-    if (piece->kind != TAHR__TRIANGLE) return 1;
-    *face = facing_normal(&piece->facet, piece->two_sided, near->normal);
-    if (near->part != TAHR__FACE && !mesh_surface(piece, near, direction, face)) return 0;
+    if (piece->kind == TAHR__CONVEX) tahr__convex_face(&piece->convex, near, direction, face);
+    if (piece->kind != TAHR__TRIANGLE && !near->rough) return 1;
+    if (piece->kind == TAHR__TRIANGLE) {
+        *face = facing_normal(&piece->facet, piece->two_sided, near->normal);
+        if (near->part != TAHR__FACE && !mesh_surface(piece, near, direction, face)) return 0;
+    }
+    /* By iteration the way out of an overlap is as long as it is for its own normal. */
+    if (near->rough && near->distance < 0) return 1;
     tilt = v_sub(near->normal, *face);
-    if (v_dot(tilt, tilt) < SNAP * SNAP) near->normal = *face;
+    if (v_dot(tilt, tilt) < snap * snap) near->normal = *face;
     return 1;
 }

@@ -60,8 +60,8 @@ static inline tahr__filter tahr__filter_of_ray(const tahr_ray *query)
 static inline int tahr__filter_passes(const tahr__filter *filter, const tahr__surface *surface)
 {
     uint32_t kind = surface->flags & TAHR_BODY_SENSOR ? TAHR__SENSORS : TAHR__SOLIDS;
-    return filter->leaves_out != kind && (surface->mask & filter->mask) != 0 &&
-           (surface->id == filter->ignore_body) == (filter->only_body != 0);
+    return !(surface->flags & TAHR_BODY_TEMPLATE) && filter->leaves_out != kind &&
+           (surface->mask & filter->mask) != 0 && (surface->id == filter->ignore_body) == (filter->only_body != 0);
 }
 
 #endif

@@ -5,7 +5,10 @@
 
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -101,6 +104,26 @@ static void look_at_solid(const Geometry &geometry, tahr__fcl_geometry &g)
     }
 }
 
+/* A Cylinder or a Cone, whose apex is up +z as a body's. */
+template <class Shape> static void look_at_swept(const Shape &shape, tahr__fcl_geometry &g)
+{
+    bool is_cone = shape.getNodeType() == fcl::GEOM_CONE;
+
+    g.name = is_cone ? "a Cone" : "a Cylinder";
+    g.radius = shape.radius;
+    g.reach = 0.5 * shape.lz;
+    g.kind = !is_size(g.radius) || !is_size(g.reach) ? 0 : is_cone ? TAHR_BODY_CONE : TAHR_BODY_CYLINDER;
+}
+
+static void look_at_ellipsoid(const fcl::Ellipsoid<double> &ellipsoid, tahr__fcl_geometry &g)
+{
+    const Vector &radii = ellipsoid.radii;
+
+    g.name = "an Ellipsoid";
+    g.half_extents = {radii.x(), radii.y(), radii.z()};
+    g.kind = is_size(radii.x()) && is_size(radii.y()) && is_size(radii.z()) ? TAHR_BODY_ELLIPSOID : 0;
+}
+
 static void look_at(tahr__fcl_engine &engine, const Geometry &geometry, tahr__fcl_geometry &g)
 {
     switch (geometry.getNodeType()) {
@@ -115,6 +138,9 @@ static void look_at(tahr__fcl_engine &engine, const Geometry &geometry, tahr__fc
     case fcl::GEOM_BOX:
     case fcl::GEOM_SPHERE:
     case fcl::GEOM_CAPSULE: return look_at_solid(geometry, g);
+    case fcl::GEOM_CYLINDER: return look_at_swept(static_cast<const fcl::Cylinder<double> &>(geometry), g);
+    case fcl::GEOM_CONE: return look_at_swept(static_cast<const fcl::Cone<double> &>(geometry), g);
+    case fcl::GEOM_ELLIPSOID: return look_at_ellipsoid(static_cast<const fcl::Ellipsoid<double> &>(geometry), g);
     case fcl::GEOM_CONVEX: return look_at_convex(engine, static_cast<const fcl::Convex<double> &>(geometry), g);
     case fcl::GEOM_TRIANGLE: return look_at_triangle(engine, static_cast<const fcl::TriangleP<double> &>(geometry), g);
     case fcl::GEOM_HALFSPACE: {
@@ -129,9 +155,6 @@ static void look_at(tahr__fcl_engine &engine, const Geometry &geometry, tahr__fc
         g.kind = TAHR__FCL_OCTREE;
         g.radius = static_cast<const fcl::OcTree<double> &>(geometry).getRootBV().width() / (2.0 * ORIGIN);
         return;
-    case fcl::GEOM_CYLINDER: g.name = "a Cylinder"; return;
-    case fcl::GEOM_CONE: g.name = "a Cone"; return;
-    case fcl::GEOM_ELLIPSOID: g.name = "an Ellipsoid"; return;
     default: return;
     }
 }

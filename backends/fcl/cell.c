@@ -45,14 +45,15 @@ int tahr__fcl_cell_felt(const tahr__fcl_query *q, uint32_t i, const tahr__piece 
 {
     const tahr__fcl_part *cell = &q->parts[i];
     double r = q->scene->bodies[cell->body].radius, half = piece->half.x, at[3];
+    double beside = near->rough ? TAHR__SAME_PLACE : ON_FACE, lean = near->rough ? TAHR__SAME_DIRECTION : LEAN;
     tahr_vec3 normal = m_unapply(&piece->frame->turn, near->normal);
     int32_t key[3][2];
 
     to_cell(piece, near->point, at);
     for (int k = 0; k < 3; k++) {
         key[k][0] = key[k][1] = key_at(cell, k, at[k], half, r);
-        if (at[k] <= -half + ON_FACE) key[k][0] = cell->key[k] - 1;
-        if (at[k] >= half - ON_FACE) key[k][1] = cell->key[k] + cell_size(cell);
+        if (at[k] <= -half + beside) key[k][0] = cell->key[k] - 1;
+        if (at[k] >= half - beside) key[k][1] = cell->key[k] + cell_size(cell);
     }
     for (int octant = 0; octant < 8; octant++) {
         int32_t place[3];
@@ -60,7 +61,7 @@ int tahr__fcl_cell_felt(const tahr__fcl_query *q, uint32_t i, const tahr__piece 
         for (int k = 0; k < 3; k++) {
             int up = octant >> k & 1;
             place[k] = key[k][up];
-            leads |= key[k][0] != key[k][1] && (up ? v_get(normal, k) > LEAN : v_get(normal, k) < -LEAN);
+            leads |= key[k][0] != key[k][1] && (up ? v_get(normal, k) > lean : v_get(normal, k) < -lean);
             own &= place[k] >= cell->key[k] && place[k] < cell->key[k] + cell_size(cell);
         }
         if (leads && !own && tahr__fcl_engine_occupied(q->scene->engine, cell->body, place)) return 0;
@@ -94,7 +95,7 @@ void tahr__fcl_cell_way_out(const tahr__fcl_query *q, uint32_t i, const tahr__pi
         key[k] = key_at(cell, k, at[k], half, r);
     for (int k = 0; k < 6; k++) {
         tahr_vec3 out = v_scale(v_unit(piece->solid.axis[k / 2]), k & 1 ? 1 : -1);
-        double depth = half - (k & 1 ? at[k / 2] : -at[k / 2]) + tahr__core_extent(&q->shape.core, out);
+        double depth = half - (k & 1 ? at[k / 2] : -at[k / 2]) + tahr__shape_extent(&q->shape, v_scale(out, -1));
         if (depth >= least) continue;
         depth += row_length(q, cell, key, k / 2, k & 1);
         if (depth >= least) continue;
@@ -103,5 +104,5 @@ void tahr__fcl_cell_way_out(const tahr__fcl_query *q, uint32_t i, const tahr__pi
     }
     near->distance = -least - q->shape.radius;
     near->part = TAHR__FACE;
-    near->point = v_mad(centre, near->normal, least - tahr__core_extent(&q->shape.core, near->normal));
+    near->point = v_mad(centre, near->normal, least - tahr__shape_extent(&q->shape, v_scale(near->normal, -1)));
 }

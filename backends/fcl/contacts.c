@@ -45,6 +45,7 @@ tahr_status tahr__fcl_contacts(void *self, tahr_query_context *context, const ta
 {
     tahr__touches touches = {contacts, capacity, 0, 0, 0};
     const question asked = {query->up, query->flags, 0};
+    const tahr__shape_source source = {&query->shape, query->up, query->orientation, NULL};
     tahr__fcl_query q;
     tahr_status status;
 
@@ -54,9 +55,9 @@ tahr_status tahr__fcl_contacts(void *self, tahr_query_context *context, const ta
     q.origin = query->position;
     q.motion = v_make(0, 0, 0);
     q.filter = tahr__filter_of_contacts(query);
-    if (query->shape.type < TAHR_SHAPE_SPHERE || query->shape.type > TAHR_SHAPE_BOX) return TAHR_E_UNSUPPORTED;
-    if (!tahr__shape_make(&query->shape, query->up, query->orientation, &q.shape) || !(query->margin >= 0))
-        return TAHR_E_ARGUMENT;
+    if (!(query->margin >= 0)) return TAHR_E_ARGUMENT;
+    status = tahr__fcl_query_shape(&q, &source);
+    if (status < 0) return status;
     status = tahr__fcl_query_begin(&q, context, q.shape.radius + q.margin);
     for (uint32_t i = 0; status >= 0 && i < q.count; i++)
         visit(&q, i, &asked, &touches);

@@ -4,6 +4,10 @@
 
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
 
 using namespace tahr_fcl;
@@ -26,6 +30,17 @@ template <class BV> static std::shared_ptr<Geometry> make_mesh(const tahr__fcl_g
     return model;
 }
 
+/* FCL only finds it by its bounds, for which it needs no faces. */
+static std::shared_ptr<Geometry> make_hull(const tahr__fcl_geometry &g)
+{
+    auto points = std::make_shared<std::vector<Vector>>();
+    auto faces = std::make_shared<std::vector<int>>();
+
+    for (size_t i = 0; i < g.vertex_count; i++)
+        points->emplace_back(g.vertices[3 * i], g.vertices[3 * i + 1], g.vertices[3 * i + 2]);
+    return std::make_shared<fcl::Convex<double>>(points, 0, faces);
+}
+
 static std::shared_ptr<Geometry> make_geometry(const tahr_fcl_desc &desc, const tahr__fcl_geometry &g)
 {
     switch (g.kind) {
@@ -36,6 +51,11 @@ static std::shared_ptr<Geometry> make_geometry(const tahr_fcl_desc &desc, const 
         return std::make_shared<fcl::Box<double>>(2 * g.half_extents.x, 2 * g.half_extents.y, 2 * g.half_extents.z);
     case TAHR_BODY_SPHERE: return std::make_shared<fcl::Sphere<double>>(g.radius);
     case TAHR_BODY_CAPSULE: return std::make_shared<fcl::Capsule<double>>(g.radius, 2 * g.reach);
+    case TAHR_BODY_CYLINDER: return std::make_shared<fcl::Cylinder<double>>(g.radius, 2 * g.reach);
+    case TAHR_BODY_CONE: return std::make_shared<fcl::Cone<double>>(g.radius, 2 * g.reach);
+    case TAHR_BODY_ELLIPSOID:
+        return std::make_shared<fcl::Ellipsoid<double>>(g.half_extents.x, g.half_extents.y, g.half_extents.z);
+    case TAHR_BODY_HULL: return make_hull(g);
     case TAHR__FCL_OCTREE: return *static_cast<std::shared_ptr<Geometry> *>(const_cast<void *>(g.identity));
     default: return nullptr;
     }

@@ -31,11 +31,11 @@ enum { TAHR__FCL_LEVELS = 16, TAHR__FCL_ORIGIN = 1 << 15 };
 enum { TAHR__FCL_OCTREE = 100, TAHR__FCL_HALF_SPACE, TAHR__FCL_PLANE };
 
 typedef struct tahr__fcl_geometry {
-    uint32_t kind;          /* TAHR_BODY_MESH, _BOX, _SPHERE, _CAPSULE or one of the above; 0: not held */
+    uint32_t kind;          /* TAHR_BODY_MESH to _HULL or one of the above; 0: not held */
     uint32_t two_sided;     /* of a mesh */
-    tahr_vec3 half_extents; /* of a box; normal of a half space */
+    tahr_vec3 half_extents; /* of a box, an ellipsoid; normal of a half space */
     double radius, reach;   /* of a half space its offset; of an octree its resolution */
-    const double *vertices; /* of a mesh */
+    const double *vertices; /* of a mesh, a hull */
     const uint32_t *indices;
     uint32_t vertex_count, triangle_count;
     const void *identity; /* equal for objects that share their geometry */

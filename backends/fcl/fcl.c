@@ -70,7 +70,9 @@ static const tahr_backend backend = {
     .abi_major = TAHR_ABI_MAJOR,
     .abi_minor = TAHR_ABI_MINOR,
     .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
-                    TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_SENSORS | TAHR_CAP_ONE_WAY,
+                    TAHR_CAP_BOX | TAHR_CAP_CYLINDER | TAHR_CAP_CONE | TAHR_CAP_ELLIPSOID | TAHR_CAP_HULL |
+                    TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_ROUND_SOLIDS | TAHR_CAP_HULLS | TAHR_CAP_SENSORS |
+                    TAHR_CAP_ONE_WAY,
     .name = "fcl",
     .version = "0.7", /* the oldest that is known to work; nothing in FCL tells at run time */
     .open = open_scene,

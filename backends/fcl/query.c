@@ -23,22 +23,49 @@ static int wants(const void *user, uint32_t body)
     return tahr__filter_passes(&q->filter, &q->scene->bodies[body].surface);
 }
 
+tahr_status tahr__fcl_query_shape(tahr__fcl_query *q, const tahr__shape_source *source)
+{
+    const tahr_shape *s = source->shape;
+    tahr__shape_source found = *source;
+    const tahr__fcl_scene *scene = q->scene;
+
+    if (s->type == TAHR_SHAPE_HULL && s->hull < scene->described && scene->bodies[s->hull].kind == TAHR_BODY_HULL)
+        found.hull = &scene->bodies[s->hull].hull;
+    return tahr__shape_make(&found, &q->shape);
+}
+
+/* Of the shape around its centre, without its radius. */
+static tahr_bounds shape_bounds(const tahr__shape *shape)
+{
+    tahr_bounds b = {{0, 0, 0}, {0, 0, 0}};
+
+    for (int i = 0; i < 3; i++) {
+        tahr_vec3 n = v_make(i == 0, i == 1, i == 2);
+        b.max = v_mad(b.max, n, tahr__shape_extent(shape, n));
+        b.min = v_mad(b.min, n, -tahr__shape_extent(shape, v_scale(n, -1)));
+    }
+    return b;
+}
+
 tahr_status tahr__fcl_query_begin(tahr__fcl_query *q, tahr_query_context *context, double reach)
 {
     tahr_vec3 half = v_make(reach + SLACK, reach + SLACK, reach + SLACK), zero = v_make(0, 0, 0);
     tahr__fcl_question question;
+    tahr_bounds own;
     tahr_status status;
 
     q->context = context;
     q->count = 0;
     q->frame_body = UINT32_MAX;
     tahr__fcl_list_begin(&q->list, q->scene->host, q->room, TAHR__FCL_ROOM);
-    for (int i = 0; i < q->shape.core.axis_count; i++)
-        half = v_add(half, v_abs(q->shape.core.axis[i]));
-    if (!is_finite_vec(q->origin) || !is_finite_vec(q->motion) || !is_finite_vec(half)) return TAHR_E_ARGUMENT;
+    own = shape_bounds(&q->shape);
+    own.min = v_sub(own.min, half);
+    own.max = v_add(own.max, half);
+    if (!is_finite_vec(q->origin) || !is_finite_vec(q->motion) || !is_finite_vec(own.min) || !is_finite_vec(own.max))
+        return TAHR_E_ARGUMENT;
     q->motion_length = v_length(q->motion);
-    q->box.min = v_sub(v_min(zero, q->motion), half);
-    q->box.max = v_add(v_max(zero, q->motion), half);
+    q->box.min = v_add(v_min(zero, q->motion), own.min);
+    q->box.max = v_add(v_max(zero, q->motion), own.max);
     question.box.min = v_add(q->box.min, q->origin);
     question.box.max = v_add(q->box.max, q->origin);
     question.wants = wants;
@@ -88,7 +115,7 @@ static int within_reach(const tahr__fcl_query *q, const tahr__piece *piece)
     tahr_bounds bounds = {piece->facet.v[0], piece->facet.v[0]};
     tahr_vec3 half = v_make(piece->radius, piece->radius, piece->radius);
 
-    if (piece->kind == TAHR__HALF_SPACE) return 1;
+    if (piece->kind == TAHR__HALF_SPACE || piece->kind == TAHR__CONVEX) return 1; /* FCL has looked at its bounds */
     if (piece->kind == TAHR__TRIANGLE) {
         bounds.min = v_min(piece->facet.v[0], v_min(piece->facet.v[1], piece->facet.v[2]));
         bounds.max = v_max(piece->facet.v[0], v_max(piece->facet.v[1], piece->facet.v[2]));
@@ -113,6 +140,10 @@ int tahr__fcl_query_piece(tahr__fcl_query *q, uint32_t i, tahr__piece *piece)
     case TAHR_BODY_MESH: tahr__piece_triangle(&q->frame, &q->scene->meshes[b->mesh], part->triangle, piece); break;
     case TAHR_BODY_SPHERE:
     case TAHR_BODY_CAPSULE: tahr__piece_round(&q->frame, b->radius, b->reach, piece); break;
+    case TAHR_BODY_CYLINDER: tahr__piece_swept(&q->frame, TAHR__CONVEX_CYLINDER, b->radius, b->reach, piece); break;
+    case TAHR_BODY_CONE: tahr__piece_swept(&q->frame, TAHR__CONVEX_CONE, b->radius, b->reach, piece); break;
+    case TAHR_BODY_ELLIPSOID: tahr__piece_ellipsoid(&q->frame, b->half_extents, piece); break;
+    case TAHR_BODY_HULL: tahr__piece_hull(&q->frame, &b->hull, piece); break;
     case TAHR__FCL_HALF_SPACE:
     case TAHR__FCL_PLANE: tahr__piece_half_space(&q->frame, b->half_extents, b->radius, piece); break;
     case TAHR__FCL_OCTREE:

@@ -45,7 +45,7 @@ tahr_status tahr__fcl_ray(void *self, tahr_query_context *context, const tahr_ra
 
     *count = 0;
     q.scene = self;
-    q.shape = (tahr__shape){{0, {{0, 0, 0}}}, 0};
+    tahr__shape_point(&q.shape);
     q.margin = 0;
     q.origin = query->origin;
     q.motion = query->motion;

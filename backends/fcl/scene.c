@@ -35,7 +35,8 @@ tahr__fcl_body *tahr__fcl_scene_new(tahr__fcl_scene *scene, const tahr_body_desc
     b->mass = desc->mass;
     b->half_extents = desc->half_extents;
     b->radius = desc->radius;
-    b->reach = desc->type == TAHR_BODY_CAPSULE ? desc->half_height - desc->radius : 0;
+    if (desc->type == TAHR_BODY_CAPSULE) b->reach = desc->half_height - desc->radius;
+    if (desc->type == TAHR_BODY_CYLINDER || desc->type == TAHR_BODY_CONE) b->reach = desc->half_height;
     b->kind = desc->type;
     b->two_sided = desc->type == TAHR_BODY_MESH && (desc->flags & TAHR_BODY_TWO_SIDED) != 0;
     place_body(b, &desc->pose);
@@ -76,11 +77,17 @@ static tahr_status open_body(tahr__fcl_scene *scene, const tahr_body_desc *d, ui
     tahr__fcl_body *b = tahr__fcl_scene_new(scene, d, id);
     tahr__fcl_geometry g = {.kind = d->type, .half_extents = d->half_extents, .radius = d->radius};
 
-    if (d->type < TAHR_BODY_MESH || d->type > TAHR_BODY_CAPSULE) {
+    if (d->type < TAHR_BODY_MESH || d->type > TAHR_BODY_HULL) {
         tahr__log_body(scene->host, id, "type: no such kind of body");
         return TAHR_E_UNSUPPORTED;
     }
     g.reach = b->reach;
+    if (d->type == TAHR_BODY_HULL) {
+        tahr_status opened = tahr__hull_open(scene->host, d, id, &b->hull);
+        if (opened < 0) return opened;
+        g.vertices = &b->hull.vertices[0].x;
+        g.vertex_count = b->hull.count;
+    }
     if (d->type != TAHR_BODY_MESH) return tahr__fcl_engine_add(scene->engine, &g, &d->pose);
     tahr__fcl_geometry source = {.vertices = d->vertices,
                                  .indices = d->indices,
@@ -232,6 +239,8 @@ void tahr__fcl_scene_close(tahr__fcl_scene *scene)
 {
     for (uint32_t i = 0; i < scene->mesh_count; i++)
         tahr__mesh_free(scene->host, &scene->meshes[i]);
+    for (uint32_t i = 0; i < scene->body_count; i++)
+        tahr__hull_close(scene->host, &scene->bodies[i].hull);
     put(scene->host, scene->bodies, scene->body_capacity, sizeof *scene->bodies);
     put(scene->host, scene->meshes, scene->body_capacity, sizeof *scene->meshes);
     put(scene->host, (void *)scene->identities, scene->body_capacity, sizeof *scene->identities);

@@ -16,8 +16,9 @@ typedef struct tahr__fcl_body {
     tahr_vec3 position;
     tahr__mat turn;
     tahr_pose pose;
-    tahr_vec3 half_extents; /* of a box; normal of a half space */
+    tahr_vec3 half_extents; /* of a box, an ellipsoid, a hull; normal of a half space */
     double radius, reach;   /* see tahr__fcl_geometry */
+    tahr__hull hull;
     uint32_t two_sided, reserved;
     tahr_vec3 surface_velocity; /* octrees and attached bodies: the core does not know them */
     double mass;
@@ -69,8 +70,10 @@ tahr_status tahr__fcl_scene_mesh(tahr__fcl_scene *scene, const tahr__fcl_geometr
 /* attached.c: bodies from the objects of a user's manager. */
 tahr_status tahr__fcl_scene_attach(tahr__fcl_scene *scene);
 
-/* query.c: a query ready for its pieces. Returns a negative status for a shape or number that cannot be asked about; to
+/* query.c: the shape of a query, whose hull is looked up; statuses as tahr__shape_make. Then the query ready for its
+ * pieces. Returns a negative status for a shape or number that cannot be asked about; to
  * be ended in any case. The box that is gathered is that of the motion, grown by reach. */
+tahr_status tahr__fcl_query_shape(tahr__fcl_query *query, const tahr__shape_source *source);
 tahr_status tahr__fcl_query_begin(tahr__fcl_query *query, tahr_query_context *context, double reach);
 void tahr__fcl_query_end(tahr__fcl_query *query);
 /* The piece that part i of the query is; 0 if it is not to be met or out of reach. Valid until another body's. */

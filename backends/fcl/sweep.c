@@ -113,6 +113,7 @@ static void run(search *s)
 tahr_status tahr__fcl_sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
                             uint32_t capacity, uint32_t *count)
 {
+    const tahr__shape_source source = {&query->shape, query->up, query->orientation, NULL};
     tahr__fcl_query q;
     search s;
     tahr_status status;
@@ -123,16 +124,16 @@ tahr_status tahr__fcl_sweep(void *self, tahr_query_context *context, const tahr_
     q.origin = query->position;
     q.motion = query->motion;
     q.filter = tahr__filter_of_sweep(query, capacity);
-    if (query->shape.type < TAHR_SHAPE_SPHERE || query->shape.type > TAHR_SHAPE_BOX) return TAHR_E_UNSUPPORTED;
-    if (!tahr__shape_make(&query->shape, query->up, query->orientation, &q.shape) || !(query->margin >= 0))
-        return TAHR_E_ARGUMENT;
+    if (!(query->margin >= 0)) return TAHR_E_ARGUMENT;
+    status = tahr__fcl_query_shape(&q, &source);
+    if (status < 0) return status;
     status = tahr__fcl_query_begin(&q, context, q.shape.radius + q.margin);
     s.query = &q;
     s.one_way = (tahr__one_way_sweep){.up = query->up,
                                       .motion = q.motion,
                                       .motion_length = q.motion_length,
                                       .margin = q.margin,
-                                      .low = tahr__core_extent(&q.shape.core, query->up) + q.shape.radius,
+                                      .low = tahr__shape_extent(&q.shape, v_scale(query->up, -1)) + q.shape.radius,
                                       .flags = query->flags};
     if (status >= 0) {
         do

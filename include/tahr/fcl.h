@@ -45,14 +45,14 @@ typedef void (*tahr_fcl_cell_fn)(void *user, uint32_t octree, const tahr_bounds 
 
 /* Zero means default for every field but struct_size.
  *
- * Attaching: manager is a fcl::DynamicAABBTreeCollisionManager<double> with its objects registered and set up,
- * borrowed: it, its objects and their geometries must stay until the world is closed. Meshes are copied (FCL's tree is
- * not); all else is read where it is, by every query. The world then has no bodies of its own. While queries run
- * nothing may change the manager; before they do again: whoever moved an object has called its computeAABB and
- * manager.update, and then tahr_world_touch. Objects unregistered are gone at once (their memory must stay); objects
- * registered later are not seen, and geometries must not change, but octrees may. Held are BVHModels of triangles with
- * volumes of every kind, Box, Sphere, Capsule, Convex, TriangleP, Halfspace, Plane and OcTree; Cylinder, Cone and
- * Ellipsoid are TAHR_E_UNSUPPORTED unless the callback leaves them out. */
+ * Attaching: manager is a fcl::DynamicAABBTreeCollisionManager<double> with its objects registered and set up, borrowed:
+ * it, its objects and their geometries must stay until the world is closed. Meshes are copied (FCL's tree is not); all
+ * else is read where it is, by every query. The world then has no bodies of its own. While queries run nothing may change
+ * the manager; before they do again: whoever moved an object has called its computeAABB and manager.update, and then
+ * tahr_world_touch. Objects unregistered are gone at once (their memory must stay); objects registered later are not
+ * seen, and geometries must not change, but octrees may. Held are BVHModels of triangles with volumes of every kind, Box,
+ * Sphere, Capsule, Cylinder, Cone, Ellipsoid, Convex, TriangleP, Halfspace, Plane and OcTree, of 1e-6 to 1e6 m; what else
+ * there is is TAHR_E_UNSUPPORTED unless the callback leaves it out. */
 typedef struct tahr_fcl_desc {
     uint32_t struct_size;
     uint32_t volumes;     /* TAHR_FCL_AABB or _OBBRSS */

@@ -8,7 +8,9 @@
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cone.h>
 #include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
@@ -226,6 +228,41 @@ static tahr_status glide(void *, const void *, uint32_t, tahr_body_motion *motio
     return TAHR_OK;
 }
 
+/* Straight down onto each, a sphere of 0.5 without a margin from 5 m above: where it is stopped is elementary. */
+static void round_solids_are_met_where_they_are(void **)
+{
+    /* Radius 0.5, height 2, on the side: its top is a line 0.5 above the axis. */
+    const tahr_quat on_side = {std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
+    const struct {
+        std::shared_ptr<fcl::CollisionGeometry<double>> geometry;
+        tahr_quat turn;
+        double top, aside; /* m; where the sphere comes down beside the middle, along x */
+    } cases[] = {
+        {std::make_shared<fcl::Cylinder<double>>(0.5, 2.0), {0, 0, 0, 1}, 1.0, 0.25},
+        {std::make_shared<fcl::Cylinder<double>>(0.5, 2.0), on_side, 0.5, 0},
+        {std::make_shared<fcl::Cone<double>>(0.5, 2.0), {0, 0, 0, 1}, 1.0, 0},    /* the apex */
+        {std::make_shared<fcl::Cone<double>>(0.5, 2.0), {1, 0, 0, 0}, 1.0, 0.25}, /* upside down: its base */
+        {std::make_shared<fcl::Ellipsoid<double>>(0.5, 0.75, 1.25), {0, 0, 0, 1}, 1.25, 0},
+        {std::make_shared<fcl::Ellipsoid<double>>(0.5, 0.75, 1.25), on_side, 0.75, 0},
+    };
+
+    for (const auto &c : cases) {
+        Program program;
+        program.add(c.geometry, {{3, 2, 1}, c.turn});
+        tahr_fcl_desc desc = program.desc();
+        tahr_world *world = open_fcl({}, &desc);
+        tahr_sweep q = make_sweep(round_shape(0.5, 0.5), {3 + c.aside, 2, 1 + 5}, {0, 0, -5});
+        tahr_hit hit;
+        q.margin = 0;
+        assert_int_equal(sweep(world, q, &hit), 1);
+        assert_true(std::fabs(hit.fraction - (5 - 0.5 - c.top) / 5) < 1e-9);
+        assert_true(hit.normal.z > 1 - 1e-9 && std::fabs(hit.point.z - (1 + c.top)) < 1e-8);
+        assert_true(hit.surface_normal.z >
+                    (c.geometry->getNodeType() == fcl::GEOM_CONE && c.aside == 0 ? 0 : 1 - 1e-9));
+        tahr_world_close(world);
+    }
+}
+
 static void callbacks_name_and_move_the_objects(void **)
 {
     Program program;
@@ -258,7 +295,7 @@ static void what_cannot_be_held_is_refused_by_name(void **)
     tahr_world *world;
 
     Program cylinder;
-    cylinder.add(std::make_shared<fcl::Cylinder<double>>(0.5, 1.0));
+    cylinder.add(std::make_shared<fcl::Cylinder<double>>(0.5, 1e8));
     tahr_fcl_desc desc = cylinder.desc();
     assert_int_equal(try_open(tahr_backend_v1_fcl(), {}, &desc, &log, &world), TAHR_E_UNSUPPORTED);
     assert_true(log.text.find("a Cylinder") != std::string::npos);
@@ -295,6 +332,7 @@ int main()
         cmocka_unit_test(solids_answer_as_described_ones),
         cmocka_unit_test(polytopes_triangles_planes_and_octrees_are_met_where_they_are),
         cmocka_unit_test(objects_are_where_the_user_puts_them),
+        cmocka_unit_test(round_solids_are_met_where_they_are),
         cmocka_unit_test(callbacks_name_and_move_the_objects),
         cmocka_unit_test(what_cannot_be_held_is_refused_by_name),
     };

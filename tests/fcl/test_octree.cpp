@@ -135,6 +135,41 @@ static void no_seam_of_cells_is_felt_on_a_flat_floor_or_wall(void **)
     tahr_world_close(world);
 }
 
+/* The block as one box is met where extents and points say (tests/unit/test_ccd_shapes.c). */
+static void characters_of_every_kind_meet_cells_as_their_box(void **)
+{
+    static const uint32_t kinds[] = {TAHR_SHAPE_CYLINDER, TAHR_SHAPE_CONE, TAHR_SHAPE_ELLIPSOID};
+    std::vector<double> points;
+    Dice dice = {6};
+    int hits = 0, free = 0;
+
+    add_block(points, block_low, block_high, 0.125);
+    tahr_world *cells = open_points(points, 0.125),
+               *whole = open_fcl({block_body(block_low, block_high, 0.125)}, nullptr);
+    for (int i = 0; i < 2400; i++) {
+        tahr_shape shape = {};
+        tahr_hit a, b;
+        shape.type = kinds[i % 3];
+        shape.half_height = dice.uniform(0.2, 0.5);
+        shape.radius = i % 3 < 2 ? dice.uniform(0.1, 0.3) : 0;
+        shape.half_x = shape.half_y = i % 3 < 2 ? 0 : dice.uniform(0.1, 0.3);
+        tahr_sweep s = make_sweep(shape, dice.vec(-2.5, 2.5), dice.vec(-2, 2));
+        if (i % 2) { /* along the top, which is level at 0.25 m, a micrometre inside the margin or outside of it */
+            s.position.z = 0.25 + shape.half_height + 0.01 + (i % 4 < 2 ? 1e-6 : -1e-6);
+            s.motion.z = 0;
+        }
+        uint32_t found = sweep(whole, s, &b);
+        if (found && b.start_overlap) continue; /* the way out of cells leads along their axes */
+        assert_int_equal(sweep(cells, s, &a), found);
+        hits += found != 0;
+        free += !found;
+        assert_true(!found || same_stop(s, a, b));
+    }
+    assert_true(hits > 100 && free > 100);
+    tahr_world_close(cells);
+    tahr_world_close(whole);
+}
+
 static void the_way_out_of_many_cells_leads_to_the_first_free_one(void **)
 {
     static const int low[3] = {-50, -50, -8}, high[3] = {50, 50, 0};
@@ -368,6 +403,7 @@ int main()
         cmocka_unit_test(a_block_of_cells_is_a_box),
         cmocka_unit_test(distances_of_an_uneven_solid_are_those_of_its_boxes),
         cmocka_unit_test(no_seam_of_cells_is_felt_on_a_flat_floor_or_wall),
+        cmocka_unit_test(characters_of_every_kind_meet_cells_as_their_box),
         cmocka_unit_test(the_way_out_of_many_cells_leads_to_the_first_free_one),
         cmocka_unit_test(rays_meet_the_surface_and_nothing_inside),
         cmocka_unit_test(a_character_climbs_voxels_as_it_climbs_boxes),

@@ -15,6 +15,9 @@
 #ifdef TAHR_HAVE_CCD
 #include <tahr/ccd.h>
 #endif
+#ifdef TAHR_HAVE_FCL
+#include <tahr/fcl.h>
+#endif
 
 /* m, half of the depth of everything: a character of 0.35 m stays in the middle. */
 static const double DEPTH = 3;
@@ -23,15 +26,14 @@ int layers_begin(layers *l, int world)
 {
     memset(l, 0, sizeof *l);
     l->up = world % 2 ? 1 : 2;
-    l->backend = tahr_backend_v1_native();
-    if (world >= 2) {
+    l->backend = world < 2 ? tahr_backend_v1_native() : NULL;
 #ifdef TAHR_HAVE_CCD
-        l->backend = tahr_backend_v1_ccd();
-#else
-        return 0;
+    if (world / 2 == 1) l->backend = tahr_backend_v1_ccd();
 #endif
-    }
-    return 1;
+#ifdef TAHR_HAVE_FCL
+    if (world / 2 == 2) l->backend = tahr_backend_v1_fcl();
+#endif
+    return l->backend != NULL;
 }
 
 /* In the plane of x and y the depth is z, else -y: both are right-handed. */

@@ -18,8 +18,8 @@ typedef struct layers {
     uint32_t count;
 } layers;
 
-/* The worlds that all of this is asked of: native and, where it is built, ccd; each with z up and with y up. */
-enum { LAYERS_WORLDS = 4 };
+/* The worlds that all of this is asked of: native and, where they are built, ccd and fcl; each with z up and with y up. */
+enum { LAYERS_WORLDS = 6 };
 /* Returns 0 where there is no such world in this build. */
 int layers_begin(layers *l, int world);
 
