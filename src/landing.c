@@ -18,16 +18,15 @@ static int is_edge(vec3 normal, vec3 surface_normal)
     return max_of(max_of(d.x, -d.x), max_of(max_of(d.y, -d.y), max_of(d.z, -d.z))) > SMALL;
 }
 
-/* Is the point on the lower cap of the shape at `centre`, and well inside its rim? Of a flat base: on its lower face,
- * which touches a sloping face with its rim alone. */
+/* Is the point on the lower cap of the shape at `centre`, and well inside its rim? Of a flat base: on its lower face. A
+ * face that carries meets a flat base always from below, at its rim if it slopes. */
 static int is_under_foot(const tahr__step *step, vec3 centre, vec3 point, int on_face)
 {
     const tahr_shape *s = &step->limits->shape;
     int flat = shape_is_flat(s);
     double cap = flat ? step->config->edge_tolerance : shape_cap(s);
-    double height = dot(sub(point, centre), step->state.up);
-    return height < cap - s->half_height &&
-           ((flat && on_face) || tahr__is_within_edge_tolerance(step, centre, point, step->limits->width));
+    int low = dot(sub(point, centre), step->state.up) < cap - s->half_height;
+    return (flat && on_face) || (low && tahr__is_within_edge_tolerance(step, centre, point, step->limits->width));
 }
 
 int tahr__is_valid_landing_spot(tahr__step *step, const tahr__swept *swept)
