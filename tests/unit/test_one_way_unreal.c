@@ -202,6 +202,7 @@ static void what_is_above_the_foot_is_no_floor(void **unused)
                 layers_open(&l, &r, &c, k % 6 < 3 ? 1 : -2, 0.0215);
                 rig_settle(&r);
                 double foot = layers_foot(&l, &r);
+                assert_near(foot, 0.0215, 0.0026); /* of the ground */
                 r.input.move = layers_at(&l, 1, 0);
                 for (int n = 0; n < rig_rates[i] * (k % 6 < 3 ? 0.4 : 1.2); n++) {
                     rig_step(&r, 1 / rig_rates[i]);
