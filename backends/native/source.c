@@ -38,7 +38,8 @@ static const char *bad_triangle(const tahr__native *world, const tahr_triangle *
             return "corners: not finite within 1e7 m";
     }
     if (t->body < world->body_count || t->body == TAHR_NO_BODY) return "body: is a described one, or none";
-    if (t->flags & ~(uint32_t)TAHR_BODY_TWO_SIDED) return "flags: only TAHR_BODY_TWO_SIDED is known";
+    if (t->flags & ~(uint32_t)(TAHR_BODY_TWO_SIDED | TAHR_BODY_ONE_WAY))
+        return "flags: only TAHR_BODY_TWO_SIDED and _ONE_WAY are known";
     if (t->walkable_rule > TAHR_WALKABLE_NEVER) return "walkable_rule: unknown";
     return fabs(t->walkable_angle) <= 1e9 ? NULL : "walkable_angle: not finite";
 }
@@ -59,7 +60,8 @@ int tahr__loose_make(const tahr__frame *frame, const tahr_triangle *t, tahr__loo
     p->face = map.turned ? m_apply(&map.turn, n) : n;
     p->item = TAHR__ITEM_LOOSE;
     p->kind = TAHR__GATHERED | TAHR__FRESH | (slim < TAHR__THIN ? TAHR__PLANELESS : 0u) |
-              (t->flags & TAHR_BODY_TWO_SIDED ? TAHR__TWO_SIDED : 0u);
+              (t->flags & TAHR_BODY_TWO_SIDED ? TAHR__TWO_SIDED : 0u) |
+              (t->flags & TAHR_BODY_ONE_WAY ? TAHR__ONE_WAY : 0u);
     p->radius = 0;
     p->body = t->body;
     p->feature = t->feature;

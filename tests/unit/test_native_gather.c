@@ -57,11 +57,10 @@ static void described_bodies_and_movers_may_be_there_besides(void **state)
     soup_free(&soups[1]);
 }
 
-/* Single triangles, the case in which a way out past the edges counts. */
-static void lone_two_sided_triangles_are_left_past_their_edges_too(void **state)
+enum { MANY = 300 };
+/* Single triangles, the case in which a way out past the edges counts. Returns how many questions were stopped. */
+static uint32_t compare_lone(uint32_t flags)
 {
-    (void)state;
-    enum { MANY = 300 };
     static double vertices[MANY * 9];
     static uint32_t indices[MANY * 3];
     oracle_random r = {17};
@@ -74,7 +73,7 @@ static void lone_two_sided_triangles_are_left_past_their_edges_too(void **state)
         }
     }
     tahr_body_desc mesh = fixture_mesh(vertices, MANY * 3, indices, MANY);
-    mesh.flags = TAHR_BODY_TWO_SIDED;
+    mesh.flags = flags;
     soup soups[2];
     for (uint32_t i = 0; i < 2; i++) {
         soup_make(&soups[i], &mesh, 0);
@@ -82,11 +81,27 @@ static void lone_two_sided_triangles_are_left_past_their_edges_too(void **state)
     }
     fixture worlds[SOUP_WORLDS];
     soup_open_all(worlds, &mesh, soups, TAHR_NATIVE_DOUBLE);
-    assert_true(soup_compare(worlds, SOUP_WORLDS, &soups[0], 1500) > 700);
+    uint32_t hits = soup_compare(worlds, SOUP_WORLDS, &soups[0], 1500);
     for (uint32_t i = 0; i < SOUP_WORLDS; i++)
         native_close(&worlds[i]);
     soup_free(&soups[0]);
     soup_free(&soups[1]);
+    return hits;
+}
+
+static void lone_two_sided_triangles_are_left_past_their_edges_too(void **state)
+{
+    (void)state;
+    assert_true(compare_lone(TAHR_BODY_TWO_SIDED) > 700);
+}
+
+/* Cached or not, in lanes or not, and whatever the order: only what comes down on them is stopped. */
+static void gathered_triangles_may_be_one_way(void **state)
+{
+    (void)state;
+    uint32_t solid = compare_lone(0), one_way = compare_lone(TAHR_BODY_ONE_WAY);
+    assert_true(one_way > 20 && one_way < solid);
+    assert_true(compare_lone(TAHR_BODY_ONE_WAY | TAHR_BODY_TWO_SIDED) > one_way);
 }
 
 /* A floor of two triangles, and what may be wrong with the second. */
@@ -117,6 +132,32 @@ static void open_liar(fixture *f, liar *l, int with_cache)
     o.gather_user = l;
     fixture_init(f);
     assert_int_equal(fixture_open(f, NULL, 0, &o, with_cache), TAHR_OK);
+}
+
+/* A floor of one triangle: from above stopped a margin off it, from below and from within not at all. */
+static void gathered_platforms_hold_what_comes_down(void **state)
+{
+    (void)state;
+    for (int cached = 0; cached < 2; cached++) {
+        liar l = {.wrong = RIGHT, .height = -30};
+        fixture f;
+        soup_answer a;
+        l.wrong.flags = TAHR_BODY_ONE_WAY;
+        open_liar(&f, &l, cached);
+        tahr_sweep q = fixture_sweep(native_shape(1), v_make(-10, 10, 2), v_make(0, 0, -3), 0.01);
+        if (cached) soup_announce(&f, q.position, q.up, 4);
+        soup_ask(&f, &q, &a);
+        assert_true(a.hit_count == 1 && fabs(a.hits[0].fraction - (2 - 0.9 - 0.01) / 3) < 1e-9);
+        assert_int_equal(a.ray_count, 1);
+        q.position.z = 0.8;
+        soup_ask(&f, &q, &a);
+        assert_true(a.hit_count == 0 && a.contact_count == 0);
+        q.position.z = -2;
+        q.motion.z = 4;
+        soup_ask(&f, &q, &a);
+        assert_true(a.hit_count == 0 && a.ray_count == 0);
+        native_close(&f);
+    }
 }
 
 static void what_is_wrong_with_a_triangle_fails_the_query_by_name(void **state)
@@ -275,6 +316,8 @@ int main(void)
         cmocka_unit_test(gathered_triangles_answer_as_a_mesh_bit_for_bit),
         cmocka_unit_test(described_bodies_and_movers_may_be_there_besides),
         cmocka_unit_test(lone_two_sided_triangles_are_left_past_their_edges_too),
+        cmocka_unit_test(gathered_triangles_may_be_one_way),
+        cmocka_unit_test(gathered_platforms_hold_what_comes_down),
         cmocka_unit_test(what_is_wrong_with_a_triangle_fails_the_query_by_name),
         cmocka_unit_test(the_ids_of_described_bodies_are_not_free),
         cmocka_unit_test(a_touch_makes_caches_forget),

@@ -267,9 +267,66 @@ static void a_floor_that_ends_before_a_bend_is_left_where_it_ends(void **unused)
     }
 }
 
+/* The floor goes on beyond x = 1 as a body of its own, and nobody steps up. What is met of
+ * that body at its edge is told as its front, as an engine may whose bodies know nothing of each other. */
+typedef struct seam {
+    fake_world world;
+    uint32_t rule;
+} seam;
+
+static tahr_status sweep_seam(void *user, const tahr_sweep *query, tahr_hit *hit)
+{
+    seam *s = user;
+    tahr_status status = fake_sweep(&s->world, query, hit);
+    if (status >= 0 && hit->blocking && hit->body == 1 && query->motion.x > 0 && query->motion.z > -1e-3) {
+        hit->surface_normal = fake_vec(-1, 0, 0);
+        hit->walkable_rule = s->rule;
+    }
+    return status;
+}
+
+/* Runs for half a second against the seam, a skin over the floor. Returns how far it came. */
+static double run_over_seam(double height, uint32_t rule, double *lifted)
+{
+    static seam s;
+    rig r;
+    tahr_callbacks callbacks = {.struct_size = sizeof callbacks, .user = &s, .sweep = sweep_seam};
+    tahr_config c = rig_config();
+    s.rule = rule;
+    fake_world_flat(&s.world);
+    fake_add_box(&s.world, fake_vec(1, -50, -1), fake_vec(50, 50, height));
+    c.step_height = 0;
+    rig_open_callbacks(&r, &callbacks, &c, fake_vec(0, 0, 0.91));
+    rig_steps(&r, 2, 1.0 / 60);
+    assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
+    r.state.position = fake_vec(0, 0, 0.91);
+    r.state.velocity = fake_vec(6, 0, 0);
+    r.input.move = fake_vec(1, 0, 0);
+    rig_steps(&r, 30, 1.0 / 60);
+    *lifted = r.state.position.z - 0.91;
+    double x = r.state.position.x;
+    rig_close(&r);
+    return x;
+}
+
+/* Half a second at 6 m/s is 3 m; who is held stands where the skin meets the edge. */
+static void an_edge_as_high_as_the_floor_holds_nobody(void **unused)
+{
+    static const double RADIUS = 0.36;
+    double lifted;
+    (void)unused;
+    assert_near(run_over_seam(5e-10, 0, &lifted), 3, 1e-6);
+    assert_near(lifted, 1e-9, 1e-9);
+    assert_near(run_over_seam(5e-10, TAHR_WALKABLE_NEVER, &lifted), 1 - sqrt(2 * RADIUS * 5e-10), 1e-5);
+    assert_near(lifted, 0, 1e-9);
+    assert_near(run_over_seam(1e-6, 0, &lifted), 1 - sqrt(2 * RADIUS * 1e-6), 1e-5);
+    assert_near(lifted, 0, 1e-9);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_floor_that_ends_before_a_bend_is_left_where_it_ends),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(an_edge_as_high_as_the_floor_holds_nobody),
+                                       cmocka_unit_test(a_floor_that_ends_before_a_bend_is_left_where_it_ends),
                                        cmocka_unit_test(a_step_after_a_wall_carries_its_own_time),
                                        cmocka_unit_test(a_wall_that_leans_over_a_gutter_is_slid_along),
                                        cmocka_unit_test(a_stop_after_a_wall_carries_its_own_time),
