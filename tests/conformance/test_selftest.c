@@ -216,7 +216,7 @@ static void wrong_arguments_are_refused(void **state)
 {
     (void)state;
     const tahr_backend *native = tahr_backend_v1_native();
-    tahr_backend small = *native, old = *native;
+    tahr_backend small = *native, old = *native, lame = *native;
     uint32_t failed = 77;
     tahr_selftest_desc desc = {.struct_size = sizeof desc}, bad = desc;
     struct {
@@ -225,10 +225,12 @@ static void wrong_arguments_are_refused(void **state)
     } longer = {.known = desc, .tail = {1, 0, 0, 0}};
     small.struct_size = 8;
     old.abi_major = 200;
+    lame.sweep = NULL;
     assert_int_equal(tahr_backend_selftest(native, NULL, &failed), TAHR_E_NULL);
     assert_int_equal(tahr_backend_selftest(NULL, &desc, &failed), TAHR_E_NULL);
     assert_int_equal(tahr_backend_selftest(&small, &desc, &failed), TAHR_E_STRUCT_SIZE);
     assert_int_equal(tahr_backend_selftest(&old, &desc, &failed), TAHR_E_ABI);
+    assert_int_equal(tahr_backend_selftest(&lame, &desc, &failed), TAHR_E_NULL);
     bad.struct_size = 4;
     assert_int_equal(tahr_backend_selftest(native, &bad, &failed), TAHR_E_STRUCT_SIZE);
     longer.known.struct_size = sizeof longer;
