@@ -76,9 +76,8 @@ static tahr_status touch(tahr__step *step, const tahr_shape *shape, tahr_sweep *
     }
     q->flags |= TAHR_SWEEP_LEAVE_OVERLAP;
     step->report.sweeps++;
-    return step->trail && shape == &step->limits->shape
-               ? tahr__sensing_sweep(step, q, hit, count)
-               : answer_sweep(step->world, &step->context, q, hit, 1, count);
+    return step->trail && shape == &step->limits->shape ? tahr__sensing_sweep(step, q, hit, count)
+                                                        : answer_sweep(step->world, &step->context, q, hit, 1, count);
 }
 
 void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
