@@ -70,13 +70,6 @@ static void blocked_here(const tahr__step *step, tahr_hit *hit)
 /* Deeper than this (m) is an overlap; less is the rounding of a touch: of somebody put exactly onto a floor. */
 static const double TOUCHING = 1e-7;
 
-static tahr_status ask(tahr__step *step, const tahr_shape *shape, const tahr_sweep *q, tahr_hit *hit, uint32_t *count)
-{
-    step->report.sweeps++;
-    return step->trail && shape == &step->limits->shape ? tahr__sensing_sweep(step, q, hit, count)
-                                                        : answer_sweep(step->world, &step->context, q, hit, 1, count);
-}
-
 /* An overlap that is a touch blocks what approaches, and what leaves is asked for again, which counts as another. */
 static tahr_status touch(tahr__step *step, const tahr_shape *shape, tahr_sweep *q, tahr_hit *hit, uint32_t *count)
 {
@@ -86,7 +79,9 @@ static tahr_status touch(tahr__step *step, const tahr_shape *shape, tahr_sweep *
         return TAHR_OK;
     }
     q->flags |= TAHR_SWEEP_LEAVE_OVERLAP;
-    return ask(step, shape, q, hit, count);
+    step->report.sweeps++;
+    return step->trail && shape == &step->limits->shape ? tahr__sensing_sweep(step, q, hit, count)
+                                                        : answer_sweep(step->world, &step->context, q, hit, 1, count);
 }
 
 void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
@@ -111,7 +106,10 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
                     .mask = step->config->mask,
                     .ignore_body = step->ignore_body,
                     .flags = flags};
-    tahr_status status = ask(step, shape, &q, hit, &count);
+    step->report.sweeps++;
+    tahr_status status = step->trail && shape == &step->limits->shape
+                             ? tahr__sensing_sweep(step, &q, hit, &count)
+                             : answer_sweep(step->world, &step->context, &q, hit, 1, &count);
     if (status >= 0 && count > 0 && hit->start_overlap && hit->depth <= TOUCHING) {
         status = touch(step, shape, &q, hit, &count);
     }

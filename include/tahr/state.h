@@ -99,7 +99,7 @@ typedef struct tahr_state {
     uint32_t wall_body;    /* or TAHR_NO_BODY */
     uint32_t wall_feature;
     uint32_t drop_body; /* while DROPPING the one-way body that it stood on, and falls away from; else TAHR_NO_BODY */
-    uint32_t drop_feature;
+    uint32_t drop_feature; /* of that body, for users: no step depends on it */
     uint8_t reserved[40];
 } tahr_state;
 

@@ -12,7 +12,7 @@ enum { MOST_BODIES = 48 };
 typedef struct mutant {
     const tahr_host *host;
     void *inner;
-    uint32_t which, body_count, asked, prepared;
+    uint32_t which, body_count, asked, prepared, placed;
     uint32_t flags[MOST_BODIES];
 } mutant;
 
@@ -206,7 +206,9 @@ static void block_here(mutant *m, tahr_query_context *context, const tahr_sweep 
     if (n == 0 || *count > 0) return;
     double way = length(q->motion), approach = dot(q->motion, c->normal);
     int level = fabs(approach) <= 1e-12 * way && way > 0, wall = fabs(c->normal.x) > 0.5;
+    int in_slop = c->distance > 0.006 && c->distance < 0.009;
     int wrong = (m->which == BLOCKS_PARALLEL_MOTION && level && !wall) ||
+                (m->which == BLOCKS_PARALLEL_MOTION_IN_ITS_SLOP && level && !wall && in_slop) ||
                 (m->which == BLOCKS_MOTION_ALONG_WALLS && level && wall) ||
                 (m->which == BLOCKS_SEPARATING_MOTION && approach > 0) ||
                 (m->which == BLOCKS_WITHOUT_MOTION && way == 0);
@@ -397,6 +399,8 @@ static tahr_status contacts(void *self, tahr_query_context *context, const tahr_
         memmove(contacts, contacts + 1, (*count - 1) * sizeof contacts[0]);
         --*count;
     }
+    if (m->which == CONTACTS_LOSE_PLACED_BODIES && m->placed) *count = 0;
+    if (m->which == NAN_GIVES_NINE_CONTACTS && isnan(q.position.x)) *count = 9;
     if (m->which == WRITES_BEYOND_CAPACITY && *count == 1 && capacity == 1) contacts[1] = contacts[0];
     return m->which == TRUNCATION_NOT_SAID && status == TAHR_TRUNCATED ? TAHR_OK : status;
 }
@@ -407,6 +411,8 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
     tahr_ray q = *query;
     q.mask = m->which == RAYS_IGNORE_MASKS ? 0xFFFFFFFFu : q.mask;
     tahr_status status = native()->ray(m->inner, context, &q, hit, count);
+    if (m->which == RAYS_LOSE_PLACED_BODIES && m->placed) *count = 0;
+    if (m->which == NAN_GIVES_NINE_RAYS && isnan(q.origin.x)) *count = 9;
     if (m->which == RAYS_A_MILLIMETRE_LATE && *count) hit->fraction += 0.001 / length(q.motion);
     return status;
 }
@@ -426,6 +432,7 @@ static tahr_status prepare(void *self, tahr_query_context *context, const tahr_p
 static tahr_status place(void *self, const tahr_body_pose *poses, uint32_t count)
 {
     mutant *m = self;
+    m->placed = 1;
     return m->which == PLACING_IGNORED ? TAHR_OK : native()->place(m->inner, poses, count);
 }
 

@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include <tahr/record.h>
+
 #include "../support/native_fixture.h"
 #include "dice.h"
 #include "rig.h"
@@ -199,6 +201,37 @@ static void who_is_in_two_walls_gets_out_and_every_sweep_is_counted(void **unuse
     }
 }
 
+/* A recorder that hands every question on through a table of its own. */
+static tahr_status watch(void *user, tahr_record_world *world)
+{
+    tahr_backend *table = user;
+    *table = *world->backend;
+    world->backend = table;
+    return TAHR_OK;
+}
+
+static void who_watches_changes_no_count_of_derived_sweeps(void **unused)
+{
+    (void)unused;
+    tahr_backend table;
+    tahr_recorder recorder = {.struct_size = sizeof recorder, .user = &table, .begin = watch};
+    planes w = {.n = {{0, 0, 1}, {-1, 0, 0}}, .d = {0, 2}, .count = 2};
+    tahr_callbacks c = {.struct_size = sizeof c, .flags = TAHR_CALLBACKS_PROBE, .user = &w, .sweep = sweep_planes};
+    rig r;
+    uint32_t contacts = 0;
+    rig_open_callbacks(&r, &c, NULL, fake_vec(0, 0, 1));
+    assert_int_equal(tahr_world_record(r.world, &recorder), TAHR_OK);
+    for (int i = 0; i < 120; i++) {
+        w.calls = 0;
+        r.input.move = fake_vec(1, 0.2, 0);
+        assert_true(rig_step(&r, 1.0 / 60) >= 0);
+        assert_int_equal(w.calls, r.report.sweeps + r.report.contact_queries + r.report.rays);
+        contacts += r.report.contact_queries;
+    }
+    assert_true(contacts > 0);
+    rig_close(&r);
+}
+
 static tahr_status lying_sweep(void *user, const tahr_sweep *q, tahr_hit *hit)
 {
     planes *w = user;
@@ -299,6 +332,7 @@ int main(void)
         cmocka_unit_test(probing_finds_what_is_near_too),
         cmocka_unit_test(probing_finds_nothing_beyond_the_margin),
         cmocka_unit_test(who_is_in_two_walls_gets_out_and_every_sweep_is_counted),
+        cmocka_unit_test(who_watches_changes_no_count_of_derived_sweeps),
         cmocka_unit_test(derived_contacts_keep_the_cap_of_queries),
         cmocka_unit_test(bad_answers_behind_derived_contacts_are_refused),
         cmocka_unit_test(a_sweep_without_margin_walks_like_one_with),
