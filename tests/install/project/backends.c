@@ -19,8 +19,7 @@ static int ask(const tahr_backend *backend)
     tahr_world *world = NULL;
     tahr_hit hit = {0};
     uint32_t count = 0;
-    const tahr_ray ray = {
-        .origin = {0, 3, 0}, .motion = {0, -4, 0}, .mask = 0xFFFFFFFFu, .ignore_body = TAHR_NO_BODY};
+    const tahr_ray ray = {.origin = {0, 3, 0}, .motion = {0, -4, 0}, .mask = 0xFFFFFFFFu, .ignore_body = TAHR_NO_BODY};
     if (tahr_body_desc_init(&cube, sizeof cube, TAHR_BODY_BOX) < 0) return 1;
     cube.half_extents.x = cube.half_extents.y = cube.half_extents.z = 1;
     if (tahr_world_desc_init(&desc, sizeof desc) < 0) return 1;
@@ -39,7 +38,8 @@ static int ask_plugin(const char *path)
     tahr_plugin *plugin = NULL;
     if (tahr_plugin_load(path, NULL, &plugin) < 0) return 1;
     const tahr_backend *backend = tahr_plugin_backend(plugin);
-    const int failed = backend->name[0] == 't' && backend->name[1] == 'r' ? printf("%s\n", backend->name) < 0 : ask(backend);
+    const int failed =
+        backend->name[0] == 't' && backend->name[1] == 'r' ? printf("%s\n", backend->name) < 0 : ask(backend);
     tahr_plugin_unload(plugin);
     return failed;
 }
