@@ -17,6 +17,10 @@ static const double CEILING = 1e-3;
 /* A contact with less of a level part lies on the ceiling's face: no side of it is nearer. */
 static const double FLAT = 1e-6;
 
+/* m/s: who goes faster than this toward the ceiling would be under it again at once, and hang there until the rise is
+ * over; slower than this is rounding of who goes along it. */
+static const double COMES_BACK = 1e-3;
+
 /* Of skin: so far below the ceiling and beside the corner, against rounding of single precision (2e-6 m at 1 m). */
 static const double CLEAR = 4e-4;
 
@@ -95,6 +99,9 @@ int tahr__clear_corner(tahr__step *step, const tahr_hit *hit)
     }
     uint32_t count = directions_of(step, hit, directions);
     for (uint32_t i = 0; i < count; i++) {
+        if (dot(s->velocity, directions[i]) < -COMES_BACK) {
+            continue;
+        }
         double aside = way_aside(step, directions[i]);
         if (aside < least) {
             least = aside;

@@ -116,6 +116,33 @@ static void slot_that_is_too_narrow_is_not_entered(void **unused)
     rig_close(&r);
 }
 
+/* Toward the ceiling it would be back at once: its head is hit as ever, and no time is lost in going to and fro. */
+static void who_goes_under_the_ceiling_is_not_held_at_its_corner(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < 2 * RIG_RATES; i++) {
+        fake_world w;
+        rig r;
+        tahr_config c = corner_config(i % 2 ? TAHR_SHAPE_BOX : TAHR_SHAPE_CAPSULE);
+        double rate = rig_rates[i / 2];
+        c.air_control = 1;
+        fake_world_flat(&w);
+        fake_add_box(&w, fake_vec(0.3, -5, 2.5), fake_vec(10, 5, 6));
+        rig_stand(&r, &w, &c, fake_vec(-0.45, 0, 1));
+        r.input.jump = 1;
+        r.input.move = fake_vec(1, 0, 0);
+        int hits = 0;
+        for (int k = 0; k < 0.9 * rate; k++) { /* a jump lasts 0.86 s at most */
+            rig_step(&r, 1 / rate);
+            assert_near(r.report.time_lost, 0, 0);
+            hits += rig_event(&r, TAHR_EVENT_HIT) != NULL;
+        }
+        assert_true(hits > 0);
+        assert_true(r.state.position.x > 0.3 + 0.36); /* wholly under it */
+        rig_close(&r);
+    }
+}
+
 static void turned_off_the_corner_stops_the_rise(void **unused)
 {
     fake_world w;
@@ -133,6 +160,7 @@ int main(void)
                                        cmocka_unit_test(corner_farther_in_than_the_correction_stops_the_rise),
                                        cmocka_unit_test(way_aside_that_is_not_free_is_not_taken),
                                        cmocka_unit_test(slot_that_is_too_narrow_is_not_entered),
+                                       cmocka_unit_test(who_goes_under_the_ceiling_is_not_held_at_its_corner),
                                        cmocka_unit_test(turned_off_the_corner_stops_the_rise)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
