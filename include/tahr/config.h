@@ -172,7 +172,8 @@ typedef struct tahr_config {
     double ledge_grab;    /* m [0: off] falling and pushing into a wall, hangs (TAHR_MODE_HANGING) where its head passes
                                * an edge, or on one at most this far above it; a jump climbs, crouching or moving away
                                * lets go */
-    double corner_correction; /* m [0: off || 0.25] a rising head is moved aside at most this far to clear a corner */
+    double corner_correction; /* m [0: off || 0.25] a rising head is moved aside at most this far to clear a corner, but
+                               * not against its own way */
     double lift_momentum;     /* s [0 || 0.1] the velocity of a base is still imparted this long after it stopped */
     uint32_t air_jumps;       /* [0] jumps in the air before the next landing, water or edge; walking off a ledge costs
                                * none */
