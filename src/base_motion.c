@@ -68,6 +68,12 @@ static int read_base(tahr__step *step, uint32_t body, tahr_body_motion *motion)
     return status >= 0 && !(motion->flags & TAHR_BODY_NO_BASE);
 }
 
+/* As much of its velocity as counts for the character: in a plane nothing is carried out of it. */
+static vec3 velocity_under(const tahr__step *step, const tahr_body_motion *motion, int turns)
+{
+    return along_plane(step->limits, tahr__point_velocity(motion, step_foot(step), turns));
+}
+
 static vec3 imparted(const tahr__step *step, vec3 v)
 {
     vec3 up = step->state.up;
@@ -97,7 +103,7 @@ static vec3 handed_over(tahr__step *step)
     tahr_body_motion motion;
     vec3 v = s->base.velocity;
     if (read_base(step, s->base.body, &motion)) {
-        vec3 now = tahr__point_velocity(&motion, step_foot(step), (step->config->impart & TAHR_IMPART_TURN) != 0);
+        vec3 now = velocity_under(step, &motion, (step->config->impart & TAHR_IMPART_TURN) != 0);
         v = length_squared(now) > 0 || s->lift_left == 0 ? now : v;
     }
     return imparted(step, v);
@@ -132,7 +138,7 @@ static void enter_frame(tahr__step *step, uint32_t body, const tahr_body_motion 
 {
     step->frame_body = body;
     step->frame_is_base = 1;
-    step->frame_velocity = tahr__point_velocity(motion, step_foot(step), 1);
+    step->frame_velocity = velocity_under(step, motion, 1);
     step->state.velocity = bounded(sub(step->state.velocity, step->frame_velocity));
 }
 
@@ -246,7 +252,7 @@ static void follow(tahr__step *step, double dt)
     if (length_squared(motion.surface_velocity) > 0) {
         convey(step, motion.surface_velocity, dt);
     }
-    step->frame_velocity = tahr__point_velocity(&motion, step_foot(step), 1);
+    step->frame_velocity = velocity_under(step, &motion, 1);
 }
 
 /* An imparted velocity v decays for so long: until then it moves by its mean, which finish_decay takes off to what is
@@ -363,7 +369,7 @@ static uint32_t support(const tahr_state *s)
 static void remember_velocity(tahr__step *step, const tahr_body_motion *motion)
 {
     tahr_state *s = &step->state;
-    vec3 v = tahr__point_velocity(motion, step_foot(step), (step->config->impart & TAHR_IMPART_TURN) != 0);
+    vec3 v = velocity_under(step, motion, (step->config->impart & TAHR_IMPART_TURN) != 0);
     if (length_squared(v) > 0) {
         s->base.velocity = add(v, vec(0, 0, 0));
         s->lift_left = step->config->lift_momentum;

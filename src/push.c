@@ -11,6 +11,7 @@
 #include "body_motion.h"
 #include "drop.h"
 #include "move.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 #include "scope.h"
@@ -267,7 +268,7 @@ static void take_frame(tahr__step *step, double dt)
     step->passes = 0;
     step->ignore_body = TAHR_NO_BODY;
     step->frame_body = body;
-    step->frame_velocity = tahr__point_velocity(&motion, step_foot(step), 1);
+    step->frame_velocity = along_plane(step->limits, tahr__point_velocity(&motion, step_foot(step), 1));
     s->velocity = sub(s->velocity, step->frame_velocity);
 }
 

@@ -344,3 +344,64 @@ uint32_t chaos_drift(chaos_scene *s, oracle_random *dice, double dt, tahr_body_p
     }
     return count;
 }
+
+tahr_vec3 chaos_flat(tahr_vec3 v)
+{
+    return (tahr_vec3){v.x, v.z, 0};
+}
+
+/* The part of a turn that is about z; of capsules after the quarter turn about x that lays their axis into the plane. */
+static tahr_quat flat_turn(tahr_quat q, int capsule)
+{
+    static const double QUARTER = 0.70710678118654752440;
+    const tahr_quat laid = {QUARTER, 0, 0, QUARTER}, raised = {-QUARTER, 0, 0, QUARTER};
+    q = capsule ? product(q, raised) : q;
+    double size = sqrt(q.z * q.z + q.w * q.w);
+    q = size > 1e-6 ? (tahr_quat){0, 0, q.z / size, q.w / size} : (tahr_quat){0, 0, 0, 1};
+    return capsule ? product(q, laid) : q;
+}
+
+/* Faces up: its front is on the right hand of who goes along it. */
+static void flatten_hills(chaos_scene *s)
+{
+    tahr_body_desc *b = &s->bodies[CHAOS_MOVABLES];
+    for (uint32_t i = 0; i < 13; i++) {
+        s->vertices[3 * i] = 6.0 - i;
+        s->vertices[3 * i + 1] = s->vertices[3 * i + 2];
+        s->vertices[3 * i + 2] = 0;
+    }
+    b->type = TAHR_BODY_CHAIN;
+    b->vertex_count = 13;
+    b->triangle_count = 0;
+    b->indices = NULL;
+}
+
+void chaos_flatten(chaos_scene *s)
+{
+    enum { FRONT = CHAOS_MOVABLES + 5, BEHIND = FRONT + 1 };
+    flatten_hills(s);
+    for (uint32_t i = 0; i < CHAOS_BODIES; i++) {
+        tahr_body_desc *b = &s->bodies[i];
+        int solid = (b->flags & (TAHR_BODY_SENSOR | TAHR_BODY_FLUID)) == 0;
+        b->pose.position = chaos_flat(b->pose.position);
+        b->pose.orientation = flat_turn(b->pose.orientation, b->type == TAHR_BODY_CAPSULE);
+        b->half_extents = (tahr_vec3){b->half_extents.x, b->half_extents.z, b->half_extents.y};
+        b->surface_velocity = chaos_flat(b->surface_velocity);
+        b->pose.position.x += i == FRONT || i == BEHIND ? 100 : 0;
+        b->flags |= solid && (i == 1 || i == 7 || (i > BEHIND && i % 3 == 0)) ? (uint32_t)TAHR_BODY_ONE_WAY : 0u;
+        if (i < CHAOS_MOVABLES) {
+            s->homes[i] = b->pose.position;
+            s->poses[i].pose = b->pose;
+        }
+    }
+}
+
+void chaos_flatten_moves(chaos_scene *s, tahr_body_pose *moves, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        tahr_pose *p = &moves[i].pose;
+        p->position = (tahr_vec3){p->position.x, p->position.y + p->position.z, 0}; /* lifts move along z */
+        p->orientation = flat_turn(p->orientation, s->bodies[moves[i].body].type == TAHR_BODY_CAPSULE);
+        s->poses[moves[i].body].pose = *p;
+    }
+}

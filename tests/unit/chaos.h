@@ -34,4 +34,11 @@ void chaos_build(chaos_scene *scene, oracle_random *dice, int fluids);
  * moves[CHAOS_MOVABLES] it filled in; scene->poses follow. */
 uint32_t chaos_drift(chaos_scene *scene, oracle_random *dice, double dt, tahr_body_pose *moves);
 
+/* The section of all this with a plane, for backends of two dimensions: x stays, what was up becomes +y, the hills
+ * become a chain, the walls in front and behind are put away, and some bodies are one-way. */
+tahr_vec3 chaos_flat(tahr_vec3 v);
+void chaos_flatten(chaos_scene *scene);
+/* And of what chaos_drift says of a flattened scene; scene->poses follow. */
+void chaos_flatten_moves(chaos_scene *scene, tahr_body_pose *moves, uint32_t count);
+
 #endif

@@ -12,6 +12,8 @@
 
 #include "box2d_rig.h"
 
+#include <tahr/box2d.h>
+
 #ifndef TAHR_HAVE_BOX2D
 int main(void)
 {
@@ -259,7 +261,9 @@ static void find_least(trial *t)
 
 typedef struct tally {
     int hits, overlaps, missed, false_hits;
-    double gap, depth, normal, contact; /* worst errors: m, m, degrees, m */
+    double depth, normal, contact; /* worst errors: m, degrees, m */
+    double gaps[QUERIES];          /* m */
+    int gap_count;
 } tally;
 
 static double angle_to(tahr_vec3 n, point away)
@@ -290,7 +294,7 @@ static void judge_sweep(const trial *t, tahr_world *world, tally *sum)
     sum->false_hits += t->least > t->query.margin + 1e-6;
     gap = distance_at(t, hit.fraction, &away);
     if (hit.fraction > 0) {
-        sum->gap = fmax(sum->gap, fabs((double)(gap - t->query.margin)));
+        sum->gaps[sum->gap_count++] = fabs((double)(gap - t->query.margin));
         sum->false_hits += hit.fraction > t->where + 1e-6;
     }
     if (gap + t->radius > 1e-4) {
@@ -316,9 +320,28 @@ static void judge_contacts(const trial *t, tahr_world *world, tally *sum)
     sum->contact = fmax(sum->contact, fabs((double)(contact.distance - distance_at(t, 0, &away))));
 }
 
+static int by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* A row of the table that tests/accuracy prints for the backends of space. Returns the worst gap. */
+static double print_row(uint32_t engine, tally *s)
+{
+    static const double LIMIT = 2e-9; /* m */
+    qsort(s->gaps, (size_t)s->gap_count, sizeof s->gaps[0], by_size);
+    double worst = s->gaps[s->gap_count - 1], part = fmax(fmax(worst, s->depth), s->contact) / LIMIT;
+    print_message("%-14s %-12s %5d %5d %9.1e %9.1e %6d %6d %8.1e %9.1e %9.1e %6.3f\n",
+                  engine == TAHR_BOX2D_2 ? "box2d 2.4" : "box2d 3", "plane", QUERIES, s->hits,
+                  s->gaps[(int)(0.99 * (s->gap_count - 1))], worst, s->missed, s->false_hits, s->normal, s->contact,
+                  s->depth, part);
+    return worst;
+}
+
 static void twenty_thousand_sweeps_are_within_a_nanometre_of_the_truth(void **unused)
 {
-    tally sums[2] = {{0}};
+    static tally sums[2];
     (void)unused;
     for (int i = 0; i < QUERIES; i++) {
         trial t;
@@ -332,15 +355,14 @@ static void twenty_thousand_sweeps_are_within_a_nanometre_of_the_truth(void **un
             tahr_world_close(world);
         }
     }
+    print_message("%-14s %-12s %5s %5s %9s %9s %6s %6s %8s %9s %9s %6s\n", "backend", "family", "cases", "hits",
+                  "gap p99 m", "gap max m", "missed", "false", "normal", "contact m", "depth m", "of lim");
     for (int e = 0; e < engine_count; e++) {
-        const tally *s = &sums[e];
-        print_message(
-            "Box2D %u: %d hits, %d overlaps; worst gap %.1e m, depth %.1e m, contact %.1e m, normal %.1e deg; "
-            "%d missed, %d false\n",
-            engines[e], s->hits, s->overlaps, s->gap, s->depth, s->contact, s->normal, s->missed, s->false_hits);
+        tally *s = &sums[e];
+        double gap = print_row(engines[e], s);
         assert_true(s->hits > 6000 && s->overlaps > 1000);
         assert_int_equal(s->missed + s->false_hits, 0);
-        assert_true(s->gap <= 2e-9 && s->depth <= 2e-9 && s->contact <= 2e-9 && s->normal <= 0.1);
+        assert_true(gap <= 2e-9 && s->depth <= 2e-9 && s->contact <= 2e-9 && s->normal <= 0.1);
     }
 }
 

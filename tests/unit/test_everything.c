@@ -13,6 +13,7 @@
 
 #include "chaos.h"
 
+#include <tahr/box2d.h>
 #include <tahr/custom_mode.h>
 #include <tahr/native.h>
 #ifdef TAHR_HAVE_CCD
@@ -28,7 +29,12 @@ static int factor = 1;
 static uint64_t first_seed = 1;
 
 /* What a world is opened on. BARE: callbacks with a sweep alone. */
-enum { ON_NATIVE, ON_DOUBLE, ON_CCD, ON_FCL, ON_CALLBACKS, ON_BARE, KINDS };
+enum { ON_NATIVE, ON_DOUBLE, ON_CCD, ON_FCL, ON_CALLBACKS, ON_BARE, ON_BOX2D, ON_BOX2D_2 };
+
+static int is_planar(int kind)
+{
+    return kind == ON_BOX2D || kind == ON_BOX2D_2;
+}
 
 /* A world, and behind callbacks the one that answers. */
 typedef struct place {
@@ -74,17 +80,17 @@ static tahr_status ask_fluid(void *user, const tahr_fluid_query *q, tahr_fluid *
     return tahr_world_fluid(user, q, fluid);
 }
 
-/* A mode that depends on the step alone: moves on, sometimes hands the rest to another mode. */
+/* A mode that depends on the step alone: moves on, sometimes hands the rest to another mode. user: NULL in space. */
 static tahr_status own_mode(void *user, tahr_step *step, double time, tahr_custom_next *next)
 {
     const tahr_state *s = tahr_step_state(step);
     const tahr_vec3 move = tahr_step_input(step)->move;
     tahr_vec3 v = {3 * sin(move.x), 3 * sin(move.y), 3 * sin(move.z)};
+    v.z = user ? 0 : v.z;
     tahr_vec3 way = {v.x * time / 2, v.y * time / 2, v.z * time / 2};
     tahr_step_moved moved;
     tahr_hit hit;
     tahr_fluid fluid;
-    (void)user;
     tahr_status status = tahr_step_set_velocity(step, &v);
     status = status < 0 ? status : tahr_step_slide(step, &way, &moved);
     status = status < 0 ? status : tahr_step_sweep(step, &way, &hit);
@@ -136,6 +142,14 @@ static void open_place(place *p, int kind, const chaos_scene *scene, const tahr_
         desc.options = &fcl;
     }
 #endif
+#ifdef TAHR_HAVE_BOX2D
+    const tahr_box2d_desc box2d = {.struct_size = sizeof box2d,
+                                   .engine = kind == ON_BOX2D ? TAHR_BOX2D_NEWEST : TAHR_BOX2D_2};
+    if (is_planar(kind)) {
+        backend = tahr_backend_v1_box2d();
+        desc.options = &box2d;
+    }
+#endif
     assert_int_equal(tahr_world_open(backend, &desc, &p->world), TAHR_OK);
     if (kind == ON_CALLBACKS || kind == ON_BARE) {
         tahr_callbacks all = {.struct_size = sizeof all, .user = p->world, .sweep = ask_sweep};
@@ -151,7 +165,7 @@ static void open_place(place *p, int kind, const chaos_scene *scene, const tahr_
         assert_int_equal(tahr_world_open_callbacks(&all, &desc, &p->world), TAHR_OK);
     }
     assert_int_equal(tahr_mover_create(p->world, config, &p->mover), TAHR_OK);
-    assert_int_equal(tahr_mover_set_custom_mode(p->mover, own_mode, NULL), TAHR_OK);
+    assert_int_equal(tahr_mover_set_custom_mode(p->mover, own_mode, is_planar(kind) ? p : NULL), TAHR_OK);
 }
 
 static void close_place(place *p)
@@ -208,6 +222,9 @@ static void check_state(const chaos *c, int n, const tahr_state *s)
     const tahr_vec3 p = s->position, v = s->velocity;
     if (!isfinite(p.x + p.y + p.z + v.x + v.y + v.z)) {
         fail_msg("seed %llu tick %d: not finite", (unsigned long long)c->seed, n);
+    }
+    if (is_planar(c->kind) && (p.z != 0 || s->up.z != 0)) {
+        fail_msg("seed %llu tick %d: out of the plane by %g, up by %g", (unsigned long long)c->seed, n, p.z, s->up.z);
     }
     for (size_t at = 0; at < sizeof *s; at += 8) {
         uint64_t word;
@@ -318,11 +335,15 @@ static push draw_push(chaos *c, double dt)
         p.how = 1;
         p.dt = oracle_below(&c->dice, 8) ? fmax(dt, 1e-4) : 1.0 / 30;
         p.count = chaos_drift(&c->scene, &c->dice, p.dt, p.moves);
+        if (is_planar(c->kind)) {
+            chaos_flatten_moves(&c->scene, p.moves, p.count);
+        }
     } else if (way < 16) {
         p.how = 2;
         p.count = 1;
         tahr_body_pose *one = &c->scene.poses[oracle_below(&c->dice, CHAOS_MOVABLES)];
         one->pose.position = dice_vec(&c->dice, -4, 4);
+        one->pose.position = is_planar(c->kind) ? chaos_flat(one->pose.position) : one->pose.position;
         p.moves[0] = *one;
     }
     return p;
@@ -333,6 +354,7 @@ static void hop(chaos *c, tahr_state *s)
     const double from = fmax(fabs(s->position.x), fmax(fabs(s->position.y), fabs(s->position.z)));
     if (from > 20 || oracle_below(&c->dice, 60) == 0) {
         tahr_vec3 at = dice_vec(&c->dice, -6, 6);
+        at = is_planar(c->kind) ? chaos_flat(at) : at;
         assert_int_equal(tahr_state_teleport(s, &at), TAHR_OK);
         s->velocity = from > 20 ? (tahr_vec3){0, 0, 0} : s->velocity;
     }
@@ -364,6 +386,7 @@ static void run(chaos *c)
 {
     tahr_state s;
     tahr_vec3 at = dice_vec(&c->dice, -5, 5);
+    at = is_planar(c->kind) ? chaos_flat(at) : at;
     assert_int_equal(tahr_state_init(&s, &c->config, &at), TAHR_OK);
     for (int n = 0; n < TICKS; n++) {
         tick *t = &c->ticks[n];
@@ -374,6 +397,10 @@ static void run(chaos *c)
         t->push = draw_push(c, t->dt);
         if (n == 0 || oracle_below(&c->dice, 4) == 0) {
             t->input = chaos_input(&c->dice, c->seed % 3 != 0, &c->config, &s);
+            if (is_planar(c->kind)) {
+                t->input.gravity = chaos_flat(t->input.gravity);
+                t->input.flags |= oracle_below(&c->dice, 6) == 0 ? (uint32_t)TAHR_INPUT_DROP : 0u;
+            }
         } else {
             t->input = c->ticks[n - 1].input;
             t->input.flags &= ~(uint32_t)(TAHR_INPUT_LAUNCH | TAHR_INPUT_IMPULSE | TAHR_INPUT_MODE);
@@ -404,10 +431,17 @@ static void run_kind(int kind, int rounds)
         const char *bad = NULL;
         do {
             c.config = chaos_config(&c.dice);
+            if (is_planar(kind)) {
+                c.config.gravity = chaos_flat(c.config.gravity);
+                c.config.plane = (tahr_vec3){0, 0, 1};
+            }
         } while (tahr_config_check(&c.config, &bad) < 0);
         tahr_config awake = c.config;
         awake.sleep = 0;
         chaos_build(&c.scene, &c.dice, kind != ON_BARE);
+        if (is_planar(kind)) {
+            chaos_flatten(&c.scene);
+        }
         open_place(&c.place, kind, &c.scene, &c.config, 0);
         open_place(&c.twin, kind, &c.scene, &awake, 1);
         run(&c);
@@ -463,6 +497,20 @@ static void fcl_keeps_every_promise(void **unused)
 #endif
 }
 
+static void box2d_keeps_every_promise(void **unused)
+{
+    (void)unused;
+#ifdef TAHR_HAVE_BOX2D
+    run_kind(ON_BOX2D, 30);
+#ifdef TAHR_HAVE_BOX2D_2
+    run_kind(ON_BOX2D_2, 30);
+#endif
+#else
+    print_message("SKIP: unit_everything: box2d was not built\n");
+    skip();
+#endif
+}
+
 static void callbacks_keep_every_promise(void **unused)
 {
     (void)unused;
@@ -474,8 +522,8 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(native_keeps_every_promise), cmocka_unit_test(native_in_double_keeps_every_promise),
-        cmocka_unit_test(ccd_keeps_every_promise), cmocka_unit_test(fcl_keeps_every_promise),
-        cmocka_unit_test(callbacks_keep_every_promise)};
+        cmocka_unit_test(ccd_keeps_every_promise),    cmocka_unit_test(fcl_keeps_every_promise),
+        cmocka_unit_test(box2d_keeps_every_promise),  cmocka_unit_test(callbacks_keep_every_promise)};
     factor = argc > 1 ? atoi(argv[1]) : 1;
     first_seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "dice.h"
+#include "native_world.h"
 #include "rig.h"
 
 static const double G = 9.81, SKIN = 0.01, RADIUS = 0.35;
@@ -265,6 +266,35 @@ static void in_the_plane_rest_repeats_and_sleeps(void **unused)
     rig_close(&r);
 }
 
+/* A conveyor that runs at 3 m/s across the plane: who lands on it runs along the plane and asks about nothing else, and
+ * comes as far as on ground that stands. */
+static void a_base_that_moves_across_the_plane_takes_nobody_along(void **unused)
+{
+    double came[2];
+    (void)unused;
+    for (int moving = 0; moving < 2; moving++) {
+        static tahr_query_record queries[256];
+        rig r;
+        tahr_config c = in_plane(fake_vec(0, 1, 0));
+        tahr_body_desc ground = native_box(fake_vec(0, 0, -1), fake_vec(50, 50, 1));
+        ground.surface_velocity = fake_vec(0, moving ? 3 : 0, 0);
+        rig_open_bodies(&r, &ground, 1, &c, fake_vec(0, 0, 2));
+        for (int i = 0; i < 12; i++) { /* 0.1 s each: it lands in the midst of one */
+            tahr_report report = {.struct_size = sizeof report, .queries = queries, .query_capacity = 256};
+            r.input.move = fake_vec(i < 8 ? 1 : 0, 0, 0);
+            r.input.jump = i == 9;
+            assert_true(tahr_mover_step(r.mover, &r.input, 0.1, &r.state, &report) >= 0);
+            for (uint32_t k = 0; k < report.query_count; k++) {
+                assert_near(queries[k].motion.y, 0, 0);
+            }
+        }
+        came[moving] = r.state.position.x;
+        rig_close(&r);
+    }
+    assert_true(came[0] > 2);
+    assert_near(came[1], came[0], 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_leaves_the_plane_in_ten_thousand_steps),
@@ -275,6 +305,7 @@ int main(void)
                                        cmocka_unit_test(what_overlaps_from_the_side_crushes_and_moves_nothing),
                                        cmocka_unit_test(seen_from_above_nothing_falls_jumps_or_steps),
                                        cmocka_unit_test(gravity_counts_along_the_plane),
+                                       cmocka_unit_test(a_base_that_moves_across_the_plane_takes_nobody_along),
                                        cmocka_unit_test(in_the_plane_rest_repeats_and_sleeps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
