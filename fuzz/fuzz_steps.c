@@ -191,6 +191,26 @@ static void judge(const scene *s, const tahr_report *r, const tahr_state *a, con
     }
 }
 
+/* Of the capsule or sphere that a state has. */
+static double gap_of(const twin *t, const tahr_state *state)
+{
+    tahr_shape shape = t->config->shape;
+    shape.radius = state->radius;
+    shape.half_height = state->half_height;
+    return truth_gap(t->scene, &shape, state->position, state->up, t->config->skin);
+}
+
+/* Who was free and was not crushed is free: by half the skin, for a step that is lifted over an edge by more than its
+ * skin comes down on it again. */
+static void judge_end(const twin *t, const tahr_state *a, const tahr_state *b)
+{
+    double slack = slack_of(t->scene), skin = t->config->skin;
+    if (!truth_knows(t->scene, &t->config->shape) || a->half_height != b->half_height || a->radius != b->radius) return;
+    double before = gap_of(t, a), after = gap_of(t, b);
+    if (before < skin / 2) return;
+    FUZZ_CHECK(after >= -slack, "%.9g m from something, before the step %.9g (skin %g)", after, before, skin);
+}
+
 static int step(twin *t, const tahr_input *input, double dt, int is_judged)
 {
     static tahr_query_record records[RECORDS];
@@ -219,6 +239,7 @@ static int step(twin *t, const tahr_input *input, double dt, int is_judged)
     if (t->scene->movers == 0) check_travel(t->config, input, &before, &t->state[0], dt);
     if (dt == 0) FUZZ_CHECK(memcmp(&t->state[0], &before, sizeof before) == 0, "dt = 0 changed the state");
     if (is_judged) judge(t->scene, &report[1], &before, &t->state[1]);
+    if (is_judged && status[1] == TAHR_OK) judge_end(t, &before, &t->state[1]);
     return 1;
 }
 
