@@ -200,15 +200,17 @@ static double gap_of(const twin *t, const tahr_state *state)
     return truth_gap(t->scene, &shape, state->position, state->up, t->config->skin);
 }
 
-/* Who was free and was not crushed is free: by half the skin, for a step that is lifted over an edge by more than its
- * skin comes down on it again. */
+/* Who was farther from everything than the skin, and was not crushed, is so after the step where sweeps keep a margin,
+ * and outside of everything where they are pulled back along the motion. */
 static void judge_end(const twin *t, const tahr_state *a, const tahr_state *b)
 {
-    double slack = slack_of(t->scene), skin = t->config->skin;
-    if (!truth_knows(t->scene, &t->config->shape) || a->half_height != b->half_height || a->radius != b->radius) return;
-    double before = gap_of(t, a), after = gap_of(t, b);
-    if (before < skin / 2) return;
-    FUZZ_CHECK(after >= -slack, "%.9g m from something, before the step %.9g (skin %g)", after, before, skin);
+    const tahr_config *c = t->config;
+    if (!truth_knows(t->scene, &c->shape) || a->half_height != b->half_height || a->radius != b->radius) return;
+    double before = gap_of(t, a), after = gap_of(t, b), slack = slack_of(t->scene);
+    double keeps = c->separation == TAHR_SEPARATION_MARGIN ? c->skin : 0;
+    if (before < c->skin - slack) return;
+    FUZZ_CHECK(after >= keeps - 2 * slack, "%.9g m from something, before the step %.9g (skin %g)", after, before,
+               c->skin);
 }
 
 static int step(twin *t, const tahr_input *input, double dt, int is_judged)

@@ -30,7 +30,8 @@ seed level words 'yv 0 1 2 f 1 2 3 and much more of it, with bad numbers xyz and
 
 # Maps of Tiled: objects of every kind; tiles, turned and joined; an endless one, packed.
 map() {
-    cat >"fuzz/corpus/level/seed_map_$1"
+    mkdir -p fuzz/corpus/map
+    cat >"fuzz/corpus/map/seed_$1"
 }
 printf '{"type":"map","width":2,"height":2,"tilewidth":16,"tileheight":16,"layers":[{"type":"objectgroup","objects":[{"x":0,"y":16,"width":32,"height":16}]}]}' | map small
 map objects <<'END'

@@ -8,7 +8,7 @@ seconds=$2
 root=$(cd "$(dirname "$0")/.." && pwd)
 failed=0
 mkdir -p "$build/found"
-export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=1}" LSAN_OPTIONS="suppressions=$root/tests/cli/leaks.txt:print_suppressions=0"
+export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=1}" LSAN_OPTIONS="suppressions=$root/fuzz/leaks.txt:print_suppressions=0"
 ran=0
 for fuzzer in "$build"/bin/fuzz_*; do
     [ -x "$fuzzer" ] || continue
