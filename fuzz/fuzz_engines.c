@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * fuzz_engines.c: the same scene on native in double and on every other engine of three dimensions of this build: the
- * same answers within the contract. Where two engines stop at different fractions, each is judged by the distance that
+ * fuzz_engines.c: the same scene on native in double and on every other engine of this build: the same answers within the
+ * contract. Three of four scenes are of three dimensions, the others of two: those native has drawn out into space. Where two engines stop at different fractions, each is judged by the distance that
  * the other measures there: at a graze the fraction may be far off and do no harm. */
-#include "scene.h"
+#include "flat.h"
 #include "target.h"
 
 #include <math.h>
 #include <string.h>
+#include <tahr/box2d.h>
 #include <tahr/ccd.h>
 #include <tahr/fcl.h>
 #include <tahr/native.h>
@@ -131,23 +132,69 @@ static tahr_sweep sweep_of(const scene *s, bytes *b)
     return q;
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+/* What all engines are asked. */
+typedef struct questions {
+    tahr_sweep sweeps[MOST_QUERIES];
+    int count;
+} questions;
+
+static void questions_read(questions *q, const scene *s, bytes *b)
 {
-    bytes b = {data, data + size};
-    scene s;
-    tahr_sweep queries[MOST_QUERIES];
-    int count = 0;
+    q->count = 0;
+    while (q->count < MOST_QUERIES && bytes_left(b) > 0)
+        q->sweeps[q->count++] = sweep_of(s, b);
+}
+
+static void compare_all(tahr_world *native, tahr_world *other, const questions *q, const char *who)
+{
+    for (int k = 0; native && other && k < q->count; k++)
+        compare(native, other, &q->sweeps[k], who);
+    tahr_world_close(other);
+}
+
+static void try_space(bytes *b)
+{
+    static scene s;
+    questions q;
     /* Two-sided: who is behind a one-sided face is beside nothing for one engine and inside for another. */
-    scene_read(&s, &b, SCENE_TWO_SIDED | SCENE_NEAR);
-    while (count < MOST_QUERIES && bytes_left(&b) > 0)
-        queries[count++] = sweep_of(&s, &b);
+    scene_read(&s, b, SCENE_TWO_SIDED | SCENE_NEAR);
+    questions_read(&q, &s, b);
     tahr_world *native = scene_open(&s, engine(0), &in_double);
     for (int i = 1; native && i < 3; i++) {
         tahr_world *world = engine(i) ? scene_open(&s, engine(i), NULL) : NULL;
-        for (int k = 0; world && k < count; k++)
-            compare(native, world, &queries[k], tahr_world_backend_name(world));
-        tahr_world_close(world);
+        compare_all(native, world, &q, world ? tahr_world_backend_name(world) : "nobody");
     }
     tahr_world_close(native);
+}
+
+#ifdef TAHR_HAVE_BOX2D
+static void try_plane(bytes *b)
+{
+    static flat f;
+    questions q;
+    flat_read(&f, b);
+    questions_read(&q, &f.plane, b);
+    for (int k = 0; k < q.count; k++)
+        q.sweeps[k] = flat_sweep(&q.sweeps[k]);
+    tahr_world *native = scene_open(&f.space, engine(0), &in_double);
+    const tahr_box2d_desc three = {.struct_size = sizeof three, .engine = TAHR_BOX2D_3};
+    compare_all(native, scene_open(&f.plane, tahr_backend_v1_box2d(), &three), &q, "box2d 3");
+    const tahr_box2d_desc two = {.struct_size = sizeof two, .engine = TAHR_BOX2D_2};
+    compare_all(native, scene_open(&f.plane, tahr_backend_v1_box2d(), &two), &q, "box2d 2.4");
+    tahr_world_close(native);
+}
+#endif
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    bytes b = {data, data + size};
+#ifdef TAHR_HAVE_BOX2D
+    if (size > 0 && data[0] % 4 == 2) {
+        bytes_u8(&b);
+        try_plane(&b);
+        return 0;
+    }
+#endif
+    try_space(&b);
     return 0;
 }

@@ -216,8 +216,11 @@ static void check(const tahr_state *before, const tahr_state *s, const tahr_repo
     FUZZ_CHECK(s->touched_count <= TAHR_MAX_TOUCHED, "touched %u", s->touched_count);
     uint32_t asked = r->sweeps + r->contact_queries + r->rays + r->fluid_queries;
     FUZZ_CHECK(asked <= TAHR_MAX_QUERIES_PER_STEP + TAHR_MAX_SENSOR_QUERIES_PER_STEP, "%u queries", asked);
-    for (uint32_t i = 0; i < r->event_count; i++)
-        FUZZ_CHECK(r->events[i].time >= 0 && r->events[i].time <= dt, "event %u at %g", i, r->events[i].time);
+    for (uint32_t i = 0; i < r->event_count; i++) {
+        const tahr_event *e = &r->events[i];
+        FUZZ_CHECK(e->time >= 0 && e->time <= dt, "event %u at %g", i, e->time);
+        FUZZ_CHECK(is_number(e->position) && is_number(e->normal) && isfinite(e->value), "event %u", i);
+    }
 }
 
 static void ask_directly(tahr_world *world, const tahr_config *config)
@@ -253,6 +256,8 @@ static void ask_directly(tahr_world *world, const tahr_config *config)
     FUZZ_CHECK(status < 0 || count <= 3, "%u", count);
     status = tahr_world_ray(world, &line, hits, &count);
     FUZZ_CHECK(status < 0 || count <= 1, "%u", count);
+    FUZZ_CHECK(status < 0 || !count || !hits[0].blocking || (is_number(hits[0].normal) && is_number(hits[0].point)),
+               "ray");
     status = tahr_world_fluid(world, &deep, &wet);
     FUZZ_CHECK(status < 0 || (wet.immersion >= 0 && wet.immersion <= 1), "fluid");
 }

@@ -4,12 +4,16 @@
 #include "scene.h"
 #include "tape.h"
 #include "target.h"
+#include "truth.h"
 
 #include <math.h>
 #include <string.h>
 #include <tahr/native.h>
 
-enum { MOST_STEPS = 200, EVENTS = 64 };
+enum { MOST_STEPS = 200, EVENTS = 64, RECORDS = TAHR_MAX_QUERIES_PER_STEP + TAHR_MAX_SENSOR_QUERIES_PER_STEP + 64 };
+
+/* Every so many steps the sweeps are measured by brute force: so many of them, at so many places on their ways. */
+enum { JUDGED_STEPS = 8, JUDGED_SWEEPS = 8, PLACES = 3 };
 
 static const tahr_native_desc fast = {.struct_size = sizeof fast, .precision = TAHR_NATIVE_FLOAT};
 static const tahr_native_desc plain = {
@@ -17,6 +21,8 @@ static const tahr_native_desc plain = {
 
 /* The same step, in a world with and one without shortcuts. */
 typedef struct twin {
+    const scene *scene;
+    const tahr_config *config;
     tahr_world *world[2];
     tahr_mover *mover[2];
     tahr_state state[2];
@@ -92,6 +98,8 @@ static void check_travel(const tahr_config *c, const tahr_input *in, const tahr_
 static int open_twin(twin *t, const scene *s, const tahr_config *config, const tahr_vec3 *position)
 {
     memset(t, 0, sizeof *t);
+    t->scene = s;
+    t->config = config;
     for (int i = 0; i < 2; i++) {
         tahr_config c = *config;
         c.sleep = i == 0 ? config->sleep : 0;
@@ -112,8 +120,9 @@ static void close_twin(twin *t)
 }
 
 /* Moves what can be moved, the same in both worlds. */
-static void move_bodies(twin *t, const scene *s, bytes *b, double dt)
+static void move_bodies(twin *t, bytes *b, double dt)
 {
+    const scene *s = t->scene;
     tahr_body_pose poses[SCENE_BODIES];
     uint32_t count = 0, how = bytes_u8(b);
     if (s->movers == 0 || !(dt > 0) || how % 4 == 0) return;
@@ -147,8 +156,66 @@ static void refuse(twin *t, const tahr_input *input, uint32_t how)
     FUZZ_CHECK(memcmp(&t->state[0], &before, sizeof before) == 0, "state");
 }
 
-static int step(twin *t, const tahr_config *config, const tahr_input *input, double dt, int moved)
+/* m that a sweep of lanes of floats may be off: 1e-4 of the size of the scene, as in fuzz_engines, and the rounding of
+ * its coordinates. */
+static double slack_of(const scene *s)
 {
+    return 1e-4 * s->scale + 8 * 2.3e-16 * (fabs(s->origin.x) + fabs(s->origin.y));
+}
+
+/* A sweep that began farther away than its margin keeps it all the way that it calls free: what a step does is put
+ * together of such ways, so that it neither tunnels nor comes nearer than its skin. */
+static void judge_sweep(const scene *s, const tahr_query_record *q, tahr_vec3 up)
+{
+    double slack = slack_of(s), reach = q->margin + 2 * slack;
+    if (truth_gap(s, &q->shape, q->position, up, reach) < q->margin) return;
+    for (int i = 1; i <= PLACES; i++) {
+        double at = q->fraction * i / PLACES;
+        tahr_vec3 p = {q->position.x + q->motion.x * at, q->position.y + q->motion.y * at,
+                       q->position.z + q->motion.z * at};
+        double gap = truth_gap(s, &q->shape, p, up, reach);
+        FUZZ_CHECK(gap >= q->margin - slack, "a sweep of %g m passes %.9g m from something (margin %g), at %g",
+                   length(q->motion), gap, q->margin, at);
+    }
+}
+
+static void judge(const scene *s, const tahr_report *r, const tahr_state *a, const tahr_state *b)
+{
+    int judged = 0;
+    if (memcmp(&a->up, &b->up, sizeof a->up) != 0) return; /* a record does not tell which one it was asked with */
+    for (uint32_t i = 0; i < r->query_count && judged < JUDGED_SWEEPS; i++) {
+        const tahr_query_record *q = &r->queries[i];
+        if (q->type != TAHR_QUERY_SWEEP || !(q->margin > 0) || !truth_knows(s, &q->shape)) continue;
+        judge_sweep(s, q, b->up);
+        judged++;
+    }
+}
+
+/* Of the capsule or sphere that a state has. */
+static double gap_of(const twin *t, const tahr_state *state)
+{
+    tahr_shape shape = t->config->shape;
+    shape.radius = state->radius;
+    shape.half_height = state->half_height;
+    return truth_gap(t->scene, &shape, state->position, state->up, t->config->skin);
+}
+
+/* Who was farther from everything than the skin, and was not crushed, is so after the step where sweeps keep a margin,
+ * and outside of everything where they are pulled back along the motion. */
+static void judge_end(const twin *t, const tahr_state *a, const tahr_state *b)
+{
+    const tahr_config *c = t->config;
+    if (!truth_knows(t->scene, &c->shape) || a->half_height != b->half_height || a->radius != b->radius) return;
+    double before = gap_of(t, a), after = gap_of(t, b), slack = slack_of(t->scene);
+    double keeps = c->separation == TAHR_SEPARATION_MARGIN ? c->skin : 0;
+    if (before < c->skin - slack) return;
+    FUZZ_CHECK(after >= keeps - 2 * slack, "%.9g m from something, before the step %.9g (skin %g)", after, before,
+               c->skin);
+}
+
+static int step(twin *t, const tahr_input *input, double dt, int is_judged)
+{
+    static tahr_query_record records[RECORDS];
     tahr_event events[2][EVENTS];
     tahr_report report[2];
     tahr_status status[2];
@@ -158,6 +225,8 @@ static int step(twin *t, const tahr_config *config, const tahr_input *input, dou
         report[i].struct_size = sizeof report[i];
         report[i].events = events[i];
         report[i].event_capacity = EVENTS;
+        report[i].queries = i && is_judged ? records : NULL;
+        report[i].query_capacity = RECORDS;
         status[i] = tahr_mover_step(t->mover[i], input, dt, &t->state[i], &report[i]);
     }
     FUZZ_CHECK(status[0] == status[1], "%s and %s", tahr_status_name(status[0]), tahr_status_name(status[1]));
@@ -169,8 +238,10 @@ static int step(twin *t, const tahr_config *config, const tahr_input *input, dou
     }
     check_state(&t->state[0]);
     check_report(&report[1], dt);
-    if (!moved) check_travel(config, input, &before, &t->state[0], dt);
+    if (t->scene->movers == 0) check_travel(t->config, input, &before, &t->state[0], dt);
     if (dt == 0) FUZZ_CHECK(memcmp(&t->state[0], &before, sizeof before) == 0, "dt = 0 changed the state");
+    if (is_judged) judge(t->scene, &report[1], &before, &t->state[1]);
+    if (is_judged && status[1] == TAHR_OK) judge_end(t, &before, &t->state[1]);
     return 1;
 }
 
@@ -190,9 +261,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             double dt;
             tape_read(&b, s.scale, &config, &input, &dt);
             if (i % 32 == 31) refuse(&t, &input, (uint32_t)i / 32);
-            uint32_t moves = s.movers;
-            if (moves) move_bodies(&t, &s, &b, dt);
-            if (!step(&t, &config, &input, dt, moves != 0)) break;
+            if (s.movers) move_bodies(&t, &b, dt);
+            if (!step(&t, &input, dt, i % JUDGED_STEPS == 0)) break;
         }
     }
     close_twin(&t);

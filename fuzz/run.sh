@@ -8,7 +8,7 @@ seconds=$2
 root=$(cd "$(dirname "$0")/.." && pwd)
 failed=0
 mkdir -p "$build/found"
-export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=1}" LSAN_OPTIONS="suppressions=$root/tests/cli/leaks.txt:print_suppressions=0"
+export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_leaks=1}" LSAN_OPTIONS="suppressions=$root/fuzz/leaks.txt:print_suppressions=0"
 ran=0
 for fuzzer in "$build"/bin/fuzz_*; do
     [ -x "$fuzzer" ] || continue
@@ -17,8 +17,10 @@ for fuzzer in "$build"/bin/fuzz_*; do
     mkdir -p "$build/corpus/$name"
     seeds=$root/fuzz/corpus/$name
     [ -d "$seeds" ] || seeds=
+    words=
+    [ -f "$root/fuzz/dict/$name.dict" ] && words="-dict=$root/fuzz/dict/$name.dict"
     # shellcheck disable=SC2086
-    "$fuzzer" -max_total_time="$seconds" -max_len=2048 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+    "$fuzzer" -max_total_time="$seconds" -max_len=8192 -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 $words \
         -artifact_prefix="$build/found/$name-" "$build/corpus/$name" $seeds >"$build/found/$name.log" 2>&1
     code=$?
     runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$build/found/$name.log")

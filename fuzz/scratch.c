@@ -8,21 +8,29 @@
 #include <string.h>
 #include <unistd.h>
 
+enum { STREAMS = 2 };
+
 static char path[512];
-static int loud = -1;
+static int loud[STREAMS] = {-1, -1}; /* where standard output and standard error went */
 
 static void remove_file(void)
 {
     if (path[0]) unlink(path);
 }
 
-const char *scratch_file(const uint8_t *data, size_t size, const char *ending)
+/* A folder in memory where there is one: a fuzzer writes thousands of files a second. */
+static const char *scratch_folder(void)
 {
     const char *folder = getenv("TMPDIR");
-    if (!path[0]) {
-        snprintf(path, sizeof path, "%s/tahr-fuzz-%ld.%s", folder && *folder ? folder : "/tmp", (long)getpid(), ending);
-        atexit(remove_file);
-    }
+    if (folder && *folder) return folder;
+    return access("/dev/shm", W_OK) == 0 ? "/dev/shm" : "/tmp";
+}
+
+const char *scratch_file(const uint8_t *data, size_t size, const char *ending)
+{
+    if (!path[0]) atexit(remove_file);
+    remove_file();
+    snprintf(path, sizeof path, "%s/tahr-fuzz-%ld.%s", scratch_folder(), (long)getpid(), ending);
     FILE *file = fopen(path, "wb");
     if (!file || fwrite(data, 1, size, file) != size || fclose(file) != 0) {
         fprintf(stderr, "%s: cannot be written\n", path);
@@ -33,15 +41,20 @@ const char *scratch_file(const uint8_t *data, size_t size, const char *ending)
 
 void scratch_quiet(void)
 {
+    if (getenv("TAHR_FUZZ_LOUD")) return;
     int nowhere = open("/dev/null", O_WRONLY);
-    if (loud < 0) loud = dup(STDERR_FILENO);
-    if (nowhere >= 0) {
-        dup2(nowhere, STDERR_FILENO);
-        close(nowhere);
+    fflush(stdout);
+    for (int i = 0; i < STREAMS && nowhere >= 0; i++) {
+        if (loud[i] < 0) loud[i] = dup(STDOUT_FILENO + i);
+        dup2(nowhere, STDOUT_FILENO + i);
     }
+    if (nowhere >= 0) close(nowhere);
 }
 
 void scratch_loud(void)
 {
-    if (loud >= 0) dup2(loud, STDERR_FILENO);
+    fflush(stdout);
+    for (int i = 0; i < STREAMS; i++) {
+        if (loud[i] >= 0) dup2(loud[i], STDOUT_FILENO + i);
+    }
 }

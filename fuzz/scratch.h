@@ -6,11 +6,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Path of a file with these bytes and that ending ("obj"), the same file every time; ends the program if there is none.
- * It is removed when the program ends. */
+/* Path of a file with these bytes and that ending ("obj"), in memory if this machine can; ends the program if there is
+ * none. It is removed with the next one and when the program ends. */
 const char *scratch_file(const uint8_t *data, size_t size, const char *ending);
 
-/* Messages of readers are not wanted: standard error is kept away until scratch_loud. */
+/* Messages of readers are not wanted: standard output and standard error are kept away until scratch_loud, unless
+ * TAHR_FUZZ_LOUD is set: then what a sanitizer says of a find is seen too. */
 void scratch_quiet(void);
 void scratch_loud(void);
 

@@ -76,9 +76,11 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     if (status < 0) {
         return status;
     }
-    if (n && found[n - 1].unknown) {
-        tahr__make_wall(&found[n - 1], query->position, query->motion, query->margin);
-        status = TAHR_UNKNOWN;
+    for (uint32_t i = 0; i < n; i++) { /* sensors too may be undecided */
+        if (found[i].unknown) {
+            tahr__make_wall(&found[i], query->position, query->motion, query->margin);
+            status = TAHR_UNKNOWN;
+        }
     }
     memcpy(hits, found, n * sizeof found[0]);
     *count = n;
@@ -136,6 +138,9 @@ tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, tahr_hit *h
     uint32_t found = 0;
     memset(&found_hit, 0, sizeof found_hit);
     tahr_status status = tahr__answer_ray(world, &context, query, &found_hit, &found);
+    if (status >= 0 && found && found_hit.unknown) {
+        tahr__make_wall(&found_hit, query->origin, query->motion, 0);
+    }
     if (status >= 0) {
         *hit = found_hit;
         *count = found;

@@ -155,6 +155,9 @@ uint32_t tahr__sensors(tahr__step *step, vec3 from, vec3 motion, uint32_t ignore
         return 0;
     }
     for (uint32_t i = 0; i < count; i++) { /* a backend that does not know the flag may add what blocks */
+        if (hits[i].unknown) {
+            tahr__make_wall(&hits[i], from, motion, 0);
+        }
         if (hits[i].sensor) {
             hits[kept++] = hits[i];
         }
@@ -229,6 +232,8 @@ void tahr__ray(tahr__step *step, vec3 origin, vec3 motion, tahr_hit *hit)
     }
     if (count == 0) {
         set_free(hit);
+    } else if (hit->unknown) {
+        tahr__make_wall(hit, origin, motion, 0);
     }
     if (step->report.queries) {
         tahr__record_ray(step, &q, hit, count);

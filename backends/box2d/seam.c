@@ -11,7 +11,9 @@
 #define NEARER 1e-7
 
 typedef struct seam {
+    const tahr__b2_probe *probe;
     const tahr__b2_piece *piece;
+    double overlap; /* m, < 0: the shape at the start is in the piece, but their cores are apart */
     tahr__vec2 point, normal, direction;
     tahr__vec2 face;
     double weld;
@@ -97,11 +99,24 @@ static int is_same(const tahr__b2_piece *a, const tahr__b2_piece *b)
            a->flat.corner[0].x == b->flat.corner[0].x && a->flat.corner[0].y == b->flat.corner[0].y;
 }
 
+/* What is overlapped is hidden only by what is overlapped as deep: the way out of a large round body may end in another
+ * one that is not even touched. Two that are as deep would hide each other: the lower name stays. */
+static int is_as_deep(const seam *s, const tahr__b2_piece *other)
+{
+    tahr__flat_near near;
+    int round = s->piece->flat.radius > 0 || other->flat.radius > 0;
+
+    if (!(s->overlap < 0)) return 1;
+    tahr__flat_measure(&s->probe->shape, f_make(0, 0), &other->flat, 0, &near);
+    if (round && near.distance >= s->overlap - s->weld && s->piece->owner.body < other->owner.body) return 0;
+    return near.distance <= s->overlap + s->weld;
+}
+
 static void take(void *user, tahr__b2_piece *other)
 {
     seam *s = user;
 
-    if (is_same(s->piece, other) || !may_hide(&s->piece->owner, &other->owner)) return;
+    if (is_same(s->piece, other) || !may_hide(&s->piece->owner, &other->owner) || !is_as_deep(s, other)) return;
     if (other->flat.count > 2) {
         at_polygon(s, other);
     } else if (other->flat.radius > 0 || other->flat.count == 1) {
@@ -138,10 +153,11 @@ static double weld_of(const tahr__b2_probe *probe)
 int tahr__b2_is_seam(const tahr__b2_probe *probe, const tahr__b2_piece *piece, const tahr__flat_near *near,
                      tahr__vec2 direction, tahr__vec2 *face)
 {
-    seam s = {.piece = piece, .normal = near->normal, .direction = direction, .face = *face};
+    seam s = {.probe = probe, .piece = piece, .normal = near->normal, .direction = direction, .face = *face};
 
     s.point = near->point;
     s.weld = weld_of(probe);
+    s.overlap = !near->crosses && near->distance < -s.weld ? near->distance : 0;
     if (near->part < TAHR__FLAT_CORNER && !near->crosses) return 0;
     look_at_ghosts(&s);
     if (!s.nearer) tahr__b2_each_at(probe, s.point, s.weld, take, &s);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * test_fuzz_finds.c: what the fuzzers found, each as the smallest case that failed. The inputs themselves are replayed
  * from fuzz/corpus. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +11,15 @@
 #include <cmocka.h>
 
 #include "core.h"
+#include "fake_backend.h"
+#include "rig.h"
 #include "trail.h"
+
+#ifdef TAHR_HAVE_BOX2D
+#include "box2d_rig.h"
+
+#include <tahr/box2d.h>
+#endif
 
 /* fuzz_liar, found_way_without_a_square: the event of a sensor left on a way of 1e-303 m had no time: 0 / 0. */
 static void a_way_too_short_to_square_takes_no_time(void **state)
@@ -32,10 +41,132 @@ static void a_way_too_short_to_square_takes_no_time(void **state)
     assert_true(trail.legs[0].end >= 0.01 && trail.legs[0].end <= 0.02);
 }
 
+/* A hit that is undecided, of which nothing else is a number. */
+static tahr_hit undecided(double fraction, int is_sensor)
+{
+    const tahr_vec3 none = {NAN, NAN, NAN};
+    tahr_hit hit = {.unknown = 1, .fraction = fraction, .distance = NAN, .depth = NAN, .walkable_angle = NAN};
+    hit.sensor = is_sensor != 0;
+    hit.blocking = !is_sensor;
+    hit.normal = hit.surface_normal = hit.point = none;
+    return hit;
+}
+
+static tahr_status undecided_sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
+                                   uint32_t capacity, uint32_t *count)
+{
+    (void)self, (void)context, (void)query;
+    assert_true(capacity >= 2);
+    hits[0] = undecided(0.25, 1);
+    hits[1] = undecided(0.5, 0);
+    *count = 2;
+    return TAHR_OK;
+}
+
+static tahr_status undecided_ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit,
+                                 uint32_t *count)
+{
+    (void)self, (void)context, (void)query;
+    *hit = undecided(0.25, 0);
+    *count = 1;
+    return TAHR_OK;
+}
+
+/* A wall across the motion, here straight down, at that height. */
+static void expect_wall_above(const tahr_hit *hit, double height)
+{
+    assert_true(hit->normal.x == 0 && hit->normal.y == 0 && hit->normal.z == 1);
+    assert_true(hit->surface_normal.x == 0 && hit->surface_normal.y == 0 && hit->surface_normal.z == 1);
+    assert_true(hit->point.x == 0 && hit->point.y == 0 && hit->point.z == height);
+    assert_true(hit->depth == 0 && isfinite(hit->distance) && hit->walkable_angle == 0);
+}
+
+/* fuzz_liar, found_undecided_sensors_without_a_normal: of several undecided hits only the last was made a wall, and of a
+ * ray none; the others had the backend's normals, which were no numbers. */
+static void every_undecided_hit_is_handed_on_as_a_wall(void **state)
+{
+    fake_backend b;
+    rig r;
+    tahr_hit hits[4];
+    uint32_t count = 0;
+    tahr_sweep q = {.shape = {TAHR_SHAPE_CAPSULE, 0, 0.35, 0.9, 0, 0},
+                    .position = {0, 0, 2},
+                    .up = {0, 0, 1},
+                    .orientation = {0, 0, 0, 1},
+                    .motion = {0, 0, -4},
+                    .mask = 1,
+                    .ignore_body = TAHR_NO_BODY};
+    tahr_ray line = {.origin = {0, 0, 2}, .motion = {0, 0, -4}, .mask = 1, .ignore_body = TAHR_NO_BODY};
+    (void)state;
+    rig_open_backend(&r, &b, FAKE_BACKEND_ALL);
+    b.table.sweep = undecided_sweep;
+    b.table.ray = undecided_ray;
+    assert_int_equal(tahr_world_sweep(r.world, &q, hits, 4, &count), TAHR_UNKNOWN);
+    assert_int_equal(count, 2);
+    expect_wall_above(&hits[0], 1);
+    expect_wall_above(&hits[1], 0);
+    assert_int_equal(tahr_world_ray(r.world, &line, hits, &count), TAHR_OK);
+    assert_int_equal(count, 1);
+    expect_wall_above(&hits[0], 1);
+    rig_close(&r);
+}
+
+#ifdef TAHR_HAVE_BOX2D
+/* What a sphere of 0.4 m at (x, y) is in, of two of 8 m at (0, 0) and (1, 0): at least the one that it is deepest in,
+ * of which the way out ends inside of the other one. */
+static void expect_depth(uint32_t engine, double x, double y)
+{
+    tahr_body_desc bodies[2];
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    tahr_contact found[4];
+    uint32_t count = 0;
+    const tahr_box2d_desc options = {.struct_size = sizeof options, .engine = engine};
+    for (int i = 0; i < 2; i++) {
+        tahr_body_desc_init(&bodies[i], sizeof bodies[i], TAHR_BODY_SPHERE);
+        bodies[i].radius = 8;
+        bodies[i].pose.position.x = i;
+    }
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = bodies, desc.body_count = 2, desc.options = &options;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_box2d(), &desc, &world), TAHR_OK);
+    const tahr_contact_query near = {.shape = {TAHR_SHAPE_SPHERE, 0, 0.4, 0.4, 0, 0},
+                                     .position = {x, y, 0},
+                                     .up = {0, 1, 0},
+                                     .orientation = {-0.70710678118654757, 0, 0, 0.70710678118654757},
+                                     .margin = 0.01,
+                                     .mask = 1,
+                                     .ignore_body = TAHR_NO_BODY};
+    assert_int_equal(tahr_world_contacts(world, &near, found, 4, &count), TAHR_OK);
+    assert_true(count >= 1);
+    double nearest = fmin(sqrt(x * x + y * y), sqrt((x - 1) * (x - 1) + y * y));
+    assert_true(fabs(found[0].distance - (nearest - 8.4)) < 1e-9);
+    tahr_world_close(world);
+}
+
+/* fuzz_engines, found_in_two_round_bodies_and_in_neither: each of two round bodies was taken for a neighbour that fills
+ * the place where the way out of the other one ends, and nothing was reported at all. */
+static void who_is_inside_of_two_round_bodies_is_inside(void **state)
+{
+    uint32_t engines[2];
+    (void)state;
+    for (int count = box2d_engines(engines), i = 0; i < count; i++) {
+        expect_depth(engines[i], 0.5, 0); /* as deep in both */
+        expect_depth(engines[i], 0.25, 0);
+        expect_depth(engines[i], 0.75, 0);
+        expect_depth(engines[i], 0.5, 0.125);
+    }
+}
+#endif
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_way_too_short_to_square_takes_no_time),
+        cmocka_unit_test(every_undecided_hit_is_handed_on_as_a_wall),
+#ifdef TAHR_HAVE_BOX2D
+        cmocka_unit_test(who_is_inside_of_two_round_bodies_is_inside),
+#endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
