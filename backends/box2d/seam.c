@@ -108,7 +108,7 @@ static int is_as_deep(const seam *s, const tahr__b2_piece *other)
 
     if (!(s->overlap < 0)) return 1;
     tahr__flat_measure(&s->probe->shape, f_make(0, 0), &other->flat, 0, &near);
-    if (round && near.distance >= s->overlap - s->weld && s->piece->owner.body < other->owner.body) return 0;
+    if (round && near.distance >= s->overlap - s->weld && s->piece->owner.id < other->owner.id) return 0;
     return near.distance <= s->overlap + s->weld;
 }
 
