@@ -201,11 +201,12 @@ static double gap_of(const twin *t, const tahr_state *state)
 }
 
 /* Who was farther from everything than the skin, and was not crushed, is so after the step where sweeps keep a margin,
- * and outside of everything where they are pulled back along the motion. */
+ * and outside of everything where they are pulled back along the motion. Who is turned needs only room to be there. */
 static void judge_end(const twin *t, const tahr_state *a, const tahr_state *b)
 {
     const tahr_config *c = t->config;
-    if (!truth_knows(t->scene, &c->shape) || a->half_height != b->half_height || a->radius != b->radius) return;
+    if (memcmp(&a->up, &b->up, sizeof a->up) != 0 || !truth_knows(t->scene, &c->shape)) return;
+    if (a->half_height != b->half_height || a->radius != b->radius) return;
     double before = gap_of(t, a), after = gap_of(t, b), slack = slack_of(t->scene);
     double keeps = c->separation == TAHR_SEPARATION_MARGIN ? c->skin : 0;
     if (before < c->skin - slack) return;
