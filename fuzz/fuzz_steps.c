@@ -156,11 +156,12 @@ static void refuse(twin *t, const tahr_input *input, uint32_t how)
     FUZZ_CHECK(memcmp(&t->state[0], &before, sizeof before) == 0, "state");
 }
 
-/* m that a sweep of lanes of floats may be off: 1e-4 of the size of the scene, as in fuzz_engines, and the rounding of
- * its coordinates. */
+/* m that a sweep may be off: 1e-4 of the size of the scene, as in fuzz_engines; the rounding of its coordinates; and that
+ * of corners to floats, from the corner of their cell of 4 m (backends/native/README.md): half of 2^-21 m in each of three
+ * directions. */
 static double slack_of(const scene *s)
 {
-    return 1e-4 * s->scale + 8 * 2.3e-16 * (fabs(s->origin.x) + fabs(s->origin.y));
+    return 1e-4 * s->scale + 8 * 2.3e-16 * (fabs(s->origin.x) + fabs(s->origin.y)) + 5e-7;
 }
 
 /* A sweep that began farther away than its margin keeps it all the way that it calls free: what a step does is put
@@ -201,11 +202,12 @@ static double gap_of(const twin *t, const tahr_state *state)
 }
 
 /* Who was farther from everything than the skin, and was not crushed, is so after the step where sweeps keep a margin,
- * and outside of everything where they are pulled back along the motion. */
+ * and outside of everything where they are pulled back along the motion. Who is turned needs only room to be there. */
 static void judge_end(const twin *t, const tahr_state *a, const tahr_state *b)
 {
     const tahr_config *c = t->config;
-    if (!truth_knows(t->scene, &c->shape) || a->half_height != b->half_height || a->radius != b->radius) return;
+    if (memcmp(&a->up, &b->up, sizeof a->up) != 0 || !truth_knows(t->scene, &c->shape)) return;
+    if (a->half_height != b->half_height || a->radius != b->radius) return;
     double before = gap_of(t, a), after = gap_of(t, b), slack = slack_of(t->scene);
     double keeps = c->separation == TAHR_SEPARATION_MARGIN ? c->skin : 0;
     if (before < c->skin - slack) return;
