@@ -50,13 +50,25 @@ void tahr__trace_complain(const tahr_log *log, const char *function, const char 
     log->write(log->user, TAHR_LOG_ERROR, text);
 }
 
-int tahr__trace_is_little(void)
+static int is_little(void)
 {
     const uint32_t one = 1;
     unsigned char first;
 
     memcpy(&first, &one, 1);
     return first == 1;
+}
+
+tahr_status tahr__trace_check(const tahr_trace_desc *desc, uint32_t known_flags)
+{
+    uint32_t size;
+
+    memcpy(&size, desc, sizeof size);
+    if (size < sizeof *desc || size > sizeof *desc + 4096) return TAHR_E_STRUCT_SIZE;
+    for (uint32_t i = sizeof *desc; i < size; i++) {
+        if (((const unsigned char *)desc)[i]) return TAHR_E_UNSUPPORTED;
+    }
+    return desc->flags & ~known_flags || !is_little() ? TAHR_E_UNSUPPORTED : TAHR_OK;
 }
 
 void tahr__trace_put(tahr__trace_bytes *b, uint64_t number)

@@ -46,7 +46,9 @@ typedef struct tahr__trace_head {
 void tahr__trace_head_fill(tahr__trace_head *head);
 /* FNV-1a, 64 bits, going on from seed; 0 begins. */
 uint64_t tahr__trace_hash(uint64_t seed, const void *bytes, size_t size);
-int tahr__trace_is_little(void);
+/* A description's size, unknown tail and flags, and the order of this machine's bytes: TAHR_OK, TAHR_E_STRUCT_SIZE,
+ * TAHR_E_UNSUPPORTED. */
+tahr_status tahr__trace_check(const tahr_trace_desc *desc, uint32_t known_flags);
 /* Writes "function: name what" to the log (log may be NULL). */
 void tahr__trace_complain(const tahr_log *log, const char *function, const char *name, const char *what);
 

@@ -7,14 +7,9 @@
 
 static tahr_status check(const tahr_trace_desc *desc)
 {
-    uint32_t size;
+    tahr_status status = tahr__trace_check(desc, 0);
 
-    memcpy(&size, desc, sizeof size);
-    if (size < sizeof *desc || size > sizeof *desc + 4096) return TAHR_E_STRUCT_SIZE;
-    for (uint32_t i = sizeof *desc; i < size; i++) {
-        if (((const unsigned char *)desc)[i]) return TAHR_E_UNSUPPORTED;
-    }
-    if (desc->flags || !tahr__trace_is_little()) return TAHR_E_UNSUPPORTED;
+    if (status < 0) return status;
     if (desc->path || desc->read) return TAHR_OK;
     tahr__trace_complain(desc->log, "tahr_trace_read", "desc.path", "is NULL, and so is desc.read");
     return TAHR_E_NULL;

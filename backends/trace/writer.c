@@ -174,15 +174,9 @@ static void done(void *user, const tahr_record_done *d)
 
 static tahr_status check(const tahr_trace_desc *desc)
 {
-    uint32_t size;
+    tahr_status status = tahr__trace_check(desc, TAHR_TRACE_STEPS_ONLY | TAHR_TRACE_FLUSH);
 
-    memcpy(&size, desc, sizeof size);
-    if (size < sizeof *desc || size > sizeof *desc + 4096) return TAHR_E_STRUCT_SIZE;
-    for (uint32_t i = sizeof *desc; i < size; i++) {
-        if (((const unsigned char *)desc)[i]) return TAHR_E_UNSUPPORTED;
-    }
-    if (desc->flags & ~(uint32_t)(TAHR_TRACE_STEPS_ONLY | TAHR_TRACE_FLUSH) || !tahr__trace_is_little())
-        return TAHR_E_UNSUPPORTED;
+    if (status < 0) return status;
     if (desc->path || desc->write) return TAHR_OK;
     tahr__trace_complain(desc->log, "tahr_trace_open", "desc.path", "is NULL, and so is desc.write");
     return TAHR_E_NULL;
