@@ -88,7 +88,7 @@ unresolved=$(
     for folder in bindings/*/; do resolve "${folder%/}"; done
     for folder in tests/*/; do
         case $folder in
-        tests/unit/) resolve tests/unit tests tests/support src backends backends/common | grep -v '"layout.inc"' || true ;;
+        tests/unit/) resolve tests/unit tests/unit tests/support src backends backends/common | grep -v '"layout.inc"' || true ;;
         tests/cli/) resolve tests/cli tests tests/support bindings/cli ;;
         *) resolve "${folder%/}" tests tests/support ;;
         esac

@@ -135,7 +135,7 @@ static void no_seam_of_cells_is_felt_on_a_flat_floor_or_wall(void **)
     tahr_world_close(world);
 }
 
-/* The block as one box is met where extents and points say (tests/unit/test_ccd_shapes.c). */
+/* The block as one box is met where extents and points say (tests/unit/engines/test_ccd_shapes.c). */
 static void characters_of_every_kind_meet_cells_as_their_box(void **)
 {
     static const uint32_t kinds[] = {TAHR_SHAPE_CYLINDER, TAHR_SHAPE_CONE, TAHR_SHAPE_ELLIPSOID};

@@ -3,7 +3,7 @@
 #ifndef DICE_H
 #define DICE_H
 
-#include "../support/oracle.h"
+#include "oracle.h"
 
 #include <tahr/types.h>
 

@@ -1,4 +1,4 @@
-# layout.awk: reads the preprocessed public headers (cc -E -P) and writes the list that test_layout.c expands:
+# layout.awk: reads the preprocessed public headers (cc -E -P) and writes the list that layout.c expands:
 # BEGIN, FIELD and END of every struct, VALUE of every enumerator, FUNCTION of every prototype.
 { text = text " " $0 }
 

@@ -27,7 +27,7 @@ standard=c
 case $language in c++*) standard=c++ ;; esac
 # shellcheck disable=SC2086
 "$compiler" -x $standard -std="$language" -pedantic-errors -Wall -Wextra -Werror -Iinclude -I"$folder" \
-    $headers tests/unit/test_layout.c -o "$folder/layout"
+    $headers tests/unit/layout.c -o "$folder/layout"
 "$folder/layout" >"$folder/text" || {
     status=$?
     grep '^SKIP' "$folder/text" || true

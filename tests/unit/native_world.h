@@ -3,8 +3,8 @@
 #ifndef NATIVE_WORLD_H
 #define NATIVE_WORLD_H
 
-#include "../../backends/common/vec.h"
-#include "../support/native_fixture.h"
+#include "common/vec.h"
+#include "native_fixture.h"
 #include "dice.h"
 
 /* Initialises, opens, and fails the test if that fails. Precision as in native.h; a cache if with_cache. */

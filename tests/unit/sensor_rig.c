@@ -9,7 +9,7 @@
 
 #include "sensor_rig.h"
 
-#include "../support/native_fixture.h"
+#include "native_fixture.h"
 #include <tahr/native.h>
 #ifdef TAHR_HAVE_CCD
 #include <tahr/ccd.h>

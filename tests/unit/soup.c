@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "../support/scene_level.h"
+#include "scene_level.h"
 #include "soup.h"
 
 #define CELL 4.0

@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: MIT
+ * test_cache.c: what makes the native backend fast, caches and lanes, changes no bit. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "native_world.h"
+
+typedef struct answers {
+    tahr_hit hits[4];
+    tahr_contact contacts[16];
+    uint32_t hit_count, contact_count, ray_count;
+    tahr_hit ray;
+} answers;
+
+static void ask(fixture *f, const tahr_sweep *sweep, answers *a)
+{
+    const tahr_backend *b = tahr_backend_v1_native();
+    tahr_contact_query c = fixture_contacts(sweep->shape, sweep->position, 0.02);
+    tahr_ray ray = {sweep->position, sweep->motion, 0xFFFFFFFFu, TAHR_NO_BODY};
+    memset(a, 0, sizeof *a);
+    c.up = sweep->up;
+    c.mask = ray.mask = sweep->mask;
+    b->sweep(f->self, &f->context, sweep, a->hits, 4, &a->hit_count);
+    b->contacts(f->self, &f->context, &c, a->contacts, 16, &a->contact_count);
+    b->ray(f->self, &f->context, &ray, &a->ray, &a->ray_count);
+}
+
+/* The reach of a runner's step, under any up. */
+static void announce(fixture *f, tahr_vec3 at, tahr_vec3 up, uint32_t mask)
+{
+    const tahr_vec3 reach = {1.6, 1.6, 1.6};
+    tahr_prepare a;
+    memset(&a, 0, sizeof a);
+    a.position = at;
+    a.up = up;
+    a.mask = mask;
+    a.bounds.min = v_sub(at, reach);
+    a.bounds.max = v_add(at, reach);
+    tahr_backend_v1_native()->prepare(f->self, &f->context, &a);
+}
+
+static void caches_and_lanes_change_no_bit(void **state)
+{
+    (void)state;
+    static native_grid grid;
+    tahr_body_desc bodies[NATIVE_HILLS];
+    native_hills(&grid, bodies);
+    for (uint32_t i = 1; i < NATIVE_HILLS; i++)
+        bodies[i].mask = 1 + i % 2;
+    uint64_t escapes = 0, gathers = 0, hits = 0, contacts = 0, rays = 0;
+    for (uint32_t precision = 0; precision < 2; precision++) {
+        fixture f[5];
+        for (uint32_t i = 0; i < 5; i++) {
+            tahr_native_desc o = fixture_options(precision);
+            o.no_cache = i == 0;
+            o.no_simd = i == 2;
+            o.cache_triangles = i == 3 ? 16 : i == 4 ? 4096 : 400;
+            o.cache_margin = i == 4 ? 3 : 0.5;
+            fixture_init(&f[i]);
+            assert_int_equal(fixture_open(&f[i], bodies, NATIVE_HILLS, &o, 1), TAHR_OK);
+        }
+        oracle_random r = {precision + 3};
+        tahr_vec3 p = v_make(6, 6, 1.2);
+        for (int n = 0; n < 6000; n++) {
+            tahr_sweep q = fixture_sweep(native_shape(n % 11 == 0 ? 2 : n % 3 == 0 ? 0 : 1), p, v_make(0, 0, 0), 0.01);
+            q.motion = dice_vec(&r, -0.5, 0.4);
+            if (n % 50 == 0) q.motion.x = 4;
+            if ((n / 500) % 2) q.up = v_make(0.6, 0, 0.8);
+            q.flags = n % 2 ? TAHR_SWEEP_LEAVE_OVERLAP : 0;
+            q.mask = n % 9 == 0 ? 1 : n % 9 == 1 ? 2 : 0xFFFFFFFFu;
+            uint32_t announced = (n / 700) % 2 ? 1 : 0xFFFFFFFFu; /* less than is asked for: still the same answers */
+            answers first, other;
+            for (uint32_t i = 0; i < 5; i++) {
+                announce(&f[i], p, q.up, announced);
+                ask(&f[i], &q, i == 0 ? &first : &other);
+                if (i > 0) assert_memory_equal(&first, &other, sizeof first);
+            }
+            hits += first.hit_count, contacts += first.contact_count, rays += first.ray_count;
+            p = v_add(p, v_scale(q.motion, 0.3));
+            if (p.x < 2 || p.x > 10 || p.y < 2 || p.y > 10 || p.z < 0 || p.z > 2.5) p = v_make(6, 6, 1.2);
+        }
+        assert_int_equal(f[0].context.gathers, 0);
+        for (int i = 0; i < 5; i++) {
+            escapes += f[i].context.escapes;
+            gathers += f[i].context.gathers;
+            native_close(&f[i]);
+        }
+    }
+    assert_true(escapes > 100 && gathers > 100);
+    assert_true(hits > 1000 && contacts > 1000 && rays > 1000); /* else nothing was compared */
+}
+
+static void only_what_was_gathered_for_fewer_bodies_is_gathered_anew(void **state)
+{
+    (void)state;
+    static native_grid grid;
+    fixture f;
+    tahr_body_desc bodies[NATIVE_HILLS];
+    tahr_native_desc o = fixture_options(TAHR_NATIVE_FLOAT);
+    const tahr_vec3 at = {6, 6, 1.2}, up = {0, 0, 1};
+    native_hills(&grid, bodies);
+    o.cache_triangles = 400;
+    fixture_init(&f);
+    assert_int_equal(fixture_open(&f, bodies, NATIVE_HILLS, &o, 1), TAHR_OK);
+    const struct {
+        uint32_t mask, gathers;
+    } steps[] = {{1, 1}, {1, 1}, {3, 2}, {1, 2}, {2, 2}, {0xFFFFFFFFu, 3}, {1, 3}};
+    for (size_t i = 0; i < sizeof steps / sizeof steps[0]; i++) {
+        tahr_sweep q = fixture_sweep(native_shape(1), at, v_make(0.2, 0, -0.5), 0.01);
+        q.mask = steps[i].mask;
+        announce(&f, at, up, steps[i].mask);
+        (void)fixture_hit(&f, &q);
+        assert_int_equal(f.context.gathers, steps[i].gathers);
+        assert_int_equal(f.context.escapes, 0); /* answered from what was gathered */
+    }
+    native_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(caches_and_lanes_change_no_bit),
+        cmocka_unit_test(only_what_was_gathered_for_fewer_bodies_is_gathered_anew),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: MIT
+ * test_lanes.c: the float cull leaves out nothing that is within reach, and keeps the same at every width. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "native/lanes.h"
+#include "dice.h"
+
+enum { COUNT = 61, BLOCKS = (COUNT + TAHR__LANES - 1) / TAHR__LANES };
+
+typedef struct scene {
+    tahr__facet facets[COUNT];
+    float blocks[BLOCKS * TAHR__LANE_ROWS * TAHR__LANES];
+    tahr__lanes lanes;
+} scene;
+
+/* Flat, upright and slanted triangles of 1 cm to 10 m, one in eight of them long and thin. */
+static void make(scene *s, oracle_random *seed)
+{
+    for (uint32_t i = 0; i < COUNT; i++) {
+        tahr__facet *f = &s->facets[i];
+        double size = pow(10, oracle_uniform(seed, -2, 1));
+        tahr_vec3 at = dice_vec(seed, -2, 2), squash = v_make(1, 1, 1);
+        uint32_t kind = oracle_below(seed, 4), thin = oracle_below(seed, 8) == 0;
+        squash = kind == 0 ? v_make(1, 1, 0) : kind == 1 ? v_make(0, 1, 1) : squash;
+        for (int k = 0; k < 3; k++) {
+            tahr_vec3 d = v_scale(dice_vec(seed, -1, 1), size);
+            if (thin && k == 2) d = v_scale(v_add(d, v_scale(v_sub(f->v[1], f->v[0]), 50)), 0.02);
+            f->v[k] = v_add(thin && k == 2 ? f->v[0] : at, v_make(d.x * squash.x, d.y * squash.y, d.z * squash.z));
+        }
+        tahr__facet_finish(f);
+        tahr_bounds box = {v_min(f->v[0], v_min(f->v[1], f->v[2])), v_max(f->v[0], v_max(f->v[1], f->v[2]))};
+        tahr__lanes_put(s->blocks, i, &box, oracle_below(seed, 20) ? f : NULL);
+    }
+    tahr__lanes_end(s->blocks, COUNT);
+    s->lanes = (tahr__lanes){s->blocks, COUNT};
+}
+
+typedef struct motion {
+    tahr_vec3 start, by;
+    double half, reach;
+} motion;
+
+static motion random_motion(oracle_random *seed)
+{
+    motion m = {dice_vec(seed, -2, 2), dice_vec(seed, -0.4, 0.4), oracle_uniform(seed, 0, 0.9),
+                oracle_uniform(seed, 0.05, 0.5)};
+    if (oracle_below(seed, 3) == 0) m.half = 0;
+    if (oracle_below(seed, 3) == 0) m.by = v_make(0, 0, -oracle_uniform(seed, 0, 0.5));
+    if (oracle_below(seed, 3) == 0) m.by.z = 0;
+    return m;
+}
+
+static tahr__lanes_query query_of(const motion *m)
+{
+    tahr_vec3 end = v_add(m->start, m->by), half = v_make(0, 0, m->half);
+    tahr_vec3 low = v_sub(v_min(m->start, end), half), high = v_add(v_max(m->start, end), half);
+    tahr__lanes_query q = {.lo = {d_down(low.x), d_down(low.y), d_down(low.z)},
+                           .hi = {d_up(high.x), d_up(high.y), d_up(high.z)},
+                           .limit = d_up(m->reach * m->reach * (1 + 1e-5)),
+                           .start = {(float)m->start.x, (float)m->start.y, (float)m->start.z},
+                           .motion = {(float)m->by.x, (float)m->by.y, (float)m->by.z},
+                           .half = (float)m->half,
+                           .reach = (float)(m->reach + TAHR__LANE_SLACK),
+                           .lowest = d_down(low.z - 2e-5)};
+    return q;
+}
+
+static double distance(const motion *m, const tahr__facet *f, double t)
+{
+    tahr__core core = {.axis_count = m->half > 0 ? 1 : 0, .axis = {{0, 0, m->half}}};
+    tahr__witness w;
+    tahr__facet_distance(&core, v_mad(m->start, m->by, t), f, &w);
+    return w.distance;
+}
+
+/* Not nearer than reach at any time before `until`. */
+static void assert_out_of_reach(const motion *m, const tahr__facet *f, double until)
+{
+    for (int i = 0; i <= 100; i++) {
+        double d = distance(m, f, until * i / 100);
+        if (d < m->reach)
+            fail_msg("left out at %g of %g, %.9g m away with a reach of %.9g", i / 100.0, until, d, m->reach);
+    }
+}
+
+static void what_is_left_out_is_out_of_reach(void **unused)
+{
+    static scene s;
+    oracle_random seed = {31};
+    uint32_t left_out = 0, kept = 0, later = 0;
+    (void)unused;
+    for (int run = 0; run < 3000; run++) {
+        if (run % 20 == 0) make(&s, &seed);
+        motion m = random_motion(&seed);
+        tahr__lanes_query q = query_of(&m);
+        tahr__lanes_found found[COUNT];
+        uint32_t count = tahr__lanes_cull_1(&s.lanes, &q, found), next = 0;
+        for (uint32_t i = 0; i < COUNT; i++) {
+            int is_found = next < count && found[next].index == i;
+            double until = is_found ? found[next].time : 1;
+            next += (uint32_t)is_found;
+            kept += (uint32_t)is_found;
+            left_out += (uint32_t)!is_found;
+            later += is_found && until > 0;
+            if (until > 0) assert_out_of_reach(&m, &s.facets[i], until);
+        }
+        assert_int_equal(next, count);
+    }
+    print_message("    %u left out, %u kept, of these %u for later\n", left_out, kept, later);
+    assert_true(kept > 4000 && later > 500 && left_out > 10 * kept);
+}
+
+/* It would be sound to keep everything: most of what is kept must come near. */
+static void what_is_kept_comes_near(void **unused)
+{
+    static scene s;
+    oracle_random seed = {77};
+    uint32_t near = 0, kept = 0;
+    (void)unused;
+    for (int run = 0; run < 600; run++) {
+        if (run % 20 == 0) make(&s, &seed);
+        motion m = random_motion(&seed);
+        tahr__lanes_query q = query_of(&m);
+        tahr__lanes_found found[COUNT];
+        uint32_t count = tahr__lanes_cull_1(&s.lanes, &q, found);
+        for (uint32_t k = 0; k < count; k++) {
+            double least = 1e9;
+            for (int i = 0; i <= 50; i++)
+                least = d_min(least, distance(&m, &s.facets[found[k].index], i / 50.0));
+            near += least < m.reach + 1e-3;
+            kept++;
+        }
+    }
+    print_message("    %u of %u kept come within reach\n", near, kept);
+    assert_true(near > 0.7 * kept);
+}
+
+static void every_width_keeps_the_same_bits(void **unused)
+{
+    static scene s;
+    oracle_random seed = {5};
+    tahr__lanes_fn *widths[] = {tahr__lanes_cull_4, tahr__lanes_best(),
+                                tahr__lanes_best() == tahr__lanes_cull_8 ? tahr__lanes_cull_8 : tahr__lanes_cull_4};
+    (void)unused;
+    print_message("    eight lanes: %s\n",
+                  tahr__lanes_best() == tahr__lanes_cull_8 ? "tested" : "no AVX2 here, not tested");
+    for (int run = 0; run < 20000; run++) {
+        if (run % 50 == 0) make(&s, &seed);
+        motion m = random_motion(&seed);
+        tahr__lanes_query q = query_of(&m);
+        tahr__lanes lanes = {s.blocks, 1 + oracle_below(&seed, COUNT)};
+        float rest[BLOCKS * TAHR__LANE_ROWS * TAHR__LANES];
+        memcpy(rest, s.blocks, sizeof rest);
+        tahr__lanes_end(rest, lanes.count);
+        lanes.blocks = rest;
+        tahr__lanes_found one[COUNT], many[COUNT];
+        uint32_t count = tahr__lanes_cull_1(&lanes, &q, one);
+        for (size_t w = 0; w < sizeof widths / sizeof widths[0]; w++) {
+            assert_int_equal(widths[w](&lanes, &q, many), count);
+            assert_memory_equal(many, one, count * sizeof one[0]);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_left_out_is_out_of_reach),
+        cmocka_unit_test(what_is_kept_comes_near),
+        cmocka_unit_test(every_width_keeps_the_same_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
