@@ -1,6 +1,6 @@
 #!/bin/sh
-# no_cxx.sh: everything that is shipped configures and builds where there is no C++ compiler. Unoptimised: it is about what
-# the build asks for.
+# no_cxx.sh: everything that is shipped configures and builds where there is no C++ compiler. Unoptimised and without
+# debug information: it is about what the build asks for.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -18,7 +18,7 @@ box2d_3=$(sed -n 's/^TAHR_BOX2D3_DIR:[A-Z]*=//p' "$BUILD/CMakeCache.txt" 2>/dev/
 [ ! -f "$BUILD/lib/libtahr_box2d_3.a" ] || parts="$parts -DTAHR_BACKEND_BOX2D=ON"
 # shellcheck disable=SC2086
 log env CXX=/nonexistent cmake -S . -B "$folder/build" $generator $parts -DTAHR_BOX2D3_DIR="$box2d_3" \
-    -DCMAKE_C_COMPILER="${CC:-cc}" -DCMAKE_CXX_COMPILER=/nonexistent -DCMAKE_BUILD_TYPE=Debug
+    -DCMAKE_C_COMPILER="${CC:-cc}" -DCMAKE_CXX_COMPILER=/nonexistent -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0
 grep -qF 'TAHR_BACKEND_FCL: no (there is no C++ compiler)' "$folder/log" ||
     { echo "no_cxx: the configuration does not say that FCL is left out, and why"; cat "$folder/log"; exit 1; }
 log cmake --build "$folder/build" --parallel 2 --target tahr_product

@@ -1,7 +1,8 @@
 #!/bin/sh
-# run.sh: compiles the library from its sources with one compiler and one set of flags, runs golden_hash.c on it, with and
-# without lanes and the gather cache, and compares every line with hash.txt. Usage: run.sh LABEL; LABEL is one of those
-# below. BUILD: the build; if it is gcc's and a Release, its libtahr.a is what gcc-O3 makes. Prints the difference on failure.
+# run.sh: compiles the library from its sources by hand, without the build and without a warning, with one compiler and
+# one set of flags, runs golden_hash.c on it, with and without lanes and the gather cache, and compares every line with
+# hash.txt. Usage: run.sh LABEL; LABEL is one of those below. BUILD: the build; if it is gcc's and a Release, its
+# libtahr.a is what gcc-O3 makes. Prints the difference on failure.
 set -eu
 label=$1
 emulator=
@@ -11,7 +12,7 @@ gcc-O3) compiler=gcc flags=-O3 ;;
 gcc-O3-native) compiler=gcc flags="-O3 -march=native" ;;
 clang-O0) compiler=clang flags=-O0 ;;
 clang-O3) compiler=clang flags=-O3 ;;
-musl-gcc-O2) compiler=musl-gcc flags="-O2 -static" ;;
+musl-gcc-O0) compiler=musl-gcc flags="-O0 -static" ;; # gcc with another libc: what it optimises is looked at above
 aarch64-gcc-O2) compiler=aarch64-linux-gnu-gcc flags=-O2 emulator="qemu-aarch64 -L /usr/aarch64-linux-gnu" ;;
 *) echo "run.sh: unknown label '$label'" >&2; exit 2 ;;
 esac
@@ -28,15 +29,15 @@ fi
 
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-library=$(ls src/*.c backends/common/*.c backends/native/*.c | grep -v '^src/selftest') # walks without it
+library="src/*.c backends/common/*.c backends/native/*.c"
 cache=${BUILD:-}/CMakeCache.txt
 if [ "$label" = gcc-O3 ] && "${CC:-gcc}" --version 2>/dev/null | grep -q 'Free Software Foundation' &&
     grep -qx 'CMAKE_BUILD_TYPE:[A-Z]*=Release' "$cache" 2>/dev/null; then
     library=$BUILD/lib/libtahr.a
 fi
 # shellcheck disable=SC2086
-"$compiler" -std=c11 -ffp-contract=off -fno-math-errno $flags -Iinclude -Ibackends tests/golden/golden_hash.c $library \
-    -o "$folder/golden_hash" -lm
+"$compiler" -std=c11 -ffp-contract=off -fno-math-errno $flags -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror \
+    -Iinclude -Ibackends tests/golden/golden_hash.c $library -o "$folder/golden_hash" -lm
 failed=0
 run() {
     # shellcheck disable=SC2086
@@ -48,9 +49,7 @@ run() {
     cat "$folder/hash"
 }
 run
-if [ -n "$emulator" ]; then # slow
-    run --scalar --no-cache
-else
+if [ -z "$emulator" ]; then # slow, and there are no lanes for it
     run --scalar
     run --no-cache
 fi
