@@ -1,6 +1,6 @@
 #!/bin/sh
 # no_cxx.sh: everything that is shipped configures and builds where there is no C++ compiler. Unoptimised and without
-# debug information: it is about what the build asks for.
+# debug information: it is about what the build asks for. Then golden/run.sh on the unoptimised library.
 set -eu
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -30,5 +30,11 @@ if [ -f "$BUILD/bin/tahr" ]; then
         log "$folder/build/bin/tahr" selftest "$backend"
     done
     echo "no_cxx: self-tests of $backends pass"
+fi
+# An unoptimised library of gcc is at hand now, which the golden test needs as well.
+if "${CC:-cc}" --version | grep -q 'Free Software Foundation'; then
+    LIBRARY="$folder/build/lib/libtahr.a" sh tests/golden/run.sh gcc-O0
+else
+    sh tests/golden/run.sh gcc-O0
 fi
 echo "no_cxx: built$parts without a C++ compiler"

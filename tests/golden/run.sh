@@ -2,7 +2,7 @@
 # run.sh: compiles the library from its sources by hand, without the build and without a warning, with one compiler and
 # one set of flags, runs golden_hash.c on it, with and without lanes and the gather cache, and compares every line with
 # hash.txt. Usage: run.sh LABEL; LABEL is one of those below. BUILD: the build; if it is gcc's and a Release, its
-# libtahr.a is what gcc-O3 makes. Prints the difference on failure.
+# libtahr.a is what gcc-O3 makes. LIBRARY: what there is of the label already. Prints the difference on failure.
 set -eu
 label=$1
 emulator=
@@ -35,6 +35,7 @@ if [ "$label" = gcc-O3 ] && "${CC:-gcc}" --version 2>/dev/null | grep -q 'Free S
     grep -qx 'CMAKE_BUILD_TYPE:[A-Z]*=Release' "$cache" 2>/dev/null; then
     library=$BUILD/lib/libtahr.a
 fi
+library=${LIBRARY:-$library}
 # shellcheck disable=SC2086
 "$compiler" -std=c11 -ffp-contract=off -fno-math-errno $flags -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror \
     -Iinclude -Ibackends tests/golden/golden_hash.c $library -o "$folder/golden_hash" -lm
