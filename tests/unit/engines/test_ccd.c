@@ -136,6 +136,32 @@ static void sweep_feels_no_internal_edges_of_a_flat_floor(void **state)
     tahr_world_close(world);
 }
 
+/* A floor at x < 0 and a ramp of 15 degrees from x = 0. A ball of 0.3 m begins 4 mm above the floor and 0.1 m before the
+ * ramp: nearest of the ramp is its foot, 2 cm away and hidden by the floor. It leaves the floor, flatter than the ramp:
+ * the ramp holds it, within the margin of 5 cm and no nearer than the floor was. */
+static void a_ramp_is_met_whose_foot_a_floor_hides(void **state)
+{
+    static const double corners[] = {
+        -2, -2, 0, 0, -2, 0, 0, 2, 0, -2, 2, 0, 4, -2, 4 * 0.26794919243112270, 4, 2, 4 * 0.26794919243112270};
+    static const uint32_t indices[] = {0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2};
+    const double sine = 0.25881904510252074, cosine = 0.96592582628906831;
+    tahr_body_desc body;
+    tahr_hit hit = {0};
+
+    (void)state;
+    tahr_body_desc_init(&body, sizeof body, TAHR_BODY_MESH);
+    body.vertices = corners, body.vertex_count = 6;
+    body.indices = indices, body.triangle_count = 4;
+    tahr_world *world = open_ccd(&body, 1);
+    tahr_sweep q = fixture_sweep(fixture_shape(TAHR_SHAPE_SPHERE, 0.3, 0.3), (tahr_vec3){-0.1, 0.3, 0.304},
+                                 (tahr_vec3){2, 0, 0.2}, 0.05);
+    assert_int_equal(sweep(world, &q, &hit), 1);
+    double gap = (0.1 - 2 * hit.fraction) * sine + (0.304 + 0.2 * hit.fraction) * cosine - 0.3;
+    assert_true(gap < 0.05 && gap > 0.004 - 1e-6);
+    assert_true(fabs(hit.normal.x + sine) < 1e-9 && fabs(hit.normal.z - cosine) < 1e-9);
+    tahr_world_close(world);
+}
+
 static void sweep_decides_touching_starts_by_direction(void **state)
 {
     tahr_body_desc body = box_body((tahr_vec3){0, 0, -1}, 1);
@@ -427,6 +453,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sweep_feels_no_internal_edges_of_a_flat_floor),
+        cmocka_unit_test(a_ramp_is_met_whose_foot_a_floor_hides),
         cmocka_unit_test(sweep_decides_touching_starts_by_direction),
         cmocka_unit_test(sweep_meets_one_sided_faces_from_the_front_only),
         cmocka_unit_test(sweep_lists_sensors_before_the_blocking_hit),
