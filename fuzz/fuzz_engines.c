@@ -61,15 +61,16 @@ static double nearest(tahr_world *world, const tahr_sweep *q, double t, double r
     return count ? c[0].distance : reach;
 }
 
-/* Nowhere nearer than the margin on the way, measured by the other engine; and at the margin at the end, if blocked. */
-static void judge(tahr_world *judge_world, const tahr_sweep *q, const tahr_hit *h, const char *who)
+/* Nowhere nearer than the margin on the way, or than it was at the start, measured by the other engine; and at the margin
+ * at the end, if blocked. */
+static void judge(tahr_world *judge_world, const tahr_sweep *q, double start, const tahr_hit *h, const char *who)
 {
-    double end = h->fraction, way = length(q->motion);
+    double end = h->fraction, way = length(q->motion), nearer = fmin(q->margin, start);
     for (int i = 1; i <= SAMPLES; i++) {
         double d = nearest(judge_world, q, end * i / SAMPLES, 2 * q->margin + 2 * SLACK);
-        FUZZ_CHECK(d >= q->margin - SLACK,
-                   "%s passes %.9g m from something (margin %g) at %d/8 of fraction %.9g of %g m", who, d, q->margin, i,
-                   end, way);
+        FUZZ_CHECK(d >= nearer - SLACK,
+                   "%s passes %.9g m from something (margin %g, start %.9g) at %d/8 of fraction %.9g of %g m", who, d,
+                   q->margin, start, i, end, way);
     }
     if (!h->blocking) return;
     double d = nearest(judge_world, q, end, 2 * q->margin + 2 * SLACK);
@@ -102,9 +103,8 @@ static void compare(tahr_world *a, tahr_world *b, const tahr_sweep *q, const cha
     }
     FUZZ_CHECK(fabs(start - there) <= SLACK, "%s: %.9g m at the start, native %.9g", who, there, start);
     if (!ask(a, q, &h) || !ask(b, q, &other)) return;
-    if (start <= q->margin + SLACK) return; /* what blocks at the start is decided by normals, a matter of SLACK */
-    judge(b, q, &h, "native");
-    judge(a, q, &other, who);
+    judge(b, q, start, &h, "native");
+    judge(a, q, start, &other, who);
 }
 
 static tahr_shape shape_of(bytes *b)
