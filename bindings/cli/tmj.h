@@ -42,6 +42,7 @@ struct tmj_shape {
 
 struct tmj_tile {
     uint32_t id;
+    double width, height; /* its own, of a collection of images; 0: the tileset's */
     struct tmj_traits traits;
     struct tmj_shape *shapes;
     size_t count;
@@ -50,7 +51,8 @@ struct tmj_tile {
 struct tmj_tileset {
     uint32_t first, count;
     double width, height, offset_x, offset_y;
-    struct tmj_tile *tiles; /* those that say something, by id */
+    double align_x, align_y; /* the part of a tile at which objects hold it; y down */
+    struct tmj_tile *tiles;  /* those that say something, by id */
     size_t tile_count;
     json_t *root; /* of an external one, or NULL */
 };
@@ -108,6 +110,8 @@ void tmj_tilesets_free(struct tmj *tmj);
 
 /* The tileset of a number without flips, or NULL after a message. */
 const struct tmj_tileset *tmj_tileset_of(struct tmj *tmj, uint32_t number);
+/* In pixels: the tileset's, or of a collection of images the image's. */
+void tmj_tile_size(const struct tmj_tileset *set, uint32_t number, double *width, double *height);
 /* The shapes of a tile, or of a whole one where the traits make it something; a new list of *count, turned as the number
  * says, with (0, 0) its upper left corner. NULL: none. */
 struct tmj_shape *tmj_tile_shapes(const struct tmj_tileset *set, uint32_t number, const struct tmj_traits *layer,

@@ -23,16 +23,18 @@ static int place_tile(struct tmj *tmj, const struct layer *layer, uint32_t numbe
 {
     const struct tmj_tileset *set = tmj_tileset_of(tmj, number & TMJ_TILE);
     size_t count = 0;
+    double tile_width, tile_height;
     int failed = 0;
     if (set == NULL) {
         return -1;
     }
+    tmj_tile_size(set, number, &tile_width, &tile_height);
     struct tmj_shape *shapes = tmj_tile_shapes(set, number, &layer->traits, &count);
     tmj->bare += shapes == NULL;
     for (size_t i = 0; i < count; i++) {
         /* A tile larger than the grid grows to the right and up. */
         tmj_shape_move(&shapes[i], layer->x + column * tmj->tile_width + set->offset_x,
-                       layer->y + (row + 1) * tmj->tile_height - set->height + set->offset_y);
+                       layer->y + (row + 1) * tmj->tile_height - tile_height + set->offset_y);
         failed = failed || tmj_tile_piece(tmj, &shapes[i]) != 0;
         tmj_shape_free(&shapes[i]);
     }
@@ -86,7 +88,8 @@ static int read_tiles(struct tmj *tmj, const struct layer *layer)
     return failed;
 }
 
-/* An object that is a tile: the tile's shapes, stretched to its size, above its lower left corner. */
+/* An object that is a tile: the tile's shapes, stretched to its size, above its lower left corner (or where else the
+ * tileset's alignment holds it). */
 static int read_tile_object(struct tmj *tmj, const struct layer *layer, const json_t *object)
 {
     const double number_range[2] = {1, 4294967295.0}, size_range[2] = {1e-3, 4e6}, turn_range[2] = {-1e6, 1e6};
@@ -106,6 +109,8 @@ static int read_tile_object(struct tmj *tmj, const struct layer *layer, const js
     if (set == NULL) {
         return -1;
     }
+    double tile_width, tile_height;
+    tmj_tile_size(set, (uint32_t)number, &tile_width, &tile_height);
     struct tmj_shape *shapes = tmj_tile_shapes(set, (uint32_t)number, &traits, &count);
     int failed = 0;
     for (size_t i = 0; i < count; i++) {
@@ -117,8 +122,9 @@ static int read_tile_object(struct tmj *tmj, const struct layer *layer, const js
             traits.kind = shapes[i].traits.kind;
             shapes[i].traits = traits;
         }
-        tmj_shape_move(&shapes[i], 0, -set->height);
-        tmj_shape_scale(&shapes[i], width / set->width, height / set->height);
+        tmj_shape_move(&shapes[i], set->offset_x - set->align_x * tile_width,
+                       set->offset_y - set->align_y * tile_height);
+        tmj_shape_scale(&shapes[i], width / tile_width, height / tile_height);
         tmj_shape_turn(&shapes[i], degrees);
         tmj_shape_move(&shapes[i], layer->x + x, layer->y + y);
         failed = failed || tmj_object_piece(tmj, &shapes[i]) != 0;
@@ -128,12 +134,29 @@ static int read_tile_object(struct tmj *tmj, const struct layer *layer, const js
     return failed ? -1 : 0;
 }
 
+/* Enemies, lights and the like: whatever form they have, they are none of ours. Negative after a message. */
+static int is_foreign(struct tmj *tmj, const json_t *object, const struct layer *layer)
+{
+    struct tmj_traits traits = layer->traits;
+    if (!json_is_object(object) || json_object_get(object, "text") != NULL) {
+        return 0;
+    }
+    if (tmj_traits(tmj, object, &traits) != 0) {
+        return -1;
+    }
+    return traits.foreign && traits.kind == TMJ_PLAIN && !traits.mover && traits.belt == 0;
+}
+
 static int read_object(struct tmj *tmj, const struct layer *layer, const json_t *object)
 {
     if (json_object_get(object, "gid") != NULL) {
         return read_tile_object(tmj, layer, object);
     }
     struct tmj_shape shape = {.traits = layer->traits};
+    int foreign = is_foreign(tmj, object, layer);
+    if (foreign != 0) {
+        return foreign < 0 ? -1 : 0;
+    }
     if (tmj_shape(tmj, object, &shape) != 0) {
         return -1;
     }

@@ -27,15 +27,28 @@ static int read_shapes(struct tmj *tmj, const json_t *group, struct tmj_tile *ti
     return failed;
 }
 
+/* Of a collection every tile is an image of its own size, and where one was taken out its number is free. */
+static int read_image(struct tmj *tmj, const json_t *object, struct tmj_tileset *set, struct tmj_tile *tile)
+{
+    if (tmj_number(tmj, object, "imagewidth", tile_range, &tile->width) != 0 ||
+        tmj_number(tmj, object, "imageheight", tile_range, &tile->height) != 0) {
+        return -1;
+    }
+    set->count = tile->id < set->count ? set->count : tile->id + 1;
+    return 0;
+}
+
 static int read_tile(struct tmj *tmj, const json_t *object, struct tmj_tileset *set)
 {
     struct tmj_tile *tile = &set->tiles[set->tile_count++];
-    const double id_range[2] = {0, (double)set->count - 1};
+    int is_image = json_object_get(object, "image") != NULL;
+    const double id_range[2] = {0, is_image ? count_range[1] : (double)set->count - 1};
     const json_t *group = json_object_get(object, "objectgroup");
     if (!json_is_object(object)) {
         return tmj_complain(tmj, "expected an object");
     }
-    if (tmj_whole(tmj, object, "id", id_range, &tile->id) != 0 || tmj_traits(tmj, object, &tile->traits) != 0) {
+    if (tmj_whole(tmj, object, "id", id_range, &tile->id) != 0 || tmj_traits(tmj, object, &tile->traits) != 0 ||
+        (is_image && read_image(tmj, object, set, tile) != 0)) {
         return -1;
     }
     tile->traits.foreign = 0; /* a tile's class may be anything: its shapes are what counts */
@@ -67,6 +80,26 @@ static int read_tiles(struct tmj *tmj, const json_t *object, struct tmj_tileset 
     return failed;
 }
 
+/* At which part of a tile an object holds it: Tiled's objectalignment. */
+static int read_alignment(struct tmj *tmj, const json_t *object, struct tmj_tileset *set)
+{
+    static const struct {
+        const char *name;
+        double x, y;
+    } places[] = {{"unspecified", 0, 1}, {"topleft", 0, 0},    {"top", 0.5, 0},   {"topright", 1, 0},
+                  {"left", 0, 0.5},      {"center", 0.5, 0.5}, {"right", 1, 0.5}, {"bottomleft", 0, 1},
+                  {"bottom", 0.5, 1},    {"bottomright", 1, 1}};
+    const char *name = json_string_value(json_object_get(object, "objectalignment"));
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        if (strcmp(name != NULL ? name : "unspecified", places[i].name) == 0) {
+            set->align_x = places[i].x;
+            set->align_y = places[i].y;
+            return 0;
+        }
+    }
+    return tmj_complain(tmj, "objectalignment '%s': expected unspecified, center or a side or corner", name);
+}
+
 static int read_set(struct tmj *tmj, const json_t *object, struct tmj_tileset *set)
 {
     const double offset_range[2] = {-1e5, 1e5};
@@ -80,7 +113,7 @@ static int read_set(struct tmj *tmj, const json_t *object, struct tmj_tileset *s
                            tmj_number(tmj, offset, "y", offset_range, &set->offset_y) != 0)) {
         return -1;
     }
-    return read_tiles(tmj, object, set);
+    return read_alignment(tmj, object, set) != 0 ? -1 : read_tiles(tmj, object, set);
 }
 
 /* A tileset in a file of its own is named relative to the map. */
@@ -162,23 +195,34 @@ static const struct tmj_tile *find_tile(const struct tmj_tileset *set, uint32_t 
     return set->tile_count > 0 ? bsearch(&key, set->tiles, set->tile_count, sizeof key, by_id) : NULL;
 }
 
+void tmj_tile_size(const struct tmj_tileset *set, uint32_t number, double *width, double *height)
+{
+    const struct tmj_tile *tile = find_tile(set, (number & TMJ_TILE) - set->first);
+    *width = tile != NULL && tile->width > 0 ? tile->width : set->width;
+    *height = tile != NULL && tile->height > 0 ? tile->height : set->height;
+}
+
 /* As Tiled turns a tile: along the diagonal first, then left and right, then up and down. */
 static void flip(struct tmj_shape *shape, const struct tmj_tileset *set, uint32_t number)
 {
+    double width, height;
+    tmj_tile_size(set, number, &width, &height);
     for (size_t i = 0; i < shape->count; i++) {
         struct outline_point p = shape->points[i];
         if (number & TMJ_FLIP_XY) {
             p = (struct outline_point){p.y, p.x};
         }
-        p.x = number & TMJ_FLIP_X ? set->width - p.x : p.x;
-        p.y = number & TMJ_FLIP_Y ? set->height - p.y : p.y;
+        p.x = number & TMJ_FLIP_X ? width - p.x : p.x;
+        p.y = number & TMJ_FLIP_Y ? height - p.y : p.y;
         shape->points[i] = p;
     }
 }
 
-static struct tmj_shape whole_tile(const struct tmj_tileset *set, const struct tmj_traits *traits)
+static struct tmj_shape whole_tile(const struct tmj_tileset *set, uint32_t number, const struct tmj_traits *traits)
 {
-    const struct outline_point corners[4] = {{0, 0}, {set->width, 0}, {set->width, set->height}, {0, set->height}};
+    double width, height;
+    tmj_tile_size(set, number, &width, &height);
+    const struct outline_point corners[4] = {{0, 0}, {width, 0}, {width, height}, {0, height}};
     const struct tmj_shape shape = {
         .form = TMJ_POLYGON, .points = (struct outline_point *)corners, .count = 4, .traits = *traits};
     return tmj_shape_copy(&shape);
@@ -205,7 +249,7 @@ struct tmj_shape *tmj_tile_shapes(const struct tmj_tileset *set, uint32_t number
         flip(&shapes[i], set, number);
     }
     if (own == 0) {
-        shapes[0] = whole_tile(set, &traits);
+        shapes[0] = whole_tile(set, number, &traits);
     }
     *count = own > 0 ? own : 1;
     return shapes;

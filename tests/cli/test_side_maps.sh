@@ -99,6 +99,18 @@ map 8 4 "{\"type\": \"tilelayer\", \"width\": 8, \"height\": 4, \"chunks\": [{\"
 run_right "$work/chunks.tmj"
 [ "${got%,*}" = 6.1875 ] || fail "over chunks it ended at $got"
 [ "$(value bodies)" = 1 ] || fail "chunks were not joined: $(value bodies) bodies"
+# A collection of images: each tile is as large as its own, and numbers of images that were taken out are free.
+images='{"firstgid": 1, "tilecount": 2, "columns": 0, "tilewidth": 48, "tileheight": 64, "tiles": [
+    {"id": 2, "image": "large.png", "imagewidth": 48, "imageheight": 64},
+    {"id": 7, "image": "small.png", "imagewidth": 16, "imageheight": 16}]}'
+map 8 4 "$(tiles 8 4 "$(floor 8 | sed 's/1/8/g')" '"class": "solid",'), $start" "$images" >"$work/images.tmj"
+same "$work/images.tmj"
+# A tile object that its tileset holds by the upper left corner; and what is none of ours, whatever form it has.
+map 8 4 "{\"type\": \"objectgroup\", \"objects\": [{\"gid\": 1, \"x\": 0, \"y\": 48, \"width\": 128, \"height\": 16},
+    {\"type\": \"enemy\", \"x\": 40, \"y\": 40, \"width\": 0, \"height\": 0},
+    {\"type\": \"enemy\", \"x\": 40, \"y\": 40, \"width\": 8, \"height\": 16, \"capsule\": true}]}, $start" \
+    "{\"objectalignment\": \"topleft\", ${tileset#\{}" >"$work/objects.tmj"
+same "$work/objects.tmj"
 # A ramp of 45 degrees: walked up as it is, and flipped along its diagonal (bit 29), which leaves it as it is; a wall where
 # it is flipped left to right (bit 31).
 for flip in 0 2147483648 536870912; do
