@@ -201,9 +201,10 @@ static void ray_hits(tahr__lab *lab)
             int met = tahr__lab_ray(lab, from, way, &hit);
             tahr__lab_check(lab,
                             met && fabs(hit.fraction - rays[i].fraction) * length(way) <= tahr__lab_slack(lab) &&
-                                tahr__lab_same_direction(lab, hit.normal, normal) && hit.body == rays[i].body &&
+                                tahr__lab_same_direction(lab, hit.normal, normal) &&
+                                tahr__lab_same_direction(lab, hit.surface_normal, normal) && hit.body == rays[i].body &&
                                 length(sub(hit.point, end)) <= 2 * tahr__lab_slack(lab),
-                            "a ray meets a face: fraction, normal, body and point",
+                            "a ray meets a face: fraction, both normals, body and point",
                             "ray %u: met %d, fraction %.9g instead of %.9g, body %u", (unsigned)i, met, hit.fraction,
                             rays[i].fraction, hit.body);
         }

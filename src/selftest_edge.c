@@ -2,6 +2,33 @@
  * selftest_edge.c: cases: edges and corners with both normals, seams that are no edges, thin and degenerate things. */
 #include "selftest.h"
 
+/* Is a point on the edge (or corner) at (0, 0), as the side view shows it? */
+static int is_on_edge(const tahr__lab *lab, vec3 point)
+{
+    vec3 off = sub(point, tahr__lab_at(lab, 0, 0));
+    return fabs(dot(off, tahr__lab_toward(lab, 1, 0))) <= 2 * tahr__lab_slack(lab) &&
+           fabs(dot(off, tahr__lab_up(lab))) <= 2 * tahr__lab_slack(lab);
+}
+
+/* The contact where a sweep ended on the edge. facing: of the faces there the one that faces the contact normal most. */
+static void edge_contact(tahr__lab *lab, const tahr_sweep *q, double fraction, vec3 contact, vec3 facing)
+{
+    tahr_contact c[8];
+    tahr_status status;
+    tahr_sweep there = *q;
+    there.position = add_scaled(q->position, q->motion, fraction);
+    uint32_t n = tahr__lab_touch(lab, &there, 2 * lab->margin, 0, c, 8, &status);
+    tahr__lab_check(lab,
+                    n >= 1 && fabs(c[0].distance - lab->margin) <= tahr__lab_slack(lab) &&
+                        tahr__lab_same_direction(lab, c[0].normal, contact) &&
+                        tahr__lab_same_direction(lab, c[0].surface_normal, facing) && is_on_edge(lab, c[0].point),
+                    "a contact with an edge: distance, point, its normal and that of the face that faces it most",
+                    "%s at %g: %u contacts, distance %.9g, normal (%.4f, %.4f, %.4f), surface (%.4f, %.4f, %.4f)",
+                    lab->shape_name, lab->number, n, n ? c[0].distance : 0, n ? c[0].normal.x : 0,
+                    n ? c[0].normal.y : 0, n ? c[0].normal.z : 0, n ? c[0].surface_normal.x : 0,
+                    n ? c[0].surface_normal.y : 0, n ? c[0].surface_normal.z : 0);
+}
+
 /* Both normals of a hit on a convex edge or corner. */
 static void edge_normals_of(tahr__lab *lab, const tahr_sweep *q, double fraction, vec3 contact, vec3 surface)
 {
@@ -12,6 +39,8 @@ static void edge_normals_of(tahr__lab *lab, const tahr_sweep *q, double fraction
                         "surface normal on an edge: of the face that opposes the motion most",
                         "%s: (%.4f, %.4f, %.4f) instead of (%.4f, %.4f, %.4f)", lab->shape_name, hit.surface_normal.x,
                         hit.surface_normal.y, hit.surface_normal.z, surface.x, surface.y, surface.z);
+        tahr__lab_check(lab, is_on_edge(lab, hit.point), "the point of a hit on an edge: on it",
+                        "%s: (%.9g, %.9g, %.9g)", lab->shape_name, hit.point.x, hit.point.y, hit.point.z);
     }
 }
 
@@ -27,6 +56,10 @@ static void edge_normals(tahr__lab *lab)
             tahr_sweep q = tahr__lab_sweep(lab, a, above + h + 0.4, 0, -1);
             lab->number = a;
             edge_normals_of(lab, &q, 0.4, tahr__lab_toward(lab, a / r, h / r), tahr__lab_up(lab));
+            if (lab_goes_on(lab) && lab->claims & TAHR_CAP_CONTACTS) {
+                edge_contact(lab, &q, 0.4, tahr__lab_toward(lab, a / r, h / r),
+                             a > h ? tahr__lab_toward(lab, 1, 0) : tahr__lab_up(lab));
+            }
         }
     }
 }

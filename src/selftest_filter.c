@@ -255,9 +255,14 @@ static void placed(tahr__lab *lab)
         tahr_body_desc *body = tahr__lab_block(lab, -4, -1, 4, 0);
         body->flags = TAHR_BODY_MOVABLE;
         tahr_body_pose home = {0, 0, body->pose}, lower = home, turned = home;
+        tahr_body_desc *other = tahr__lab_block(lab, 20, -1, 24, 0);
+        other->flags = TAHR_BODY_MOVABLE;
+        tahr_body_pose both[2] = {home, {1, 0, other->pose}};
         if (!tahr__lab_open(lab)) {
             return;
         }
+        both[1].pose.position = sub(both[1].pose.position, tahr__lab_along(lab, 0, 3));
+        tahr_sweep beside = tahr__lab_sweep(lab, 22, low_of(lab) + 1, 0, -8);
         lower.pose.position = sub(home.pose.position, tahr__lab_along(lab, 0, 2));
         turned.pose.orientation = lab->planar ? (tahr_quat){0, 0, 0.70710678118654752440, 0.70710678118654752440}
                                               : (tahr_quat){0, 0.70710678118654752440, 0, 0.70710678118654752440};
@@ -282,7 +287,8 @@ static void placed(tahr__lab *lab)
             tahr__lab_stops(lab, &on, 0.99 / 8, tahr__lab_up(lab), "onto it turned upright, as high as");
             tahr__lab_free(lab, &off, "beside it turned upright, as high as");
         }
-        tahr_world_set(lab->world, &home, 1);
+        tahr_world_set(lab->world, both, 2);
+        tahr__lab_stops(lab, &beside, 3.99 / 8, tahr__lab_up(lab), "onto the second of two floors placed at once");
         if (!tahr__lab_ask(lab, &q, &back)) {
             return;
         }

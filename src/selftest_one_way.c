@@ -26,6 +26,8 @@ static void from_above(tahr__lab *lab)
         tahr__lab_stops(lab, &down, 0.99 / 4, tahr__lab_up(lab), "onto a one-way body");
         tahr__lab_stops(lab, &rest, 0, tahr__lab_up(lab), "down, standing on a one-way body");
         tahr__lab_free(lab, &on, "along a one-way body");
+        down.flags = TAHR_SWEEP_PASS;
+        tahr__lab_stops(lab, &down, 3.99 / 4, tahr__lab_up(lab), "PASS: through a one-way body, onto the floor below");
     }
 }
 
@@ -40,6 +42,8 @@ static void from_below(tahr__lab *lab)
                    near = tahr__lab_sweep(lab, 0, -0.2 - high - 0.005, 0, 1);
         tahr__lab_free(lab, &up, "up through a one-way body");
         tahr__lab_free(lab, &near, "up from just below a one-way body");
+        up.flags = TAHR_SWEEP_WHOLE;
+        tahr__lab_stops(lab, &up, 0.49 / 4, tahr__lab_toward(lab, 0, -1), "WHOLE: up at a one-way body");
     }
 }
 
