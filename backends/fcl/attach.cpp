@@ -159,6 +159,14 @@ static void look_at(tahr__fcl_engine &engine, const Geometry &geometry, tahr__fc
     }
 }
 
+/* FCL takes any matrix. Who is placed by none that turns and moves, is nowhere, or of another size. */
+static bool is_placed(const Object &object)
+{
+    const fcl::Transform3<double> &t = object.getTransform();
+    return t.translation().allFinite() && t.linear().allFinite() && t.linear().isUnitary(1e-6) &&
+           t.linear().determinant() > 0;
+}
+
 tahr_status tahr__fcl_engine_attach(tahr__fcl_engine *engine, uint32_t *count)
 {
     return guarded([&]() -> tahr_status {
@@ -181,6 +189,10 @@ tahr_status tahr__fcl_engine_object(tahr__fcl_engine *engine, uint32_t i, const 
         engine->vertices.clear();
         engine->indices.clear();
         look_at(*engine, *offered->collisionGeometry(), *geometry);
+        if (!is_placed(*offered)) {
+            geometry->kind = 0;
+            geometry->name = "a geometry with such a transform";
+        }
         return TAHR_OK;
     });
 }

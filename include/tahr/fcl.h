@@ -52,7 +52,7 @@ typedef void (*tahr_fcl_cell_fn)(void *user, uint32_t octree, const tahr_bounds 
  * tahr_world_touch. Objects unregistered are gone at once (their memory must stay); objects registered later are not
  * seen, and geometries must not change, but octrees may. Held are BVHModels of triangles with volumes of every kind, Box,
  * Sphere, Capsule, Cylinder, Cone, Ellipsoid, Convex, TriangleP, Halfspace, Plane and OcTree, of 1e-6 to 1e6 m; what else
- * there is is TAHR_E_UNSUPPORTED unless the callback leaves it out. */
+ * there is, or is not placed by a rotation and a finite place, is TAHR_E_UNSUPPORTED unless the callback leaves it out. */
 typedef struct tahr_fcl_desc {
     uint32_t struct_size;
     uint32_t volumes;     /* TAHR_FCL_AABB or _OBBRSS */
@@ -71,12 +71,12 @@ typedef struct tahr_fcl_desc {
 } tahr_fcl_desc;
 
 /* The FCL backend: FCL finds the candidates (its AABB tree of bodies, its BVH of triangles, its octrees), the core
- * distance decides. Bodies: triangle meshes, boxes, spheres and capsules; characters: spheres, capsules and boxes. For
- * tahr_world_open, whose desc.options is a tahr_fcl_desc or NULL. Queries may run on several threads; they allocate
- * where backends/fcl/README.md says so. Statuses of opening beside tahr_world_open's: TAHR_E_NOT_FOUND (octree file),
- * TAHR_E_GEOMETRY (octree file or points; a model that is no tree of triangles), TAHR_E_ARGUMENT (a field out of range;
- * bodies beside a manager; an id twice), TAHR_E_UNSUPPORTED (geometry that cannot be held, or that FCL does not find
- * where it is). Static memory. Since 0.1. */
+ * distance decides. Bodies: triangle meshes, boxes, spheres, capsules, cylinders, cones, ellipsoids and convex hulls;
+ * characters: all but meshes. For tahr_world_open, whose desc.options is a tahr_fcl_desc or NULL. Queries may run on
+ * several threads; they allocate where backends/fcl/README.md says so. Statuses of opening beside tahr_world_open's:
+ * TAHR_E_NOT_FOUND (octree file), TAHR_E_GEOMETRY (octree file or points; a model that is no tree of triangles),
+ * TAHR_E_ARGUMENT (a field out of range; bodies beside a manager; an id twice), TAHR_E_UNSUPPORTED (geometry that cannot
+ * be held, or that FCL does not find where it is). Static memory. Since 0.1. */
 TAHR_API const tahr_backend *tahr_backend_v1_fcl(void);
 
 #ifdef __cplusplus

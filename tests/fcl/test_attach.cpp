@@ -319,6 +319,21 @@ static void what_cannot_be_held_is_refused_by_name(void **)
     desc = huge.desc();
     assert_int_equal(try_open(tahr_backend_v1_fcl(), {}, &desc, &log, &world), TAHR_E_UNSUPPORTED);
 
+    for (double bad : {double{NAN}, 3.0}) { /* nowhere, and three times as large */
+        Program misplaced;
+        fcl::Transform3<double> at = fcl::Transform3<double>::Identity();
+        if (bad == 3.0)
+            at.linear() *= bad;
+        else
+            at.translation().x() = bad;
+        misplaced.add(std::make_shared<fcl::Sphere<double>>(0.5), {{0, 0, 0}, {0, 0, 0, 1}});
+        misplaced.objects[0]->setTransform(at);
+        desc = misplaced.desc();
+        log.text.clear();
+        assert_int_equal(try_open(tahr_backend_v1_fcl(), {}, &desc, &log, &world), TAHR_E_UNSUPPORTED);
+        assert_true(log.text.find("such a transform") != std::string::npos);
+    }
+
     Program empty;
     desc = empty.desc();
     assert_int_equal(try_open(tahr_backend_v1_fcl(), {}, &desc, &log, &world), TAHR_OK);
