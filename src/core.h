@@ -201,6 +201,15 @@ static inline vec3 step_level(const tahr__step *step, vec3 v)
     return reject(v, step->state.up);
 }
 
+/* Of two dimensions, x and y? */
+static inline int world_is_planar(const tahr_world *world)
+{
+    return (world->backend->capabilities & TAHR_CAP_PLANAR) != 0;
+}
+
+/* What is said of a vector that leaves such a world. */
+#define TAHR__NO_Z "must have no z: the world has two dimensions, x and y"
+
 /* TAHR_BODY_* of a body that the core described, else 0. */
 static inline uint32_t world_body_flags(const tahr_world *world, uint32_t body)
 {
