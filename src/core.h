@@ -60,6 +60,7 @@ struct tahr_world {
                              * motion */
     tahr__body_note *bodies;
     uint32_t record_round; /* number of the last recording */
+    uint32_t derived;      /* the most sweeps that a contacts query is made of (derived.c); 0: it is none */
 };
 
 /* Gravity and what follows from it. */

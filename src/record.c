@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "arguments.h"
+#include "callbacks.h"
 #include "message.h"
 #include "scene.h"
 #include "sized.h"
@@ -56,7 +57,8 @@ static tahr_status restore(tahr_world *world, const tahr_record_world *w, const 
 {
     const uint32_t known =
         TAHR__HAS_SENSORS | TAHR__HAS_FLUIDS | TAHR__HAS_BASES | TAHR__HAS_MOVING_SENSORS | TAHR__HAS_SQUEEZERS;
-    int bad = w->bodies != bodies || w->body_count != world->body_count || w->revision == 0 || w->has & ~known;
+    int bad = w->bodies != bodies || w->body_count != world->body_count || w->revision == 0 || w->has & ~known ||
+              w->derived > TAHR__MOST_PROBES;
     for (uint32_t i = 0; i < world->body_count && !bad; i++) {
         bad = !is_sane(&bodies[i]);
     }
@@ -69,6 +71,7 @@ static tahr_status restore(tahr_world *world, const tahr_record_world *w, const 
     world->last_revision = w->last_revision;
     world->has = w->has;
     world->moves = w->moves;
+    world->derived = w->derived;
     world->moved_count = 0;
     for (uint32_t i = 0; i < world->body_count; i++) {
         world->bodies[i] = note_of(&bodies[i]);
@@ -90,7 +93,8 @@ static tahr_status begin(tahr_world *world, const tahr_recorder *recorder, tahr_
                            .last_revision = world->last_revision,
                            .body_count = world->body_count,
                            .has = world->has,
-                           .moves = world->moves};
+                           .moves = world->moves,
+                           .derived = world->derived};
     for (uint32_t i = 0; i < world->body_count; i++) {
         bodies[i] = body_of(&world->bodies[i]);
     }
@@ -142,7 +146,8 @@ tahr_status tahr_world_record(tahr_world *world, const tahr_recorder *recorder)
     struct tahr__recording *r = a.alloc(a.user, sizeof *r, 8);
     tahr_record_body *bodies = r ? a.alloc(a.user, room, 8) : NULL;
     if (bodies) {
-        *r = (struct tahr__recording){.recorder = *recorder, .backend = world->backend, .self = world->self};
+        *r = (struct tahr__recording){
+            .recorder = *recorder, .backend = world->backend, .self = world->self, .derived = world->derived};
         status = begin(world, recorder, bodies);
         a.free(a.user, bodies, room, 8);
     } else {
@@ -168,6 +173,7 @@ void tahr__record_end(tahr_world *world)
     const tahr_allocator a = world->host.allocator;
     world->backend = r->backend;
     world->self = r->self;
+    world->derived = r->derived;
     world->recording = NULL;
     if (r->recorder.end) {
         r->recorder.end(r->recorder.user);

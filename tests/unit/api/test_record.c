@@ -217,10 +217,15 @@ static void spoil_count(tahr_record_world *w)
     w->body_count++;
 }
 
+static void spoil_derived(tahr_record_world *w)
+{
+    w->derived = 1u << 20;
+}
+
 static void what_no_world_can_be_is_not_restored(void **unused)
 {
-    void (*const ways[])(tahr_record_world *) = {spoil_pose, spoil_turn,     spoil_dt,   spoil_reach,
-                                                 spoil_has,  spoil_revision, spoil_count};
+    void (*const ways[])(tahr_record_world *) = {spoil_pose, spoil_turn,     spoil_dt,    spoil_reach,
+                                                 spoil_has,  spoil_revision, spoil_count, spoil_derived};
     rig r;
     tahr_body_desc ground = stage_ground();
     (void)unused;
