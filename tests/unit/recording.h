@@ -39,11 +39,11 @@ typedef struct replay {
     tahr_status read;       /* of the last tahr_trace_next */
     uint64_t steps, custom; /* repeated; left out */
     uint64_t moves;
-    int ended;           /* the end of the file was reached */
-    int differs;         /* a step was not the recorded one */
-    char how[256];       /* the difference of a query, or "" */
-    tahr_status status;  /* of the last step */
-    tahr_state state;    /* of the last mover, after it */
+    int ended;          /* the end of the file was reached */
+    int differs;        /* a step was not the recorded one */
+    char how[256];      /* the difference of a query, or "" */
+    tahr_status status; /* of the last step */
+    tahr_state state;   /* of the last mover, after it */
     recording_counts counts;
     double speed_factor; /* in: of config.max_speed, to repeat something else; 0: 1 */
 } replay;

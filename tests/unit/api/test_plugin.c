@@ -168,7 +168,7 @@ static void what_is_no_library_is_not_found(void **unused)
 static void files_that_end_early_and_pipes_are_refused_before_they_are_loaded(void **unused)
 {
     static char bytes[1 << 22];
-    char path[512], folder[] = "/tmp/tahr_plugin_XXXXXX", copy[64], pipe_path[64];
+    char path[512], folder[] = TEST_BROKEN_FOLDER "/cut_XXXXXX", copy[512], pipe_path[512];
     (void)unused;
     path_of(TEST_PLUGIN_FOLDER, "libtahr_", "native", TEST_PLUGIN_SUFFIX, path);
     FILE *whole = fopen(path, "rb");
@@ -190,7 +190,9 @@ static void files_that_end_early_and_pipes_are_refused_before_they_are_loaded(vo
         fclose(part);
         assert_int_equal(tahr_plugin_load(i < 51 ? copy : pipe_path, &log, &plugin), TAHR_E_NOT_FOUND);
         assert_null(plugin);
-        const char *why = i == 0 ? "does not load: " : i < 51 ? "the file is cut off: it has" : "is a pipe, expected a file";
+        const char *why = i == 0   ? "does not load: "
+                          : i < 51 ? "the file is cut off: it has"
+                                   : "is a pipe, expected a file";
         if (!strstr(messages.text, why)) {
             fail_msg("%d of 60: %s", i, messages.text);
         }

@@ -227,9 +227,14 @@ static void what_no_world_can_be_is_not_restored(void **unused)
     const struct {
         void (*spoil)(tahr_record_world *);
         const char *field;
-    } ways[] = {{spoil_pose, "bodies[0].pose"},   {spoil_turn, "bodies[0].pose"}, {spoil_dt, "bodies[0].dt"},
-                {spoil_reach, "bodies[0].reach"}, {spoil_has, "has"},             {spoil_revision, "revision"},
-                {spoil_count, "body_count"},      {spoil_derived, "derived"}};
+    } ways[] = {{spoil_pose, "bodies[0].pose"},
+                {spoil_turn, "bodies[0].before"},
+                {spoil_dt, "bodies[0].dt"},
+                {spoil_reach, "bodies[0].reach"},
+                {spoil_has, "has"},
+                {spoil_revision, "revision"},
+                {spoil_count, "body_count"},
+                {spoil_derived, "derived"}};
     rig r;
     tahr_body_desc ground = stage_ground();
     (void)unused;

@@ -80,7 +80,8 @@ static int walk(uint32_t flags, int lies, int has_contacts, int *more_than_asked
     fake_world_flat(&c.world);
     fake_add_plane(&c.world, fake_vec(-1, 0, 0), -2);
     fake_add_box(&c.world, fake_vec(-2, 1, -1), fake_vec(1, 3, 0.3));
-    tahr_callbacks callbacks = {.struct_size = sizeof callbacks, .flags = flags, .user = &c, .sweep = count_sweep, .body = count_body};
+    tahr_callbacks callbacks = {
+        .struct_size = sizeof callbacks, .flags = flags, .user = &c, .sweep = count_sweep, .body = count_body};
     callbacks.contacts = has_contacts ? count_contacts : NULL;
     rig_open_callbacks(&r, &callbacks, NULL, fake_vec(0, 0, 0.8)); /* 10 cm deep */
     tahr_trace *trace = recording_begin(&file, r.world, 0);
