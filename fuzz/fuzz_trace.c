@@ -78,7 +78,7 @@ static const uint64_t NO_HASH = 0xCBF29CE484222325u;
 static head head_of_this_version(void)
 {
     head h = {.magic = "TAHRTRC",
-              .version = 1,
+              .version = 2,
               .abi = TAHR_ABI,
               .sizes = {sizeof(tahr_sweep), sizeof(tahr_contact_query), sizeof(tahr_ray), sizeof(tahr_fluid_query),
                         sizeof(tahr_hit), sizeof(tahr_contact), sizeof(tahr_fluid), sizeof(tahr_body_motion),

@@ -61,8 +61,7 @@ static vec3 exact_unit(vec3 n)
 /* In a world of two dimensions no normal has a third one. */
 static const char *out_of_plane(const tahr_world *world, vec3 normal, vec3 surface_normal)
 {
-    int planar = (world->backend->capabilities & TAHR_CAP_PLANAR) != 0;
-    if (!planar || (normal.z == 0 && surface_normal.z == 0)) {
+    if (!world_is_planar(world) || (normal.z == 0 && surface_normal.z == 0)) {
         return NULL;
     }
     return normal.z == 0 ? "surface_normal.z" : "normal.z";

@@ -61,8 +61,7 @@ static inline tahr_status margin_sweep(const tahr_world *world, tahr_query_conte
 {
     *count = 0;
     tahr_status status = world->backend->sweep(world->self, context, query, hits, capacity, count);
-    int planar = (world->backend->capabilities & TAHR_CAP_PLANAR) != 0;
-    if (status == TAHR_OK && (*count == 0 || (*count == 1 && !planar && hit_is_flawless(hits)))) {
+    if (status == TAHR_OK && (*count == 0 || (*count == 1 && !world_is_planar(world) && hit_is_flawless(hits)))) {
         return status;
     }
     return tahr__refine_hits(world, status, hits, capacity, *count);

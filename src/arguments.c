@@ -192,6 +192,21 @@ static const char *bad_rest(const tahr_state *s, const tahr_mover *mover)
     return bad ? bad : bad_memory(s);
 }
 
+/* In a world of two dimensions: what a state brings with it that a step would have to leave the plane for. */
+static const char *out_of_plane(const tahr_state *s)
+{
+    if (s->up.z != 0) {
+        return "state.up";
+    }
+    if (s->floor.normal.z != 0 || s->floor.surface_normal.z != 0) {
+        return s->floor.normal.z != 0 ? "state.floor.normal" : "state.floor.surface_normal";
+    }
+    if (s->wall_normal.z != 0) {
+        return "state.wall_normal";
+    }
+    return s->base.velocity.z != 0 ? "state.base.velocity" : NULL;
+}
+
 tahr_status tahr__check_arguments(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
                                   const tahr_report *report)
 {
@@ -215,6 +230,9 @@ tahr_status tahr__check_arguments(const tahr_mover *mover, const tahr_input *inp
     const char *bad = bad_input(input, &mover->config.shape);
     bad = bad ? bad : bad_state(state, &mover->config.shape);
     bad = bad ? bad : bad_rest(state, mover);
-    return bad ? tahr__complain(log, TAHR_E_ARGUMENT, "tahr_mover_step", bad, "is out of range or not finite")
-               : TAHR_OK;
+    if (bad) {
+        return tahr__complain(log, TAHR_E_ARGUMENT, "tahr_mover_step", bad, "is out of range or not finite");
+    }
+    bad = world_is_planar(mover->world) ? out_of_plane(state) : NULL;
+    return bad ? tahr__complain(log, TAHR_E_ARGUMENT, "tahr_mover_step", bad, TAHR__NO_Z) : TAHR_OK;
 }

@@ -30,7 +30,7 @@ static inline int arguments_are_usual(const tahr_mover *mover, const tahr_input 
     double speeds = length_squared(s->velocity) + length_squared(in->move);
     double normals = length_squared(f->normal) + length_squared(f->surface_normal);
     uint32_t odd = (in->struct_size ^ (uint32_t)sizeof *in) | in->flags | in->reserved | in->crouch;
-    odd |= report ? report->struct_size ^ (uint32_t)sizeof *report : 0u;
+    odd |= mover->limits.in_plane | (report ? report->struct_size ^ (uint32_t)sizeof *report : 0u);
     odd |= s->flags & ~(uint32_t)((TAHR_STATE_CRUSHED << 1) - 1);
     double off = (turn - 1) * (turn - 1) + (up - 1) * (up - 1); /* of the units from unit length, squared */
     normals -= f->flags ? 2 : 0;                                /* zero where there is no floor */

@@ -184,7 +184,7 @@ static void carry_floor(tahr__step *step, const tahr_pose *last, const tahr_pose
     tahr_floor *floor = &s->floor;
     vec3 up = s->up, axis;
     double half = tahr__half_turn(last->orientation, now->orientation, &axis);
-    if (half > 0 && length_squared(cross(axis, up)) > 1e-24) {
+    if (half > 0 && (world_is_planar(step->world) || length_squared(cross(axis, up)) > 1e-24)) {
         return;
     }
     if (half > 0) {
@@ -192,7 +192,7 @@ static void carry_floor(tahr__step *step, const tahr_pose *last, const tahr_pose
         floor->normal = unit(rotate(turn, floor->normal));
         floor->surface_normal = unit(rotate(turn, floor->surface_normal));
     }
-    floor->point = tahr__carried(last, now, floor->point);
+    floor->point = tahr__carried(step->world, last, now, floor->point);
     s->floor_position = s->position;
 }
 
@@ -201,7 +201,7 @@ static void carry(tahr__step *step, const tahr_pose *now)
 {
     const tahr_pose last = step->state.base.pose;
     vec3 foot = step_foot(step);
-    vec3 motion = sub(tahr__carried(&last, now, foot), foot);
+    vec3 motion = sub(tahr__carried(step->world, &last, now, foot), foot);
     step->ignore_body = step->state.base.body;
     int known = vec_equal(step->state.floor_position, step->state.position);
     double lost = tahr__go_along(step, motion);

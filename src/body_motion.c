@@ -31,13 +31,19 @@ double tahr__half_turn(tahr_quat from, tahr_quat to, vec3 *axis)
     return sine > 0 ? angle_of(sine, d.w < 0 ? -d.w : d.w) : 0;
 }
 
-vec3 tahr__carried(const tahr_pose *from, const tahr_pose *to, vec3 at)
+static vec3 carried(const tahr_pose *from, const tahr_pose *to, vec3 at)
 {
     if (quat_equal(from->orientation, to->orientation)) {
         return add(at, sub(to->position, from->position));
     }
     vec3 local = rotate(quat_inverse(from->orientation), sub(at, from->position));
     return add(to->position, rotate(to->orientation, local));
+}
+
+vec3 tahr__carried(const tahr_world *world, const tahr_pose *from, const tahr_pose *to, vec3 at)
+{
+    vec3 to_where = carried(from, to, at);
+    return world_is_planar(world) ? vec(to_where.x, to_where.y, at.z) : to_where;
 }
 
 tahr_pose tahr__pose_between(const tahr_pose *from, const tahr_pose *to, double t)

@@ -14,8 +14,9 @@ tahr_status tahr__body_motion(const tahr_world *world, uint32_t body, tahr_body_
 /* m/s, of the point of a body that is `at` now, its conveyor with it; without the part of its turning if !turns. */
 vec3 tahr__point_velocity(const tahr_body_motion *motion, vec3 at, int turns);
 
-/* Where a point goes that is fixed to a body on its way between two poses. The same poses: exactly nowhere. */
-vec3 tahr__carried(const tahr_pose *from, const tahr_pose *to, vec3 at);
+/* Where a point goes that is fixed to a body on its way between two poses. The same poses: exactly nowhere. In a world
+ * of two dimensions nothing goes along z, whatever poses say. */
+vec3 tahr__carried(const tahr_world *world, const tahr_pose *from, const tahr_pose *to, vec3 at);
 
 /* A pose between two: straight, turning the shorter way. */
 tahr_pose tahr__pose_between(const tahr_pose *from, const tahr_pose *to, double t);

@@ -60,6 +60,7 @@ struct tahr_world {
                              * motion */
     tahr__body_note *bodies;
     uint32_t record_round; /* number of the last recording */
+    uint32_t derived;      /* the most sweeps that a contacts query is made of (derived.c); 0: it is none */
 };
 
 /* Gravity and what follows from it. */
@@ -200,6 +201,15 @@ static inline vec3 step_level(const tahr__step *step, vec3 v)
 {
     return reject(v, step->state.up);
 }
+
+/* Of two dimensions, x and y? */
+static inline int world_is_planar(const tahr_world *world)
+{
+    return (world->backend->capabilities & TAHR_CAP_PLANAR) != 0;
+}
+
+/* What is said of a vector that leaves such a world. */
+#define TAHR__NO_Z "must have no z: the world has two dimensions, x and y"
 
 /* TAHR_BODY_* of a body that the core described, else 0. */
 static inline uint32_t world_body_flags(const tahr_world *world, uint32_t body)

@@ -6,6 +6,7 @@
 #include "message.h"
 #include "modes.h"
 #include "move.h"
+#include "plane.h"
 #include "query.h"
 #include "report.h"
 
@@ -99,7 +100,7 @@ tahr_status tahr_step_set_velocity(tahr_step *step, const tahr_vec3 *velocity)
     if (!is_within(velocity, 1e5)) {
         return refuse(step, "tahr_step_set_velocity", "velocity");
     }
-    step->state.velocity = *velocity;
+    step->state.velocity = along_plane(step->limits, *velocity);
     return TAHR_OK;
 }
 
@@ -113,7 +114,7 @@ tahr_status tahr_step_slide(tahr_step *step, const tahr_vec3 *motion, tahr_step_
     }
     tahr__glide g;
     tahr_step_moved done = {.last = {.fraction = 1, .body = TAHR_NO_BODY}};
-    vec3 start = step->state.position, rest = *motion;
+    vec3 start = step->state.position, rest = along_plane(step->limits, *motion);
     tahr__glide_begin(step, &g, 1); /* its time is not used */
     while (tahr__glide_goes_on(step, &g) && length_squared(rest) > 0) {
         tahr_hit hit;
@@ -145,7 +146,8 @@ tahr_status tahr_step_sweep(tahr_step *step, const tahr_vec3 *motion, tahr_hit *
         return refuse(step, "tahr_step_sweep", "motion");
     }
     tahr_hit found;
-    tahr__sweep(step, &step->limits->shape, step->state.position, *motion, step->config->skin, 0, &found);
+    const vec3 flat = along_plane(step->limits, *motion);
+    tahr__sweep(step, &step->limits->shape, step->state.position, flat, step->config->skin, 0, &found);
     if (step->error >= 0) {
         *hit = found;
     }
@@ -159,6 +161,9 @@ tahr_status tahr_step_ray(tahr_step *step, const tahr_vec3 *origin, const tahr_v
     }
     if (!is_within(origin, 2e7) || !is_within(motion, 1e6)) {
         return refuse(step, "tahr_step_ray", is_within(origin, 2e7) ? "motion" : "origin");
+    }
+    if (world_is_planar(step->world) && motion->z != 0) {
+        return tahr__complain(&step->world->log, TAHR_E_ARGUMENT, "tahr_step_ray", "motion", TAHR__NO_Z);
     }
     tahr_hit found;
     tahr__ray(step, *origin, *motion, &found);

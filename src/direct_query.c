@@ -36,6 +36,17 @@ static tahr_status bad_argument(const tahr_world *world, const char *function, c
     return tahr__complain(&world->log, TAHR_E_ARGUMENT, function, field, "is out of range or not finite");
 }
 
+/* Is this field of a query one that leaves a world of two dimensions? */
+static int leaves(const tahr_world *world, vec3 v)
+{
+    return world_is_planar(world) && v.z != 0;
+}
+
+static tahr_status bad_z(const tahr_world *world, const char *function, const char *field)
+{
+    return tahr__complain(&world->log, TAHR_E_ARGUMENT, function, field, TAHR__NO_Z);
+}
+
 /* One of query, answers and count is NULL; answers are called name. */
 static tahr_status null_argument(const tahr_world *world, const char *function, const void *query, const void *answers,
                                  const char *name)
@@ -67,6 +78,9 @@ tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hi
     }
     if (bad || capacity == 0) {
         return bad_argument(world, "tahr_world_sweep", bad ? bad : "capacity");
+    }
+    if (leaves(world, query->up) || leaves(world, query->motion)) {
+        return bad_z(world, "tahr_world_sweep", leaves(world, query->up) ? "up" : "motion");
     }
     if (!tahr__can_sweep(world, &query->shape)) {
         return tahr__cannot_sweep(world, "tahr_world_sweep", &query->shape);
@@ -106,6 +120,9 @@ tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *que
     if (bad) {
         return bad_argument(world, "tahr_world_contacts", bad);
     }
+    if (leaves(world, query->up)) {
+        return bad_z(world, "tahr_world_contacts", "up");
+    }
     if (!tahr__can_sweep(world, &query->shape)) {
         return tahr__cannot_sweep(world, "tahr_world_contacts", &query->shape);
     }
@@ -132,6 +149,9 @@ tahr_status tahr_world_ray(tahr_world *world, const tahr_ray *query, tahr_hit *h
     }
     if (!vec_is_finite(query->motion)) {
         return bad_argument(world, "tahr_world_ray", "motion");
+    }
+    if (leaves(world, query->motion)) {
+        return bad_z(world, "tahr_world_ray", "motion");
     }
     tahr_query_context context = {0};
     tahr_hit found_hit;
@@ -168,6 +188,9 @@ tahr_status tahr_world_fluid(tahr_world *world, const tahr_fluid_query *query, t
     }
     if (!(query->radius >= 0 && query->radius <= 1e4) || query->reserved) {
         return bad_argument(world, function, query->reserved ? "reserved" : "radius");
+    }
+    if (leaves(world, query->up)) {
+        return bad_z(world, function, "up");
     }
     tahr_query_context context = {0};
     tahr_fluid found;

@@ -10,7 +10,7 @@
 /* In a world of two dimensions everybody stays in its plane. Returns the field that does not, or NULL. */
 static const char *out_of_plane(const tahr_world *world, const tahr_config *c)
 {
-    if (!(world->backend->capabilities & TAHR_CAP_PLANAR)) {
+    if (!world_is_planar(world)) {
         return NULL;
     }
     int planar = c->plane.x == 0 && c->plane.y == 0 && c->plane.z != 0;
@@ -52,7 +52,7 @@ tahr_status tahr__fit_check(const tahr_world *world, const tahr_config *config, 
     if (field) {
         return tahr__complain(&world->log, TAHR_E_UNSUPPORTED, function, field,
                               strcmp(field, "plane") == 0 ? "must be (0, 0, 1): the world has two dimensions, x and y"
-                                                          : "must have no z: the world has two dimensions, x and y");
+                                                          : TAHR__NO_Z);
     }
     field = bad_hull(world, &config->shape);
     return field ? tahr__complain(&world->log, TAHR_E_ARGUMENT, function, field,

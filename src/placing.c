@@ -10,6 +10,16 @@
 #include "record.h"
 #include "scene.h"
 
+/* Sine of half a turn about anything but z that is the rounding of a float. */
+static const double ASKEW = 1e-6;
+
+/* Does a body turn out of the world, if that has two dimensions? How it lies there at first is the backend's matter. */
+static int turns_out(const tahr_world *world, const tahr_body_pose *p)
+{
+    tahr_quat d = quat_multiply(p->pose.orientation, quat_inverse(world->bodies[p->body].pose.orientation));
+    return world_is_planar(world) && d.x * d.x + d.y * d.y > ASKEW * ASKEW;
+}
+
 static tahr_status check_placement(const tahr_world *world, const char *function, const tahr_body_pose *p, uint32_t i,
                                    uint32_t flags)
 {
@@ -28,6 +38,11 @@ static tahr_status check_placement(const tahr_world *world, const char *function
     if (!(world->bodies[p->body].flags & TAHR_BODY_MOVABLE)) {
         return tahr__complain_value(&world->log, TAHR_E_ARGUMENT, function, name, p->body,
                                     "a body without TAHR_BODY_MOVABLE");
+    }
+    if (turns_out(world, p)) {
+        snprintf(name, sizeof name, "poses[%u].pose.orientation", i);
+        return tahr__complain(&world->log, TAHR_E_ARGUMENT, function, name,
+                              "turns out of the plane: the world has two dimensions, x and y");
     }
     return TAHR_OK;
 }

@@ -28,8 +28,8 @@ static inline int may_rise(const tahr__step *step)
  * turned it would be another one in the plane. */
 static inline int is_flat(const tahr__step *step)
 {
-    int planar = (step->world->backend->capabilities & TAHR_CAP_PLANAR) != 0;
-    return is_in_plane(step) && may_rise(step) && (planar || !shape_is_round(&step->limits->shape));
+    return is_in_plane(step) && may_rise(step) &&
+           (world_is_planar(step->world) || !shape_is_round(&step->limits->shape));
 }
 
 /* Makes what a surface forbids into what it forbids in the plane: normal . x >= offset. Returns 0, and a half-space

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * plugin.c: backends from shared objects. Everything else of the library is pure computation; this file alone reaches
- * for the system, and TAHR_NO_PLUGINS takes that away. */
+ * plugin.c: backends from shared objects. Everything else of the library is pure computation; this file and
+ * plugin_file.c alone reach for the system, and TAHR_NO_PLUGINS takes that away. */
 #include <tahr/plugin.h>
 
 #include <stdio.h>
@@ -9,6 +9,7 @@
 
 #include "backend_check.h"
 #include "message.h"
+#include "plugin_file.h"
 
 #define ENTRY "tahr_backend_v1"
 static const char FUNCTION[] = "tahr_plugin_load";
@@ -60,10 +61,16 @@ static const char HERE[] = "./", SEPARATORS[] = "/";
 
 static void *open_library(char *path, char *text, size_t room)
 {
+    const size_t length = strlen(path);
+    if (!tahr__plugin_file_check(path, text, room)) {
+        return NULL;
+    }
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!library) {
         const char *why = dlerror();
-        snprintf(text, room, "%s", why ? why : "no reason given");
+        why = why ? why : "no reason given";
+        why += strncmp(why, path, length) == 0 && strncmp(why + length, ": ", 2) == 0 ? length + 2 : 0;
+        snprintf(text, room, "%s", why);
     }
     return library;
 }

@@ -41,7 +41,7 @@ static void sweep_only(tahr__step *step, uint32_t body, vec3 from, vec3 motion, 
 static int meets(tahr__step *step, uint32_t body, vec3 from, vec3 to, meeting *m)
 {
     const tahr__body_note *note = &step->world->bodies[body];
-    vec3 axis, at = tahr__carried(&note->before, &note->pose, from);
+    vec3 axis, at = tahr__carried(step->world, &note->before, &note->pose, from);
     double turn = 2 * tahr__half_turn(note->before.orientation, note->pose.orientation, &axis);
     int pieces = turn < PIECE ? 1 : (turn / PIECE < PIECES ? 1 + (int)(turn / PIECE) : PIECES);
     for (int i = 1; i <= pieces; i++) {
@@ -49,7 +49,7 @@ static int meets(tahr__step *step, uint32_t body, vec3 from, vec3 to, meeting *m
         if (i < pieces) {
             double t = (double)i / pieces;
             tahr_pose pose = tahr__pose_between(&note->before, &note->pose, t);
-            next = tahr__carried(&pose, &note->pose, add_scaled(from, sub(to, from), t));
+            next = tahr__carried(step->world, &pose, &note->pose, add_scaled(from, sub(to, from), t));
         }
         vec3 motion = sub(next, at);
         if (length_squared(motion) > 0) {
@@ -72,6 +72,9 @@ static int meets(tahr__step *step, uint32_t body, vec3 from, vec3 to, meeting *m
 static int is_near(const tahr__step *step, const tahr__body_note *note, vec3 p, double around)
 {
     vec3 way = sub(note->pose.position, note->before.position), off = sub(p, note->before.position);
+    if (world_is_planar(step->world)) { /* there is no far and near along z */
+        way.z = off.z = 0;
+    }
     double length2 = length_squared(way);
     double t = length2 > 0 ? clamp(dot(off, way) / length2, 0, 1) : 0;
     const tahr__limits *l = step->limits;
@@ -177,7 +180,7 @@ static void push(tahr__step *step, uint32_t body, vec3 from, double dt)
     vec3 start = step->state.position;
     const tahr__body_note *note = &step->world->bodies[body];
     if (body == step->frame_body) { /* carried all the way: where it was, seen from the body */
-        vec3 rest = sub(tahr__carried(&note->before, &note->pose, from), start);
+        vec3 rest = sub(tahr__carried(step->world, &note->before, &note->pose, from), start);
         if (length_squared(rest) < 1e-12) {
             return;
         }
@@ -206,7 +209,7 @@ static int is_inside(tahr__step *step, uint32_t body, vec3 from)
         return 0;
     }
     step->ignore_body = body;
-    tahr__sweep(step, &step->limits->shape, tahr__carried(&note->before, &note->pose, from),
+    tahr__sweep(step, &step->limits->shape, tahr__carried(step->world, &note->before, &note->pose, from),
                 scale(step->state.up, -step->config->skin), 0, TAHR_SWEEP_ONLY_BODY | TAHR_SWEEP_WHOLE, &hit);
     step->ignore_body = TAHR_NO_BODY;
     return hit.blocking && hit.start_overlap;
@@ -264,7 +267,7 @@ static void take_frame(tahr__step *step, double dt)
     const tahr__body_note *note = &step->world->bodies[body];
     step->ignore_body = body;
     step->passes = inside; /* what it is inside of may be a row of bodies: all of them are elsewhere already */
-    tahr__go_along(step, sub(tahr__carried(&note->before, &note->pose, s->position), s->position));
+    tahr__go_along(step, sub(tahr__carried(step->world, &note->before, &note->pose, s->position), s->position));
     step->passes = 0;
     step->ignore_body = TAHR_NO_BODY;
     step->frame_body = body;

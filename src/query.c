@@ -6,12 +6,10 @@
 
 #include "answer.h"
 #include "backend_check.h"
-#include "callbacks.h"
 #include "drop.h"
 #include "message.h"
 #include "plane.h"
 #include "query_record.h"
-#include "record.h"
 #include "trail.h"
 
 /* Field by field: compilers clear more than 96 bytes at once with a slow string instruction. */
@@ -39,19 +37,6 @@ static int may_ask(tahr__step *step)
     }
     step->queries++;
     return 1;
-}
-
-/* A user's callbacks, if contacts are derived from their sweep; who watches the world changes nothing of that. */
-static const tahr_callbacks *derives_contacts(const tahr_world *world)
-{
-    const struct tahr__recording *r = world->recording;
-    const tahr_callbacks *user = is_callbacks(r ? r->backend : world->backend) ? (r ? r->self : world->self) : NULL;
-    return user && !user->contacts ? user : NULL;
-}
-
-static uint32_t most_sweeps(const tahr_callbacks *derived)
-{
-    return derived->flags & TAHR_CALLBACKS_PROBE ? TAHR__MOST_PROBES : TAHR__MOST_OVERLAPS;
 }
 
 static int has_room(tahr__step *step, uint32_t queries)
@@ -175,8 +160,8 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
                            tahr_contact *contacts, uint32_t capacity)
 {
     uint32_t count = 0, kept = 0;
-    const tahr_callbacks *derived = derives_contacts(step->world);
-    if (!may_ask(step) || (derived && !has_room(step, most_sweeps(derived) - 1))) {
+    const uint32_t derived = step->world->derived;
+    if (!may_ask(step) || (derived && !has_room(step, derived - 1))) {
         return 0;
     }
     uint64_t before = step->context.narrow_tests;
@@ -191,7 +176,8 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
     step->report.contact_queries++;
     tahr_status status = tahr__answer_contacts(step->world, &step->context, &q, contacts, capacity, &count);
     if (derived && step->context.narrow_tests > before) { /* one for each sweep; the first is the query itself */
-        uint32_t more = (uint32_t)(step->context.narrow_tests - before) - 1;
+        uint64_t made = step->context.narrow_tests - before;
+        uint32_t more = made < derived ? (uint32_t)made - 1 : derived - 1;
         step->queries += more;
         step->report.sweeps += more;
     }

@@ -2,9 +2,11 @@
  * record.c: a recorder takes its place between a world and its backend, and is told of what no backend sees. */
 #include "record.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include "arguments.h"
+#include "callbacks.h"
 #include "message.h"
 #include "scene.h"
 #include "sized.h"
@@ -43,32 +45,70 @@ static tahr__body_note note_of(const tahr_record_body *b)
     return n;
 }
 
-/* Where a body may be and how it may move, by the rules of tahr_world_open and _move. */
-static int is_sane(const tahr_record_body *b)
+/* Where a body may be and how it may move, by the rules of tahr_world_open and _move. Returns the field that is not so,
+ * or NULL. */
+static const char *bad_body(const tahr_record_body *b)
 {
-    return !tahr__bad_pose(&b->pose, 0) && !tahr__bad_pose(&b->before, 0) && vec_is_finite(b->surface_velocity) &&
-           b->dt >= 0 && b->dt <= 10 && b->reach >= 0 && is_finite(b->reach) && b->mass >= 0 && is_finite(b->mass) &&
-           b->fluid_friction >= 0 && is_finite(b->fluid_friction);
+    if (tahr__bad_pose(&b->pose, 0) || tahr__bad_pose(&b->before, 0)) {
+        return tahr__bad_pose(&b->pose, 0) ? "pose" : "before";
+    }
+    if (!vec_is_finite(b->surface_velocity)) {
+        return "surface_velocity";
+    }
+    if (!(b->dt >= 0 && b->dt <= 10)) {
+        return "dt";
+    }
+    if (!(b->reach >= 0 && is_finite(b->reach))) {
+        return "reach";
+    }
+    if (!(b->mass >= 0 && is_finite(b->mass))) {
+        return "mass";
+    }
+    return b->fluid_friction >= 0 && is_finite(b->fluid_friction) ? NULL : "fluid_friction";
 }
 
-/* What was restored comes from outside, perhaps from a file. */
-static tahr_status restore(tahr_world *world, const tahr_record_world *w, const tahr_record_body *bodies)
+static const char *bad_world(const tahr_world *world, const tahr_record_world *w, const tahr_record_body *bodies)
 {
     const uint32_t known =
         TAHR__HAS_SENSORS | TAHR__HAS_FLUIDS | TAHR__HAS_BASES | TAHR__HAS_MOVING_SENSORS | TAHR__HAS_SQUEEZERS;
-    int bad = w->bodies != bodies || w->body_count != world->body_count || w->revision == 0 || w->has & ~known;
-    for (uint32_t i = 0; i < world->body_count && !bad; i++) {
-        bad = !is_sane(&bodies[i]);
+    if (w->bodies != bodies || w->body_count != world->body_count) {
+        return w->bodies != bodies ? "bodies" : "body_count";
     }
+    if (w->revision == 0 || w->has & ~known) {
+        return w->revision == 0 ? "revision" : "has";
+    }
+    return w->derived > TAHR__MOST_PROBES ? "derived" : NULL;
+}
+
+/* What was restored comes from outside, perhaps from a file. */
+static tahr_status check_restored(const tahr_world *world, const tahr_record_world *w, const tahr_record_body *bodies)
+{
+    char text[120] = "";
+    const char *bad = bad_world(world, w, bodies);
     if (bad) {
-        return tahr__complain(&world->log, TAHR_E_ARGUMENT, FUNCTION, "recorder.begin",
-                              "restored what no world can be");
+        snprintf(text, sizeof text, "restored what no world can be: %s", bad);
+    }
+    for (uint32_t i = 0; i < world->body_count && !bad; i++) {
+        bad = bad_body(&bodies[i]);
+        if (bad) {
+            snprintf(text, sizeof text, "restored what no world can be: bodies[%u].%s", i, bad);
+        }
+    }
+    return bad ? tahr__complain(&world->log, TAHR_E_ARGUMENT, FUNCTION, "recorder.begin", text) : TAHR_OK;
+}
+
+static tahr_status restore(tahr_world *world, const tahr_record_world *w, const tahr_record_body *bodies)
+{
+    tahr_status status = check_restored(world, w, bodies);
+    if (status < 0) {
+        return status;
     }
     world->revision = w->revision;
     world->motion = w->motion;
     world->last_revision = w->last_revision;
     world->has = w->has;
     world->moves = w->moves;
+    world->derived = w->derived;
     world->moved_count = 0;
     for (uint32_t i = 0; i < world->body_count; i++) {
         world->bodies[i] = note_of(&bodies[i]);
@@ -90,7 +130,8 @@ static tahr_status begin(tahr_world *world, const tahr_recorder *recorder, tahr_
                            .last_revision = world->last_revision,
                            .body_count = world->body_count,
                            .has = world->has,
-                           .moves = world->moves};
+                           .moves = world->moves,
+                           .derived = world->derived};
     for (uint32_t i = 0; i < world->body_count; i++) {
         bodies[i] = body_of(&world->bodies[i]);
     }
@@ -142,7 +183,8 @@ tahr_status tahr_world_record(tahr_world *world, const tahr_recorder *recorder)
     struct tahr__recording *r = a.alloc(a.user, sizeof *r, 8);
     tahr_record_body *bodies = r ? a.alloc(a.user, room, 8) : NULL;
     if (bodies) {
-        *r = (struct tahr__recording){.recorder = *recorder, .backend = world->backend, .self = world->self};
+        *r = (struct tahr__recording){
+            .recorder = *recorder, .backend = world->backend, .self = world->self, .derived = world->derived};
         status = begin(world, recorder, bodies);
         a.free(a.user, bodies, room, 8);
     } else {
@@ -168,6 +210,7 @@ void tahr__record_end(tahr_world *world)
     const tahr_allocator a = world->host.allocator;
     world->backend = r->backend;
     world->self = r->self;
+    world->derived = r->derived;
     world->recording = NULL;
     if (r->recorder.end) {
         r->recorder.end(r->recorder.user);

@@ -11,7 +11,8 @@
 struct tahr__recording {
     tahr_recorder recorder;
     const tahr_backend *backend; /* that the world had before, */
-    void *self;                  /* and its scene */
+    void *self;                  /* and its scene, */
+    uint32_t derived;            /* and how its contacts were made */
     uint32_t movers;             /* numbered so far */
     uint32_t busy;               /* 1: inside a step */
 };

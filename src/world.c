@@ -323,6 +323,9 @@ tahr_status tahr_world_open_callbacks(const tahr_callbacks *callbacks, const tah
     memcpy(world->self, callbacks, sizeof *callbacks);
     world->backend =
         callbacks->flags & TAHR_CALLBACKS_NO_MARGIN ? &tahr__callbacks_without_margin : &tahr__callbacks_backend;
+    if (!callbacks->contacts) {
+        world->derived = callbacks->flags & TAHR_CALLBACKS_PROBE ? TAHR__MOST_PROBES : TAHR__MOST_OVERLAPS;
+    }
     world->has |= callbacks->body ? (uint32_t)TAHR__HAS_BASES : 0u;
     world->has |= callbacks->sensors ? TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS : 0u;
     world->has |= callbacks->fluid ? (uint32_t)TAHR__HAS_FLUIDS : 0u;

@@ -1,7 +1,7 @@
 #!/bin/sh
 # check_includes.sh: who may include whom, so that the seams stay seams. Run from the root of the sources.
 #   include/     a few libc headers and itself
-#   src/         include/ and src/, libc
+#   src/         include/ and src/, libc; plugin_file.c also <sys/stat.h> and <link.h>
 #   backends/X/  include/, backends/common/ and X's own third party; never src/, never another backend
 #   bindings/, fuzz/, tests/: include/, their own folder and tests/support/; tests/unit also src/ and backends/, tests/cli
 #   and fuzz also bindings/cli/
@@ -55,7 +55,12 @@ check() {
     rule "$@" || failed=1
 }
 check "include/" include '<(stddef|stdint)\.h>|<tahr/[a-z0-9_]+\.h>'
-check "src/" src "<($libc)\\.h>|<tahr/[a-z0-9_]+\\.h>|$own"
+check "src/" src "<($libc|sys/stat|link)\\.h>|<tahr/[a-z0-9_]+\\.h>|$own"
+# One file of the library looks at files of the system: the one that does so before a plugin is loaded.
+if grep -lE '<(sys/stat|link)\.h>' src/* | grep -v '^src/plugin_file\.c$'; then
+    echo "src/: only plugin_file.c may include <sys/stat.h> and <link.h>"
+    failed=1
+fi
 for backend in backends/*/; do
     name=$(basename "$backend")
     case $name in

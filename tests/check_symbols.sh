@@ -1,7 +1,7 @@
 #!/bin/sh
 # check_symbols.sh: what the built libraries export, need and keep. BUILD is the build folder.
 #   exports: exactly what a public header declares; nothing internal leaves the shared object
-#   needs:   libc, sqrt, floor, fabs of libm, and dlopen of src/plugin.c; no I/O, clock, randomness, threads or other mathematics (bits differ there)
+#   needs:   libc, sqrt, floor, fabs of libm, dlopen of src/plugin.c, and what src/plugin_file.c looks at a plugin with; else no I/O, clock, randomness, threads or other mathematics (bits differ there)
 #   keeps:   no mutable globals
 set -eu
 
@@ -45,8 +45,11 @@ done
 allowed='malloc|calloc|realloc|free|aligned_alloc|posix_memalign|mem(cpy|set|cmp|move|chr)|str(len|n?cmp|chr)|v?snprintf'
 allowed="$allowed|strpbrk|strstr|dl(open|sym|close|error)|sqrt|floor|fabs|fegetround|abort|__stack_chk_fail|__(mem(cpy|set|move)|v?snprintf)_chk"
 allowed="$allowed|__(cxa_finalize|gmon_start__)|_ITM_.*|_Unwind_.*"
+files='f(open|read|seek|close)|stat'
 report "needed, but not promised" "$(nm -D --undefined-only "$library" | awk '{ sub(/@.*/, "", $NF); print $NF }' |
-    grep -vxE "$allowed" || true)"
+    grep -vxE "$allowed|$files" || true)"
+report "files touched outside of src/plugin_file.c" "$(nm -A --undefined-only "$BUILD/lib/libtahr.a" |
+    grep -E "[ .](__)?($files)(64|_chk)?\$" | grep -v ':plugin_file\.c\.o' || true)"
 
 # "address flags section<tab>size name"; a name with a leading dot is the section's own.
 report "mutable globals" "$(objdump -t "$BUILD/lib/libtahr.a" | awk -F '\t' 'NF == 2 {

@@ -69,9 +69,19 @@ static b2WorldId world_of(const tahr_box2d_desc *desc)
     return b2LoadWorldId(desc->world3);
 }
 
+/* Box2D takes its first world for valid before anybody created it, and crashes on what is asked of it; so it is, too, in
+ * a second copy of Box2D, whose worlds are elsewhere. A world that was created has a limit of speed. */
+static int is_there(b2WorldId world)
+{
+    return b2World_IsValid(world) && b2World_GetMaximumLinearSpeed(world) > 0;
+}
+
 static const char *world_check(const tahr_box2d_desc *desc)
 {
-    if (!b2World_IsValid(world_of(desc))) return "options.world3 is no world of this Box2D (b2StoreWorldId)";
+    if (!is_there(world_of(desc))) {
+        return "options.world3 (b2StoreWorldId) is no world of this Box2D; a program with Box2D 3 as a static library "
+               "links libtahr_box2d.a";
+    }
     if (desc->body_id) return "options.body_id is for Box2D 2.4: ids of 3 are its own";
     return b2World_GetCounters(world_of(desc)).bodyCount >= 1 << INDEX_BITS ? "options.world3 holds too many bodies"
                                                                             : NULL;

@@ -60,6 +60,17 @@ static tahr_status expect_room(tahr_trace_reader *r, tahr_status status, uint32_
                   (unsigned long)r->query.capacity);
 }
 
+/* The query cost what it cost then. */
+static void charge(const tahr_trace_reader *r, tahr_query_context *context)
+{
+    const tahr_query_context *cost = &r->query.cost;
+
+    context->narrow_tests += cost->narrow_tests;
+    context->narrow_iterations += cost->narrow_iterations;
+    context->gathers += cost->gathers;
+    context->escapes += cost->escapes;
+}
+
 /* Of a file that lies no more than there is room for. */
 static uint32_t kept(const tahr_trace_reader *r, uint32_t capacity)
 {
@@ -72,9 +83,9 @@ static tahr_status sweep(void *self, tahr_query_context *context, const tahr_swe
     tahr_trace_reader *r = self;
     tahr_status status = expect_query(r, TAHR__TRACE_SWEEP, query, &r->query.sweep);
 
-    (void)context;
     status = expect_room(r, status, capacity);
     if (status < 0) return status;
+    charge(r, context);
     memcpy(hits, r->query.hits, kept(r, capacity) * sizeof hits[0]);
     *count = r->query.count > capacity ? r->query.count : kept(r, capacity);
     return r->query.status;
@@ -86,9 +97,9 @@ static tahr_status contacts(void *self, tahr_query_context *context, const tahr_
     tahr_trace_reader *r = self;
     tahr_status status = expect_query(r, TAHR__TRACE_CONTACTS, query, &r->query.contacts);
 
-    (void)context;
     status = expect_room(r, status, capacity);
     if (status < 0) return status;
+    charge(r, context);
     memcpy(found, r->query.found, kept(r, capacity) * sizeof found[0]);
     *count = r->query.count > capacity ? r->query.count : kept(r, capacity);
     return r->query.status;
@@ -99,8 +110,8 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
     tahr_trace_reader *r = self;
     tahr_status status = expect_query(r, TAHR__TRACE_RAY, query, &r->query.ray);
 
-    (void)context;
     if (status < 0) return status;
+    charge(r, context);
     memcpy(hit, r->query.hits, kept(r, 1) * sizeof *hit);
     *count = r->query.count > 1 ? r->query.count : kept(r, 1);
     return r->query.status;
@@ -110,9 +121,11 @@ static tahr_status prepare(void *self, tahr_query_context *context, const tahr_p
 {
     tahr_trace_reader *r = self;
 
-    (void)context, (void)announcement;
+    (void)announcement;
     if (!r->in_step || r->differs || tahr__trace_peek(r) != TAHR__TRACE_PREPARE) return TAHR_OK;
-    return tahr__trace_take_query(r) < 0 ? TAHR_E_BACKEND : r->query.status;
+    if (tahr__trace_take_query(r) < 0) return TAHR_E_BACKEND;
+    charge(r, context);
+    return r->query.status;
 }
 
 static tahr_status place(void *self, const tahr_body_pose *poses, uint32_t count)
@@ -138,8 +151,8 @@ static tahr_status fluid(void *self, tahr_query_context *context, const tahr_flu
     tahr_trace_reader *r = self;
     tahr_status status = expect_query(r, TAHR__TRACE_FLUID, query, &r->query.fluid);
 
-    (void)context;
     if (status < 0) return status;
+    charge(r, context);
     if (r->query.kept) *answer = r->query.fluid_answer;
     return r->query.status;
 }
@@ -178,6 +191,7 @@ static tahr_status begin(void *user, tahr_record_world *world)
     world->last_revision = w->last_revision;
     world->has = w->has;
     world->moves = w->moves;
+    world->derived = w->derived;
     world->backend = &r->table;
     world->self = r;
     return TAHR_OK;

@@ -86,6 +86,16 @@ uint32_t tahr__trace_peek(tahr_trace_reader *r)
     return r->status < 0 ? 0 : r->tag;
 }
 
+static void get_cost(tahr_trace_reader *r)
+{
+    tahr_query_context *cost = &r->query.cost;
+
+    cost->narrow_tests = tahr__trace_get(&r->in, "a number of tests");
+    cost->narrow_iterations = tahr__trace_get(&r->in, "a number of iterations");
+    cost->gathers = tahr__trace_get(&r->in, "a number of gathers");
+    cost->escapes = tahr__trace_get(&r->in, "a number of escapes");
+}
+
 /* How the answer was; how many follow is checked. */
 static void get_outcome(tahr_trace_reader *r)
 {
@@ -115,23 +125,27 @@ tahr_status tahr__trace_take_query(tahr_trace_reader *r)
     case TAHR__TRACE_SWEEP:
         tahr__trace_get_words(in, &q->sweep, &r->bases.sweep, sizeof q->sweep, "a sweep");
         q->capacity = (uint32_t)tahr__trace_get(in, "a capacity");
+        get_cost(r);
         get_outcome(r);
         get_hits(r);
         break;
     case TAHR__TRACE_CONTACTS:
         tahr__trace_get_words(in, &q->contacts, &r->bases.contacts, sizeof q->contacts, "a contact query");
         q->capacity = (uint32_t)tahr__trace_get(in, "a capacity");
+        get_cost(r);
         get_outcome(r);
         for (uint32_t i = 0; i < q->kept; i++)
             tahr__trace_get_words(in, &q->found[i], &r->bases.contact, sizeof q->found[i], "a contact");
         break;
     case TAHR__TRACE_RAY:
         tahr__trace_get_words(in, &q->ray, &r->bases.ray, sizeof q->ray, "a ray");
+        get_cost(r);
         get_outcome(r);
         get_hits(r);
         break;
     case TAHR__TRACE_FLUID:
         tahr__trace_get_words(in, &q->fluid, &r->bases.fluid, sizeof q->fluid, "a fluid query");
+        get_cost(r);
         get_outcome(r);
         if (q->kept)
             tahr__trace_get_words(in, &q->fluid_answer, &r->bases.fluid_answer, sizeof q->fluid_answer, "a fluid");
@@ -141,7 +155,10 @@ tahr_status tahr__trace_take_query(tahr_trace_reader *r)
         get_outcome(r);
         if (q->kept) tahr__trace_get_words(in, &q->motion, &r->bases.motion, sizeof q->motion, "a motion");
         break;
-    case TAHR__TRACE_PREPARE: get_outcome(r); break;
+    case TAHR__TRACE_PREPARE:
+        get_cost(r);
+        get_outcome(r);
+        break;
     default: in->bad = "a known record"; break;
     }
     return in->bad ? tahr__trace_broken(r, in->bad) : TAHR_OK;
@@ -213,6 +230,7 @@ static tahr_status read_world(tahr_trace_reader *r)
     w->revision = tahr__trace_get(in, "a revision");
     w->motion = tahr__trace_get(in, "a motion");
     w->last_revision = tahr__trace_get(in, "a revision");
+    w->derived = (uint32_t)tahr__trace_get(in, "the most sweeps of a contacts query");
     if (in->bad) return tahr__trace_broken(r, in->bad);
     while (w->body_count < count) {
         void *more = tahr__trace_grow(r->bodies, w->body_count, &room, sizeof *r->bodies);

@@ -7,7 +7,7 @@
 
 #define TAHR__TRACE_MAGIC "TAHRTRC"
 enum {
-    TAHR__TRACE_VERSION = 1,
+    TAHR__TRACE_VERSION = 2,
     TAHR__TRACE_BLOCK = 1 << 16,  /* bytes after which a block is written */
     TAHR__TRACE_RECORD = 1 << 15, /* bytes that no record is longer than: 128 hits are 18 kB */
     TAHR__TRACE_BUFFER = TAHR__TRACE_BLOCK + TAHR__TRACE_RECORD,
@@ -28,7 +28,7 @@ enum {
     TAHR__TRACE_RAY = 18,
     TAHR__TRACE_FLUID = 19,
     TAHR__TRACE_MOTION = 20,
-    TAHR__TRACE_PREPARE = 21, /* an announcement that failed */
+    TAHR__TRACE_PREPARE = 21, /* an announcement that failed or was work */
     TAHR__TRACE_DIRECT = 64   /* added to a query outside of a step */
 };
 

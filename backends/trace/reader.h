@@ -17,6 +17,7 @@ typedef struct tahr__trace_query {
     tahr_fluid_query fluid;
     tahr_fluid fluid_answer;
     tahr_body_motion motion;
+    tahr_query_context cost; /* what it added */
     tahr_hit hits[TAHR__TRACE_ANSWERS];
     tahr_contact found[TAHR__TRACE_ANSWERS];
 } tahr__trace_query;

@@ -77,6 +77,7 @@ static void put_world(tahr_trace *trace, const tahr_record_world *w)
     tahr__trace_put(out, w->revision);
     tahr__trace_put(out, w->motion);
     tahr__trace_put(out, w->last_revision);
+    tahr__trace_put(out, w->derived);
     for (uint32_t i = 0; i < w->body_count && tahr__trace_begin(trace, TAHR__TRACE_BODY); i++)
         tahr__trace_put_words(out, &w->bodies[i], &trace->bases.body, sizeof w->bodies[i]);
 }
@@ -94,6 +95,7 @@ static tahr_status begin(void *user, tahr_record_world *world)
     trace->began = 1;
     trace->inner = world->backend;
     trace->inner_self = world->self;
+    trace->derived = world->derived > 0;
     put_world(trace, world);
     tahr__trace_wrap(trace);
     world->backend = &trace->table;

@@ -23,6 +23,7 @@ struct tahr_trace {
     tahr_backend table; /* that records; in front of */
     const tahr_backend *inner;
     void *inner_self;
+    uint32_t derived; /* 1: contacts are made of sweeps, each of which counts */
     tahr__trace_mover *movers;
     uint32_t mover_count, mover_room;
     uint32_t block; /* number of the one being filled */

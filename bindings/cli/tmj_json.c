@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 /* Whether a file begins like XML, which is what people hand over by mistake. */
 static int looks_like_xml(const char *path)
@@ -24,6 +25,11 @@ static int looks_like_xml(const char *path)
 json_t *tmj_file(const char *path, const char *what)
 {
     json_error_t error;
+    struct stat info;
+    if (stat(path, &info) == 0 && S_ISDIR(info.st_mode)) { /* it can be opened, and is empty */
+        say_error("%s '%s' is a folder; expected a file", what, path);
+        return NULL;
+    }
     json_t *root = json_load_file(path, JSON_REJECT_DUPLICATES, &error);
     if (root != NULL) {
         return root;

@@ -54,6 +54,9 @@ static int read_grid(struct tmj *tmj, const struct layer *layer, const json_t *g
          (tmj_number(tmj, grid, "x", place_range, &x) != 0 || tmj_number(tmj, grid, "y", place_range, &y) != 0))) {
         return -1;
     }
+    if (x != floor(x) || y != floor(y)) {
+        return tmj_complain(tmj, "%s %g: expected a whole number", x != floor(x) ? "x" : "y", x != floor(x) ? x : y);
+    }
     if ((double)width * height > MAX_TILES) {
         return tmj_complain(tmj, "%u by %u tiles: expected at most %g", width, height, MAX_TILES);
     }

@@ -13,7 +13,8 @@ extern "C" {
 
 /* What a backend can do. What it does not claim is refused before it is asked: bodies and flags of a scene by
  * tahr_world_open, shapes by tahr_mover_create and direct queries. PLANAR: a world of two dimensions, x and y:
- * positions' z is handed back as it came, normals have none; motion or up out of the plane is TAHR_E_UNSUPPORTED.
+ * positions' z is handed back as it came, normals have none; motion or up out of the plane is TAHR_E_UNSUPPORTED (the
+ * library refuses what asks for it, or leaves the z out, before a backend hears of it).
  * CONTACTS and RAY: the slots are always there; this says that they answer as the selftest asks (those of a backend
  * have to; a world over callbacks may leave them to be derived). */
 enum {

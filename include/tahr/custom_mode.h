@@ -41,7 +41,8 @@ TAHR_API const tahr_config *tahr_step_config(const tahr_step *step);
 /* The gravity of this step, of the input or of the config: m/s2, world. Since 0.1. */
 TAHR_API const tahr_vec3 *tahr_step_gravity(const tahr_step *step);
 
-/* Sets the velocity (m/s, world, up to 1e5). It moves nothing by itself. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_ARGUMENT
+/* Sets the velocity (m/s, world, up to 1e5; in a plane, config.plane, its part along it, also of the motions of the two
+ * calls below). It moves nothing by itself. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_ARGUMENT
  * (not finite, or too fast): then it stays as it was. Since 0.1. */
 TAHR_API tahr_status tahr_step_set_velocity(tahr_step *step, const tahr_vec3 *velocity);
 
@@ -64,7 +65,8 @@ TAHR_API tahr_status tahr_step_slide(tahr_step *step, const tahr_vec3 *motion, t
  * nothing is in the way. One sweep; statuses as for tahr_step_slide. Since 0.1. */
 TAHR_API tahr_status tahr_step_sweep(tahr_step *step, const tahr_vec3 *motion, tahr_hit *hit);
 
-/* The first thing between origin and origin + motion. One ray; statuses as for tahr_step_slide. Since 0.1. */
+/* The first thing between origin and origin + motion. One ray; statuses as for tahr_step_slide, and TAHR_E_ARGUMENT for a
+ * motion with a z in a TAHR_CAP_PLANAR world. Since 0.1. */
 TAHR_API tahr_status tahr_step_ray(tahr_step *step, const tahr_vec3 *origin, const tahr_vec3 *motion, tahr_hit *hit);
 
 /* How deep the character is in a fluid. One fluid query where there may be any. Returns TAHR_OK, TAHR_E_NULL,

@@ -76,7 +76,8 @@ TAHR_API void tahr_mover_destroy(tahr_mover *mover);
  * Returns TAHR_OK; TAHR_QUERY_CAP, TAHR_CRUSHED, TAHR_STUCK, TAHR_UNKNOWN, TAHR_TRUNCATED (the worst flag of the
  * report, in this order); on error state and report are untouched (not what events and decisions point to):
  * TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (unknown tail of input not zero), TAHR_E_ARGUMENT (dt, input or
- * state not finite or out of range; the log names the field), TAHR_E_BACKEND, TAHR_E_REENTRANT.
+ * state not finite or out of range, or, in a TAHR_CAP_PLANAR world, up, a normal or base.velocity of the state with a z;
+ * the log names the field), TAHR_E_BACKEND, TAHR_E_REENTRANT.
  * Allocates nothing. Pure: the result depends on world, config, input, dt and state only. Different movers may step on
  * different threads at once. Queries: at most TAHR_MAX_QUERIES_PER_STEP; on flat ground 2 sweeps moving, 1 standing, 0
  * standing on a cached floor or asleep; on a base that moves 1 more (3 where it tilts); for every body that moves near

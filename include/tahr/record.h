@@ -35,9 +35,9 @@ typedef struct tahr_record_world {
     uint64_t motion;
     uint64_t last_revision;
     uint32_t body_count;
-    uint32_t has;   /* what the steps look for: bits of the library's own */
-    uint32_t moves; /* calls of tahr_world_move, from 1 */
-    uint32_t reserved;
+    uint32_t has;     /* what the steps look for: bits of the library's own */
+    uint32_t moves;   /* calls of tahr_world_move, from 1 */
+    uint32_t derived; /* the most sweeps that a contacts query is made of, for callbacks without contacts; else 0 */
 } tahr_record_world;
 
 enum { TAHR_RECORD_SET = 1, TAHR_RECORD_MOVE = 2, TAHR_RECORD_TOUCH = 3 };

@@ -22,7 +22,7 @@ expect 0
 tahr run --2d --level "$work/none.tmj" --seconds 0.1
 expect 2 "$work/none.tmj" "No such file"
 tahr run --2d --level "$work" --seconds 0.1
-expect 2 "$work"
+expect 2 "$work" "is a folder"
 : | wrong "line 1" "near end of file"
 head -c 300 "$work/good.tmj" | wrong "line " "column "
 printf '<?xml version="1.0"?>\n<map/>\n' | wrong "XML" ".tmj"
@@ -35,7 +35,9 @@ echo '{"type": "tileset", "tilewidth": 16}' | wrong "expected a map of Tiled"
 map 4 4 "" | wrong "holds nothing to stand on"
 sed 's/"layers"/"layer"/' "$work/good.tmj" | wrong "missing layers"
 sed 's/"layers": \[/"layers": [7, /' "$work/good.tmj" | wrong "layers[0]" "expected a layer"
-sed 's/"orthogonal"/"isometric"/' "$work/good.tmj" | wrong "isometric" "expected orthogonal"
+for orientation in isometric staggered hexagonal; do
+    sed "s/\"orthogonal\"/\"$orientation\"/" "$work/good.tmj" | wrong "'$orientation'" "expected orthogonal"
+done
 for key in tilewidth tileheight height; do
     sed "1s/\"$key\": [0-9]*/\"$key\": \"many\"/" "$work/good.tmj" | wrong "$key" "expected a number"
 done
@@ -66,6 +68,8 @@ map 4 4 "$(tiles 4 1 '"AAAA"' '"encoding": "base64", "compression": "zstd",')" |
 map 4 4 "$(tiles 4 1 '"AAAA"' '"encoding": "base64", "compression": "zlib",')" | wrong "layers[0]"
 map 4 4 '{"type": "tilelayer", "chunks": [{"x": 0, "y": 0, "width": 2, "height": 1, "data": [1]}]}' |
     wrong "layers[0].chunks[0]" "1 numbers" "expected 2"
+map 4 4 '{"type": "tilelayer", "chunks": [{"x": 0, "y": -0.5, "width": 1, "height": 1, "data": [1]}]}' |
+    wrong "layers[0].chunks[0]" "y -0.5" "expected a whole number"
 map 4 4 '{"type": "tilelayer", "chunks": 5}' | wrong "chunks" "expected a list"
 
 # Tilesets.
@@ -78,6 +82,10 @@ map 4 4 "$good" '{"firstgid": 1, "tilecount": 2, "tilewidth": 16, "tileheight": 
 map 4 4 "$good" '{"firstgid": 1, "source": "none.tsj"}' >"$work/map.tmj"
 tahr run --2d --level "$work/map.tmj" --seconds 0.1
 expect 2 "$work/none.tsj" "No such file"
+mkdir "$work/none.tsj"
+tahr run --2d --level "$work/map.tmj" --seconds 0.1
+expect 2 "$work/none.tsj" "is a folder"
+rmdir "$work/none.tsj"
 echo '<tileset/>' >"$work/none.tsj"
 tahr run --2d --level "$work/map.tmj" --seconds 0.1
 expect 2 "$work/none.tsj" "XML" ".tsj"

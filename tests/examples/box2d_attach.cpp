@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * box2d_attach.cpp: a character in your own Box2D 2.4 world. Box2D moves the crates and the lift; Tahr moves the
- * character, who walks on the chain, pushes a crate, passes a gate that only feels, rides the lift and jumps. */
+ * character, who walks on the chain, pushes a crate, passes a gate that only feels, rides the lift and jumps.
+ *
+ * By hand, with Tahr installed and PKG_CONFIG_PATH pointing to its lib/pkgconfig:
+ *     c++ -std=c++17 box2d_attach.cpp $(pkg-config --cflags --libs tahr_box2d) -lbox2d -o box2d_attach */
 #include <cmath>
 #include <cstdio>
 

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * bug_report.c: an engine of one's own behind a callback, and a run over it that is kept in one file, so that somebody
  * who has neither the engine nor the level can repeat it: `tahr replay FILE`.
- * Usage: bug_report [FILE]; without one it goes to a temporary file and is looked through. */
+ * Usage: bug_report [FILE]; without one it goes to a temporary file and is looked through.
+ *
+ * By hand, with Tahr installed and PKG_CONFIG_PATH pointing to its lib/pkgconfig:
+ *     cc -std=c11 bug_report.c $(pkg-config --cflags --libs tahr_trace) -o bug_report */
 #include <stdio.h>
 
 #include <tahr/tahr.h>

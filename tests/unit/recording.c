@@ -83,6 +83,16 @@ tahr_status recording_end(tahr_trace *trace, tahr_world *world)
     return tahr_trace_close(trace);
 }
 
+void recording_count(recording_counts *counts, const tahr_report *r)
+{
+    const uint64_t step[RECORDING_COUNTS] = {r->sweeps,         r->contact_queries,   r->rays,    r->fluid_queries,
+                                             r->triangle_tests, r->narrow_iterations, r->gathers, r->escapes};
+    for (int i = 0; i < RECORDING_COUNTS; i++) {
+        counts->sum[i] += step[i];
+        counts->hash = (counts->hash ^ step[i]) * 0x100000001B3u;
+    }
+}
+
 typedef struct theatre {
     tahr_trace_reader *reader;
     tahr_world *world;
@@ -129,6 +139,7 @@ static int play(theatre *t, replay *p, const tahr_record_step *s)
         tahr_report report = {.struct_size = sizeof report, .event_capacity = 1};
         report.events = s->flags & TAHR_RECORD_EVENTS ? events : NULL;
         p->status = tahr_mover_step(t->movers[s->mover], s->input, s->dt, &t->states[s->mover], &report);
+        recording_count(&p->counts, &report);
     }
     p->state = t->states[s->mover];
     return 1;

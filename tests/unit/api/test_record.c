@@ -217,22 +217,38 @@ static void spoil_count(tahr_record_world *w)
     w->body_count++;
 }
 
+static void spoil_derived(tahr_record_world *w)
+{
+    w->derived = 1u << 20;
+}
+
 static void what_no_world_can_be_is_not_restored(void **unused)
 {
-    void (*const ways[])(tahr_record_world *) = {spoil_pose, spoil_turn,     spoil_dt,   spoil_reach,
-                                                 spoil_has,  spoil_revision, spoil_count};
+    const struct {
+        void (*spoil)(tahr_record_world *);
+        const char *field;
+    } ways[] = {{spoil_pose, "bodies[0].pose"},
+                {spoil_turn, "bodies[0].before"},
+                {spoil_dt, "bodies[0].dt"},
+                {spoil_reach, "bodies[0].reach"},
+                {spoil_has, "has"},
+                {spoil_revision, "revision"},
+                {spoil_count, "body_count"},
+                {spoil_derived, "derived"}};
     rig r;
     tahr_body_desc ground = stage_ground();
     (void)unused;
     rig_open_bodies(&r, &ground, 1, NULL, fake_vec(0, 0, 0.95));
     const uint64_t revision = tahr_world_revision(r.world);
     for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
-        listener l = {.spoil = ways[i]};
+        listener l = {.spoil = ways[i].spoil};
         tahr_recorder recorder = recorder_of(&l);
         recorder.flags = TAHR_RECORDER_RESTORES;
         assert_int_equal(tahr_world_record(r.world, &recorder), TAHR_E_ARGUMENT);
         assert_int_equal(l.ended, 1);
-        assert_non_null(strstr(r.log.text, "restored what no world can be"));
+        const char *said = strstr(r.log.text, "restored what no world can be: ");
+        assert_non_null(said);
+        assert_string_equal(said + strlen("restored what no world can be: "), ways[i].field);
         assert_true(tahr_world_revision(r.world) == revision);
     }
     rig_step(&r, 1.0 / 60);

@@ -158,17 +158,17 @@ static void another_version_or_no_trace_is_told_apart(void **unused)
     recording file = little();
     replay p = {0};
     (void)unused;
-    file.bytes[8] = 2;
+    file.bytes[8] = 1;
     sign_head(&file);
     replay_run(&p, &file);
     assert_int_equal(p.opened, TAHR_E_ABI);
     assert_non_null(
-        strstr(file.message, "byte 8: recorded as version 2 of the format with ABI 0.1, expected 1 with 0.1"));
-    file.bytes[8] = 1, file.bytes[12] = 7;
+        strstr(file.message, "byte 8: recorded as version 1 of the format with ABI 0.1, expected 2 with 0.1"));
+    file.bytes[8] = 2, file.bytes[12] = 7;
     sign_head(&file);
     replay_run(&p, &file);
     assert_int_equal(p.opened, TAHR_E_ABI);
-    assert_non_null(strstr(file.message, "with ABI 0.7, expected 1 with 0.1"));
+    assert_non_null(strstr(file.message, "with ABI 0.7, expected 2 with 0.1"));
     file.bytes[12] = 1, file.bytes[16] ^= 8;
     sign_head(&file);
     replay_run(&p, &file);
