@@ -12,6 +12,9 @@ enum { SENSORS = 32 };
  * m out, and no more than what the double narrow phase promises. */
 enum { TIES = 8 };
 #define HAIR 1e-9
+/* Boxes keep at least this distance (m): they have no radius, and where the core itself touches, the direction to what it
+ * touches is rounding. Four times what is told from rounding (BLURRED of probe.c). */
+#define LEAST_OF_BOXES 4e-9
 
 /* Cached primitives that wait for their turn, the earliest first; one more is probed at once. */
 enum { WAITING = 32 };
@@ -349,7 +352,7 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.failed = &failed;
     query.motion = query.frame->turned ? m_apply(&query.frame->turn, sweep->motion) : sweep->motion;
     query.motion_length = v_length(query.motion);
-    query.margin = sweep->margin;
+    query.margin = query.core.axis_count == 3 ? d_max(sweep->margin, LEAST_OF_BOXES) : sweep->margin;
     query.mask = sweep->mask;
     query.ignore_body = sweep->ignore_body;
     query.flags = sweep->flags;
