@@ -110,13 +110,24 @@ void tahr__end_drop(tahr__step *step)
     step->state.drop_feature = 0;
 }
 
-/* Does what was met lie under the floor that it stood on, and that over it? */
-static int is_next_layer(const tahr__step *step, const tahr_hit *hit)
+/* Does what was met lie under the floor that it stood on, and that over it? Where a level foot covers a whole valley the
+ * place that was met may be any under it: then it is asked what is straight below the floor. */
+static int is_next_layer(tahr__step *step, const tahr_hit *met)
 {
     const tahr_floor *floor = &step->state.floor;
-    double least = -2 * drop_margin(step->config);
-    vec3 apart = sub(hit->point, floor->point);
-    return dot(floor->normal, apart) < least && dot(hit->normal, apart) < least;
+    double least = 2 * drop_margin(step->config);
+    vec3 up = step->state.up, apart = sub(met->point, floor->point);
+    double below = -dot(met->normal, apart), level = dot(met->normal, up);
+    tahr_hit hit;
+    if (below <= least || level <= 0) {
+        return 0;
+    }
+    if (dot(floor->normal, apart) < -least) {
+        return 1;
+    }
+    tahr__ray(step, add_scaled(floor->point, up, -least), scale(up, -below / level), &hit);
+    int same_face = dot(met->normal, hit.normal) > 1 - 1e-6 && dot(met->normal, sub(hit.point, met->point)) < least;
+    return hit.blocking && same_face;
 }
 
 /* m below the plane that it stood on at which no part of its underside (what leans by less than 60 degrees, as the tops
