@@ -67,7 +67,7 @@ static void each_press_passes_exactly_one_layer(void **unused)
 {
     (void)unused;
     static const double APART[] = {0.3, 1, 3};
-    for (int world = 0; world < LAYERS_WORLDS; world++) {
+    for (int world = 0; world < LAYERS_GATHERED; world++) {
         for (int k = 0; k < LAYER_KINDS * 3 * 2; k++) {
             for (int i = world < 2 ? 0 : k % 3; i < RIG_RATES; i += world < 2 ? 1 : 3) {
                 static layers l;
