@@ -136,8 +136,7 @@ static int is_next_layer(tahr__step *step, const tahr_hit *met)
 static double depth_of_underside(const tahr__step *step)
 {
     vec3 across = step_level(step, step->state.floor.normal);
-    return step->limits->width * length(across) + 0.5 * shape_cap(&step->limits->shape) +
-           2 * drop_margin(step->config);
+    return step->limits->width * length(across) + 0.5 * shape_cap(&step->limits->shape) + 2 * drop_margin(step->config);
 }
 
 /* From here on it is this face that it drops from: a layer goes on from face to face. An edge that is sunk past leans as
