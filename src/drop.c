@@ -72,6 +72,12 @@ static int stands_on_one_way(tahr__step *step)
     return hit.blocking ? refuse(step, &hit, "something else holds it too") : 1;
 }
 
+/* Not on an edge or a corner, where the contact leans as no face does. */
+static int is_face(vec3 normal, vec3 face)
+{
+    return dot(normal, face) > 1 - 1e-6;
+}
+
 void tahr__begin_drop(tahr__step *step)
 {
     tahr_state *s = &step->state;
@@ -87,7 +93,8 @@ void tahr__begin_drop(tahr__step *step)
     tahr_hit from = {.body = s->floor.body, .feature = s->floor.feature, .normal = s->floor.normal};
     double away = dot(s->velocity, s->floor.normal);
     tahr__leave_floor(step);
-    if (away > 0) { /* down a slope: along it, else it would fly over it for a while instead of dropping */
+    /* Down a slope: along it, else it would fly over it for a while instead of dropping. */
+    if (away > 0 && is_face(s->floor.normal, s->floor.surface_normal)) {
         s->velocity = add_scaled(s->velocity, s->up, -away / dot(s->floor.normal, s->up));
     }
     s->floor_revision = 0;
@@ -139,12 +146,11 @@ static double depth_of_underside(const tahr__step *step)
     return step->limits->width * length(across) + 0.5 * shape_cap(&step->limits->shape) + 2 * drop_margin(step->config);
 }
 
-/* From here on it is this face that it drops from: a layer goes on from face to face. An edge that is sunk past leans as
- * no face does. */
+/* From here on it is this face that it drops from: a layer goes on from face to face. */
 static void drop_from(tahr__step *step, const tahr_hit *hit)
 {
     tahr_state *s = &step->state;
-    if (dot(hit->normal, hit->surface_normal) > 1 - 1e-6) {
+    if (is_face(hit->normal, hit->surface_normal)) {
         s->floor.point = hit->point;
         s->floor.normal = hit->normal;
         s->drop_body = hit->body;
@@ -180,7 +186,7 @@ int tahr__drops_on(tahr__step *step, const tahr_hit *met)
     if (!is_dropping(step) || dot(met->normal, step->state.up) <= 0) {
         return 0;
     }
-    if (!met->start_overlap && !is_next_layer(step, met)) {
+    if (!met->start_overlap && !met->unknown && !is_next_layer(step, met)) {
         look_below(step, TAHR_STATE_DROPPING, &hit);
         if (!hit.blocking) {
             drop_from(step, met);
