@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * corner.c: a jump that grazes the corner of a ceiling goes past it.
  *
+ * What overlaps the corner by no more than config.corner_correction has met its side, not its bottom: so it goes on as
+ * beside a wall, with all of its rise and nothing of its speed toward it. The other rule of the field, never aside
+ * against the own motion, loses the jump to everybody who pushes toward the corner or has just turned away from it, and
+ * a round head its speed as well, which the corner throws back.
+ *
  * How far aside is not searched for: from a place that is past the corner the shape is swept back toward the column
  * that it rose in, and stops a skin beside what was in the way. The answer does not depend on how fast it rises, and
  * so not on the frame rate. */

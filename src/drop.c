@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * drop.c: falling through the one-way body that one stands on.
+ * drop.c: falling through the one-way bodies that one stands on.
  *
- * Nothing is remembered but that it drops: while it does, its queries carry the DROP flags, which make a one-way body
- * within two margins vanish. That is the layer stood on, all bodies of it, wherever it moves; the layer below is
- * farther. It ends before the next layer comes as near, because it is looked at before every piece of the fall. */
+ * While it drops, its queries carry the DROP flags, which make a one-way body within two margins vanish. Of what it
+ * meets besides, the floor that it stood on tells whether it is the same layer: state.floor stays as it was until the
+ * next floor, its plane moves with the body. Two faces that meet, in a valley or at a crest, or side by side, are one
+ * surface: at least one of the two does not have the other wholly behind it. The next layer lies under the floor, and
+ * the floor over it. So a layer needs no name, no thickness and no time, and may be any number of bodies. */
 #include "drop.h"
 
 #include "body_motion.h"
@@ -11,6 +13,7 @@
 #include "modes.h"
 #include "query.h"
 #include "report.h"
+#include "shape.h"
 #include "walking.h"
 
 int tahr__is_one_way(const tahr__step *step, uint32_t body)
@@ -40,6 +43,17 @@ static int refuse(tahr__step *step, const tahr_hit *hit, const char *reason)
     return tahr__decide(step, TAHR_RULE_DROP, 0, hit, 0, 0, reason);
 }
 
+/* Of a body that nobody described the sweeps tell: it is there, and no longer when they drop. */
+static int may_be_one_way(tahr__step *step, uint32_t body)
+{
+    tahr_hit hit;
+    if (body < step->world->body_count || tahr__is_one_way(step, body)) {
+        return tahr__is_one_way(step, body);
+    }
+    look_below(step, 0, &hit);
+    return hit.blocking && hit.body == body;
+}
+
 static int stands_on_one_way(tahr__step *step)
 {
     tahr_floor floor;
@@ -51,11 +65,17 @@ static int stands_on_one_way(tahr__step *step)
         tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
         tahr__keep_floor(step, &floor);
     }
-    if (!floor_is_walkable(&step->state.floor) || !tahr__is_one_way(step, step->state.floor.body)) {
+    if (!floor_is_walkable(&step->state.floor) || !may_be_one_way(step, step->state.floor.body)) {
         return refuse(step, NULL, "no one-way floor");
     }
     look_below(step, TAHR_STATE_DROPPING, &hit);
     return hit.blocking ? refuse(step, &hit, "something else holds it too") : 1;
+}
+
+/* Not on an edge or a corner, where the contact leans as no face does. */
+static int is_face(vec3 normal, vec3 face)
+{
+    return dot(normal, face) > 1 - 1e-6;
 }
 
 void tahr__begin_drop(tahr__step *step)
@@ -71,7 +91,12 @@ void tahr__begin_drop(tahr__step *step)
         return;
     }
     tahr_hit from = {.body = s->floor.body, .feature = s->floor.feature, .normal = s->floor.normal};
+    double away = dot(s->velocity, s->floor.normal);
     tahr__leave_floor(step);
+    /* Down a slope: along it, else it would fly over it for a while instead of dropping. */
+    if (away > 0 && is_face(s->floor.normal, s->floor.surface_normal)) {
+        s->velocity = add_scaled(s->velocity, s->up, -away / dot(s->floor.normal, s->up));
+    }
     s->floor_revision = 0;
     s->flags |= TAHR_STATE_DROPPING;
     s->drop_body = s->floor.body;
@@ -92,15 +117,91 @@ void tahr__end_drop(tahr__step *step)
     step->state.drop_feature = 0;
 }
 
+/* Does what was met lie under the floor that it stood on, and that over it? Where a level foot covers a whole valley the
+ * place that was met may be any under it: then it is asked what is straight below the floor. */
+static int is_next_layer(tahr__step *step, const tahr_hit *met)
+{
+    const tahr_floor *floor = &step->state.floor;
+    double least = 2 * drop_margin(step->config);
+    vec3 up = step->state.up, apart = sub(met->point, floor->point);
+    double below = -dot(met->normal, apart), level = dot(met->normal, up);
+    tahr_hit hit;
+    if (below <= least || level <= 0) {
+        return 0;
+    }
+    if (dot(floor->normal, apart) < -least) {
+        return 1;
+    }
+    tahr__ray(step, add_scaled(floor->point, up, -least), scale(up, -below / level), &hit);
+    int same_face = dot(met->normal, hit.normal) > 1 - 1e-6 && dot(met->normal, sub(hit.point, met->point)) < least;
+    return hit.blocking && same_face;
+}
+
+/* m below the plane that it stood on at which no part of its underside (what leans by less than 60 degrees, as the tops
+ * of one-way bodies do) is above it any more. On a slope a level underside has its highest point at the rim; of a round
+ * one half the cap leans by less than that. */
+static double depth_of_underside(const tahr__step *step)
+{
+    vec3 across = step_level(step, step->state.floor.normal);
+    return step->limits->width * length(across) + 0.5 * shape_cap(&step->limits->shape) + 2 * drop_margin(step->config);
+}
+
+/* From here on it is this face that it drops from: a layer goes on from face to face. */
+static void drop_from(tahr__step *step, const tahr_hit *hit)
+{
+    tahr_state *s = &step->state;
+    if (is_face(hit->normal, hit->surface_normal)) {
+        s->floor.point = hit->point;
+        s->floor.normal = hit->normal;
+        s->drop_body = hit->body;
+        s->drop_feature = hit->feature;
+    }
+}
+
 void tahr__watch_drop(tahr__step *step)
 {
+    const tahr_floor *floor = &step->state.floor;
     tahr_hit hit;
     if (!is_dropping(step)) {
         return;
     }
-    look_below(step, 0, &hit);
-    if (!hit.blocking || !tahr__is_one_way(step, hit.body)) {
+    double over = dot(floor->normal, sub(step_foot(step), floor->point)), most = depth_of_underside(step);
+    if (over < -most || over > most) {
         tahr__end_drop(step);
-        tahr__decide(step, TAHR_RULE_DROP, 0, &hit, 0, 0, "it is through");
+        tahr__decide(step, TAHR_RULE_DROP, 0, NULL, over, most, "it is through");
+        return;
     }
+    look_below(step, 0, &hit);
+    if (hit.blocking && is_next_layer(step, &hit)) {
+        tahr__end_drop(step);
+        tahr__decide(step, TAHR_RULE_DROP, 0, &hit, over, most, "the next layer");
+    } else if (hit.blocking) {
+        drop_from(step, &hit);
+    }
+}
+
+int tahr__drops_on(tahr__step *step, const tahr_hit *met)
+{
+    tahr_hit hit;
+    if (!is_dropping(step) || dot(met->normal, step->state.up) <= 0) {
+        return 0;
+    }
+    if (!met->start_overlap && !met->unknown && !is_next_layer(step, met)) {
+        look_below(step, TAHR_STATE_DROPPING, &hit);
+        if (!hit.blocking) {
+            drop_from(step, met);
+            return tahr__decide(step, TAHR_RULE_DROP, 1, met, 0, 0, "the same layer");
+        }
+    }
+    tahr__end_drop(step);
+    return 0;
+}
+
+/* The floor that it stood on, where its body is now. */
+void tahr__carry_drop(tahr__step *step, const tahr_pose *from, const tahr_pose *to)
+{
+    tahr_floor *floor = &step->state.floor;
+    vec3 tip = tahr__carried(from, to, add(floor->point, floor->normal));
+    floor->point = tahr__carried(from, to, floor->point);
+    floor->normal = unit(sub(tip, floor->point));
 }

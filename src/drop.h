@@ -28,9 +28,16 @@ static inline int asks_drop(const tahr__step *step)
  * none, is spent. At most one sweep, and those of a floor that is not known. */
 void tahr__begin_drop(tahr__step *step);
 
-/* Ends the drop as soon as nothing one-way is below within reach of a floor: it has passed, or has sunk into it, and
- * the rule of one-way bodies (one_way.h) goes on from there. One sweep while dropping, else none. */
+/* Ends the drop where all of the foot is below the floor that it stood on, and before the next layer comes so near that
+ * it would vanish. At most one sweep while dropping, else none. */
 void tahr__watch_drop(tahr__step *step);
+
+/* Was what the fall has met a part of the layer that it drops through? It is gone from here on. If not, that ends the
+ * drop. At most one sweep while dropping, else none. */
+int tahr__drops_on(tahr__step *step, const tahr_hit *met);
+
+/* The body that it dropped from has moved. No query. */
+void tahr__carry_drop(tahr__step *step, const tahr_pose *from, const tahr_pose *to);
 
 /* What else ends it: a floor, another mode. No query. */
 void tahr__end_drop(tahr__step *step);

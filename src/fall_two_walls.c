@@ -356,6 +356,14 @@ static void stop_drift(tahr__step *step)
     }
 }
 
+/* The slice ends where it is: with the velocity of that time, and the rest of its time comes after. */
+static void cut_short(tahr__step *step, fall *f)
+{
+    step->state.velocity = add_scaled(f->before, sub(step->state.velocity, f->before), 1 - f->rest / f->h);
+    f->left += f->rest;
+    f->h -= f->rest;
+}
+
 static int fall_slice(tahr__step *step, fall *f)
 {
     int answer = GOES_ON;
@@ -370,10 +378,9 @@ static int fall_slice(tahr__step *step, fall *f)
     int met = move_on(step, f, f->motion);
     tell_apex(step, f);
     step->ahead = f->h - f->rest;
-    if (met && is_dropping(step) && dot(f->swept.hit.normal, step->state.up) > 0) { /* the next layer, or a floor */
-        tahr__end_drop(step);
-    }
-    if (met) {
+    if (met && tahr__drops_on(step, &f->swept.hit)) {
+        cut_short(step, f);
+    } else if (met) {
         answer = f->swept.hit.unknown ? ENDS : meet(step, f);
     }
     if (step->state.flags & TAHR_STATE_WALL_TOUCHED && !met && !tahr__is_at_wall(step, step->state.position)) {

@@ -308,14 +308,15 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     double used = duration;
     int pushed = tahr__move(step, chord, hit);
     int met = is_met(hit);
-    if (met && is_dropping(step) && dot(hit->normal, step->state.up) > 0) { /* the next layer, or a floor */
-        tahr__end_drop(step);
-    }
     if (met && f->plane_count == 0 && !pushed) {
         step->state.position = start;
         used = meet_on_arc(step, &a, chord, duration, hit);
     } else if (hit->blocking) {
         used = hit->start_overlap ? duration : duration * hit->fraction;
+    }
+    if (met && tahr__drops_on(step, hit)) {
+        met = 0;
+        hit->blocking = 0;
     }
     if (used != duration) {
         arc_at(&a, used, &v);

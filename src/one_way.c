@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * one_way.c: the rule of one-way bodies, for users' own queries; backends have it in backends/common/one_way.h. */
+ * one_way.c: the rule of one-way bodies, for users' own queries. It is written a second time in
+ * backends/common/one_way.h: a plugin never links libtahr, the core never includes backends, and public headers have no
+ * inline functions. A test asks both the same. */
 #include <tahr/world.h>
 
 #include "vec.h"

@@ -270,6 +270,9 @@ static void take_frame(tahr__step *step, double dt)
     tahr__go_along(step, sub(tahr__carried(step->world, &note->before, &note->pose, s->position), s->position));
     step->passes = 0;
     step->ignore_body = TAHR_NO_BODY;
+    if (body == dropped_from(step)) {
+        tahr__carry_drop(step, &note->before, &note->pose);
+    }
     step->frame_body = body;
     step->frame_velocity = along_plane(step->limits, tahr__point_velocity(&motion, step_foot(step), 1));
     s->velocity = sub(s->velocity, step->frame_velocity);

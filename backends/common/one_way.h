@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * one_way.h: when a body with TAHR_BODY_ONE_WAY is there. The same rule as tahr_one_way_blocks: backends never link
- * libtahr.
+ * one_way.h: when a body with TAHR_BODY_ONE_WAY is there. The same rule as tahr_one_way_blocks (src/one_way.c says
+ * why twice).
  *
  * A contact is judged by what the query began with and by what it meets, never by a velocity of some earlier step: so
  * platforms may move, and every frame rate gives the same answer. Faces hold whoever was above them. An edge (a corner,

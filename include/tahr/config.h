@@ -162,17 +162,20 @@ typedef struct tahr_config {
     double coyote_time; /* s [0 || 0.1] a jump still starts this long after the floor ended, unless by jump or launch */
     double jump_buffer; /* s [0 || 0.12] a jump asked for this long before a landing starts at it */
     double jump_release_gravity; /* of gravity [1 || 3] while a jump rises with its button up: variable height */
-    double fall_gravity;         /* of gravity [1 || 1.5] while falling */
+    double fall_gravity;         /* of gravity [1 || 1.5] while falling; seen from a lift that it drops through */
     double wall_slide_speed;     /* m/s [0: off || 3] fastest fall while pushing against a wall */
     double wall_jump_speed;      /* m/s [0: off || 6] away from the wall, with jump_speed upward */
     double wall_coyote_time; /* s [0 || 0.1] a wall jump still starts this long after the wall was left by 1.5 skin */
     /* m [0: off] falling and pushing into a wall, hangs (TAHR_MODE_HANGING) where its head passes an edge, or on one at
      * most this far above it; a jump climbs, crouching or moving away lets go */
     double ledge_grab;
-    double corner_correction; /* m [0: off || 0.25] a rising head is moved aside at most this far to clear a corner */
-    double lift_momentum;     /* s [0 || 0.1] the velocity of a base is still imparted this long after it stopped */
-    uint32_t air_jumps;       /* [0] before the next landing, water or edge; walking off a ledge costs none */
-    uint32_t reserved_feel;   /* 0 */
+    /* m [0: off || 0.25] the corner of a ceiling is a wall and no ceiling for a rising head that is under it by at most
+     * this much: the head is put beside it, whichever way it goes or wishes, and keeps its rise; what of its velocity
+     * points back to the corner ends there, as at a wall. Off where that is not free, beside and above */
+    double corner_correction;
+    double lift_momentum;   /* s [0 || 0.1] the velocity of a base is still imparted this long after it stopped */
+    uint32_t air_jumps;     /* [0] before the next landing, water or edge; walking off a ledge costs none */
+    uint32_t reserved_feel; /* 0 */
 
     /* Time and turning */
     double max_dt;          /* s [1] longest step accepted */

@@ -17,7 +17,12 @@ typedef struct tahr_mover tahr_mover;
  * fluid deep enough, CUSTOM a function; else TAHR_REPORT_MODE_REFUSED.
  * DROP: fall through the one-way bodies that it stands on, one layer per press: it must be off for a step before it
  * counts again. A press on another floor, where that holds too, or in the air is spent; a jump pressed with it does not
- * start. */
+ * start. A layer is one surface, of however many bodies: what it stands on, and whatever one-way it meets next that does
+ * not lie under that (where both are: behind its plane, with that before the plane of the other, by more than a floor may
+ * be away, 2 skins), and so on from face to face, until all of its foot is under it. So slope and flat, the sides of a
+ * valley or of a crest and a row of tiles are one layer; platforms over each other, and the treads of a stair, are one
+ * each. Down a slope it leaves along it; from a lift as from one at rest: it is a fall from the first moment, with
+ * config.fall_gravity, even while the lift's speed carries it up. */
 enum {
     TAHR_INPUT_GRAVITY = 1 << 0, /* input.gravity counts */
     TAHR_INPUT_FACING = 1 << 1,  /* input.facing counts */

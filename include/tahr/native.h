@@ -23,8 +23,9 @@ typedef struct tahr_triangle {
     uint32_t feature;       /* handed back in hits and contacts */
     uint32_t surface;       /* likewise */
     uint32_t walkable_rule; /* TAHR_WALKABLE_* */
-    uint32_t flags; /* TAHR_BODY_TWO_SIDED, TAHR_BODY_ONE_WAY: the same for all triangles of a body. Nobody drops
-                             * through gathered triangles: describe what TAHR_INPUT_DROP is for as bodies */
+    uint32_t flags; /* TAHR_BODY_TWO_SIDED, TAHR_BODY_ONE_WAY: the same for all triangles of a body. TAHR_INPUT_DROP
+                             * drops through them. No rule that asks a body for its flags knows of them: who grabs a
+                             * ledge, steps up or walks over a crest takes them for solid; describe such as bodies */
     uint32_t mask;  /* 0: all bits */
 } tahr_triangle;
 

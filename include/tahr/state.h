@@ -98,7 +98,9 @@ typedef struct tahr_state {
     tahr_vec3 wall_normal; /* of the last wall touched in the air, jumped off or hung on, level; zero: none */
     uint32_t wall_body;    /* or TAHR_NO_BODY */
     uint32_t wall_feature;
-    uint32_t drop_body; /* while DROPPING the one-way body that it stood on, and falls away from; else TAHR_NO_BODY */
+    uint32_t
+        drop_body; /* while DROPPING the one-way body that it stood on, or met last of that layer (floor tells where),
+                         * and falls away from; else TAHR_NO_BODY */
     uint32_t drop_feature; /* of that body, for users: no step depends on it */
     uint8_t reserved[40];
 } tahr_state;

@@ -33,6 +33,8 @@ int layers_begin(layers *l, int world)
 #ifdef TAHR_HAVE_FCL
     if (world / 2 == 2) l->backend = tahr_backend_v1_fcl();
 #endif
+    l->gathered = world / 2 == 3;
+    if (l->gathered) l->backend = tahr_backend_v1_native();
     return l->backend != NULL;
 }
 
@@ -131,10 +133,54 @@ tahr_config layers_config(const layers *l, uint32_t preset)
     return c;
 }
 
+static int is_gathered(const layers *l, uint32_t body)
+{
+    return l->gathered && l->bodies[body].type == TAHR_BODY_MESH && !(l->bodies[body].flags & TAHR_BODY_MOVABLE);
+}
+
+static tahr_status gather_sheets(void *user, const tahr_bounds *box, uint32_t mask, tahr_gather *out)
+{
+    const layers *l = user;
+    (void)box, (void)mask; /* more do not harm */
+    for (uint32_t i = 0; i < l->count; i++) {
+        const tahr_body_desc *b = &l->bodies[i];
+        for (uint32_t k = 0; is_gathered(l, i) && k < b->triangle_count; k++) {
+            tahr_triangle t = {.body = LAYERS_MOST + i, .feature = k, .flags = b->flags};
+            for (int c = 0; c < 3; c++) {
+                const double *v = b->vertices + 3 * (size_t)b->indices[3 * k + (uint32_t)c];
+                t.corners[c] = (tahr_vec3){v[0], v[1], v[2]};
+            }
+            out->add(out, &t);
+        }
+    }
+    return TAHR_OK;
+}
+
+/* So that the others keep their numbers something that nobody comes to stands in for a gathered sheet. */
+static void open_gathered(layers *l, rig *r, const tahr_config *config, tahr_vec3 at)
+{
+    tahr_native_desc native = {.struct_size = sizeof native, .gather = gather_sheets, .gather_user = l};
+    tahr_body_desc bodies[LAYERS_MOST];
+    for (uint32_t i = 0; i < l->count; i++) {
+        bodies[i] = l->bodies[i];
+        if (is_gathered(l, i)) {
+            tahr_body_desc_init(&bodies[i], sizeof bodies[i], TAHR_BODY_BOX);
+            bodies[i].half_extents = (tahr_vec3){1, 1, 1};
+            bodies[i].pose.position = layers_at(l, 0, -1e5);
+        }
+    }
+    rig_open_native(r, &native, bodies, l->count, config, at);
+}
+
 void layers_open(layers *l, rig *r, const tahr_config *config, double x, double foot)
 {
     tahr_config c = config ? *config : layers_config(l, TAHR_PRESET_PRECISE);
-    rig_open_bodies_on(r, l->backend, l->bodies, l->count, &c, layers_at(l, x, foot + c.shape.half_height));
+    tahr_vec3 at = layers_at(l, x, foot + c.shape.half_height);
+    if (l->gathered) {
+        open_gathered(l, r, &c, at);
+    } else {
+        rig_open_bodies_on(r, l->backend, l->bodies, l->count, &c, at);
+    }
 }
 
 double layers_foot(const layers *l, const rig *r)

@@ -16,10 +16,12 @@ typedef struct layers {
     tahr_body_desc bodies[LAYERS_MOST];
     double corners[LAYERS_MOST][12];
     uint32_t count;
+    int gathered; /* sheets that stay where they are come from tahr_native_desc.gather, as bodies LAYERS_MOST + index */
 } layers;
 
-/* The worlds that all of this is asked of: native and, where they are built, ccd and fcl; each with z up and with y up. */
-enum { LAYERS_WORLDS = 6 };
+/* The worlds that all of this is asked of: native and, where they are built, ccd and fcl; each with z up
+ * and with y up. After them native with sheets that it gathers, for what needs no more of a body than its surface. */
+enum { LAYERS_WORLDS = 6, LAYERS_GATHERED = 8 };
 /* Returns 0 where there is no such world in this build. */
 int layers_begin(layers *l, int world);
 

@@ -62,6 +62,19 @@ void rig_open_bodies_on(rig *r, const tahr_backend *backend, const tahr_body_des
     put_mover(r, config, at);
 }
 
+void rig_open_native(rig *r, const tahr_native_desc *native, const tahr_body_desc *bodies, uint32_t count,
+                     const tahr_config *config, tahr_vec3 at)
+{
+    tahr_world_desc desc;
+    tahr_log log;
+    describe(r, &desc, &log);
+    desc.bodies = bodies;
+    desc.body_count = count;
+    desc.options = native;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &r->world), TAHR_OK);
+    put_mover(r, config, at);
+}
+
 void rig_open_backend(rig *r, fake_backend *backend, uint32_t capabilities)
 {
     tahr_world_desc desc;

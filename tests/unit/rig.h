@@ -8,6 +8,8 @@
 #include "fake_world.h"
 #include "near.h"
 
+#include <tahr/native.h>
+
 /* What does not depend on the frame rate is tested at all of these, in Hz. */
 enum { RIG_RATES = 5 };
 extern const double rig_rates[RIG_RATES];
@@ -38,6 +40,9 @@ void rig_open_bodies(rig *r, const tahr_body_desc *bodies, uint32_t count, const
 /* The same on another backend. */
 void rig_open_bodies_on(rig *r, const tahr_backend *backend, const tahr_body_desc *bodies, uint32_t count,
                         const tahr_config *config, tahr_vec3 at);
+/* On the native backend with a description of its own. */
+void rig_open_native(rig *r, const tahr_native_desc *native, const tahr_body_desc *bodies, uint32_t count,
+                     const tahr_config *config, tahr_vec3 at);
 /* Makes the backend too; the character is the preset's, 5 cm over the backend's plane z = 0. */
 void rig_open_backend(rig *r, fake_backend *backend, uint32_t capabilities);
 /* rig_open, and lets it fall until it stands. */

@@ -97,6 +97,52 @@ static void head_that_is_pushed_toward_the_corner_goes_past_it_too(void **unused
     }
 }
 
+/* Whichever way it goes or wishes: a level head that is under the ceiling by no more than the correction where it meets
+ * it rises on beside it and goes no farther that way; one that is under it by more is stopped. Nobody hangs there. */
+static void corner_is_a_wall_for_who_runs_into_it_and_for_who_turns_away(void **unused)
+{
+    static const double COVER[] = {0.05, 0.15, 0.24, 0.27}, SPEED[] = {0, 1, 3, 6}, WISH[] = {-1, 0, 1};
+    (void)unused;
+    for (int i = 0; i < 4 * 4 * 3 * RIG_RATES; i++) {
+        fake_world w;
+        rig r;
+        double cover = COVER[i % 4], speed = SPEED[i / 4 % 4], rate = rig_rates[i / 48], wish = WISH[i / 16 % 3];
+        tahr_config c = corner_config(TAHR_SHAPE_BOX);
+        c.corner_correction = 0.25;
+        c.air_control = 0; /* so that it is where it is by its speed alone */
+        double rise = 2.5 - 0.01 - (1.8 + 0.0125), time = (V - sqrt(V * V - 2 * G * rise)) / G;
+        double edge = 0.36 - cover + speed * time;
+        fake_world_flat(&w);
+        fake_add_box(&w, fake_vec(edge, -5, 2.5), fake_vec(10, 5, 6));
+        rig_stand(&r, &w, &c, fake_vec(0, 0, 1));
+        double z = r.state.position.z, top = z;
+        assert_near(z, 0.9125, 0.0026);
+        r.state.velocity = fake_vec(speed, 0, 0);
+        r.state.mode = TAHR_MODE_FALLING; /* the jump as a launch, which walking has not slowed down before */
+        r.state.position.z = 0.9125;
+        r.state.floor_revision = 0;
+        r.input.flags = TAHR_INPUT_LAUNCH;
+        r.input.launch = fake_vec(0, 0, V);
+        r.input.move = fake_vec(wish, 0, 0);
+        for (int k = 0; k < 0.42 * rate; k++) { /* V / G is 0.428 */
+            double dt = fmin(1 / rate, 0.42 - k / rate);
+            rig_step(&r, dt);
+            r.input.flags = 0;
+            assert_true(r.report.time_lost == 0);
+            top = fmax(top, r.state.position.z);
+        }
+        if (cover < 0.25) {
+            assert_near(top, 0.9125 + V * 0.42 - G / 2 * 0.42 * 0.42, 1e-6);
+            assert_near(r.state.position.x, edge - 0.36, 1e-5);
+            assert_near(r.state.velocity.x, 0, 1e-9);
+        } else {
+            assert_true(top < 0.9125 + rise + 1e-5);
+            assert_near(r.state.position.x, speed * 0.42, 1e-6);
+        }
+        rig_close(&r);
+    }
+}
+
 static void corner_farther_in_than_the_correction_stops_the_rise(void **unused)
 {
     (void)unused;
@@ -168,6 +214,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(head_goes_past_a_corner_by_the_least_way_aside),
                                        cmocka_unit_test(head_that_is_pushed_toward_the_corner_goes_past_it_too),
+                                       cmocka_unit_test(corner_is_a_wall_for_who_runs_into_it_and_for_who_turns_away),
                                        cmocka_unit_test(corner_farther_in_than_the_correction_stops_the_rise),
                                        cmocka_unit_test(way_aside_that_is_not_free_is_not_taken),
                                        cmocka_unit_test(slot_that_is_too_narrow_is_not_entered),

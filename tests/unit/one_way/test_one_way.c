@@ -16,6 +16,27 @@
 
 static const double G = 9.81, SKIN = 0.01;
 
+/* Both sides of every limit, for all flags: a change of one of the two alone is found. */
+static void the_two_rules_agree_at_every_limit(void **unused)
+{
+    (void)unused;
+    static const double MARGINS[] = {0, 1e-3, 0.01, 0.05}, OFF[] = {-1, -1e-9, 0, 1e-9, 1};
+    const tahr_vec3 up = {0, 0, 1};
+    uint32_t there = 0, asked = 0;
+    for (uint32_t k = 0; k < 4 * 3 * 5 * 5 * 64; k++) {
+        double margin = MARGINS[k % 4], rounding = fmax(1e-3 * margin, 2e-6);
+        double limits[] = {-rounding, 0, 2 * margin}, distance = limits[k / 4 % 3] + 1e-6 * OFF[k / 12 % 5];
+        double lean = 0.5 + 0.1 * OFF[k / 60 % 5];
+        tahr_vec3 normal = {sqrt(1 - lean * lean), 0, lean};
+        uint32_t flags = k / 300;
+        int32_t is = tahr_one_way_blocks(&up, &normal, distance, margin, flags);
+        assert_int_equal(is, tahr__one_way_blocks(up, normal, distance, margin, flags));
+        there += is != 0;
+        asked++;
+    }
+    assert_true(there > asked / 2 && there < asked); /* with WHOLE always, which is every other */
+}
+
 /* The public rule and the one of the backends are written twice: backends never link libtahr. */
 static void the_two_rules_agree(void **unused)
 {
@@ -283,6 +304,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_two_rules_agree),
+        cmocka_unit_test(the_two_rules_agree_at_every_limit),
         cmocka_unit_test(jumps_rise_through_all_layers_and_land_on_the_highest_below),
         cmocka_unit_test(what_rises_past_the_end_of_a_platform_is_not_touched),
         cmocka_unit_test(who_has_sunk_into_a_tile_is_not_caught_by_the_next),
