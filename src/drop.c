@@ -201,7 +201,7 @@ int tahr__drops_on(tahr__step *step, const tahr_hit *met)
 void tahr__carry_drop(tahr__step *step, const tahr_pose *from, const tahr_pose *to)
 {
     tahr_floor *floor = &step->state.floor;
-    vec3 tip = tahr__carried(from, to, add(floor->point, floor->normal));
-    floor->point = tahr__carried(from, to, floor->point);
+    vec3 tip = tahr__carried(step->world, from, to, add(floor->point, floor->normal));
+    floor->point = tahr__carried(step->world, from, to, floor->point);
     floor->normal = unit(sub(tip, floor->point));
 }
