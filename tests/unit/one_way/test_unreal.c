@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * test_unreal.c: one-way bodies for the rules of UNREAL: sweeps without a margin, a floor probe that begins above
- * the foot. */
+ * the foot, boxes that land on slopes. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -131,22 +131,52 @@ static void hills_are_walked_over_one_way_or_solid(void **unused)
     static const double ANGLES[] = {15, 22.5, 30, 37.5};
     for (int world = 0; world < LAYERS_WORLDS; world++) {
         oracle_random dice = {11};
-        for (int k = 0; k < 16; k++) {
+        for (int k = 0; k < 32; k++) {
             for (int i = world < 2 ? 0 : k % 5; i < RIG_RATES; i += world < 2 ? 1 : 5) {
                 static layers l;
                 rig r;
-                double angle = ANGLES[k / 4] * RADIAN, direction = k & 1 ? -1 : 1;
+                double angle = ANGLES[k / 8] * RADIAN, direction = k & 1 ? -1 : 1;
                 hill h = {3 * cos(angle), 3 * sin(angle), tan(angle)};
                 if (!layers_begin(&l, world)) {
                     break;
                 }
                 add_hill(&l, &h, k & 2 ? TAHR_BODY_ONE_WAY : 0);
                 tahr_config c = layers_config(&l, TAHR_PRESET_UNREAL);
+                if (k & 4) {
+                    c.shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.3, .half_y = 0.3};
+                }
                 double begin = h.run + 1 - direction * (h.run + 3 + oracle_uniform(&dice, 0, 1));
                 layers_open(&l, &r, &c, begin, 0.1);
                 walk_over_hill(&l, &h, &r, direction, 1 / rig_rates[i]);
                 rig_close(&r);
             }
+        }
+    }
+}
+
+/* The upper side of its foot touches the slope: half the width times the slope above the axis' ground. */
+static void a_box_lands_on_a_slope_and_stays(void **unused)
+{
+    (void)unused;
+    static const double ANGLES[] = {1, 10, 22.5, 40};
+    for (int world = 0; world < LAYERS_WORLDS; world++) {
+        for (int k = 0; k < 8; k++) {
+            static layers l;
+            rig r;
+            double angle = ANGLES[k / 2] * RADIAN, up = 5 * tan(angle);
+            if (!layers_begin(&l, world)) {
+                break;
+            }
+            layers_slope(&l, (tahr_vec3){-5, -up, 0}, (tahr_vec3){5, up, 0}, k & 1 ? TAHR_BODY_ONE_WAY : 0);
+            tahr_config c = layers_config(&l, TAHR_PRESET_UNREAL);
+            c.shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.3, .half_y = 0.25};
+            layers_open(&l, &r, &c, 0, 1);
+            rig_steps(&r, 60, 1.0 / 60);
+            assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
+            assert_near(layers_x(&l, r.state.position), 0, 1e-6);
+            /* and the band of 1.9 to 2.4 cm; the probe is 0.15 cm thinner */
+            assert_near(layers_foot(&l, &r) - 0.3 * tan(angle), 0.0215, 0.0027 + 0.0015 * tan(angle));
+            rig_close(&r);
         }
     }
 }
@@ -192,6 +222,7 @@ int main(void)
         cmocka_unit_test(a_crest_stops_what_comes_down_without_a_margin),
         cmocka_unit_test(who_is_put_exactly_onto_a_platform_is_above_it),
         cmocka_unit_test(hills_are_walked_over_one_way_or_solid),
+        cmocka_unit_test(a_box_lands_on_a_slope_and_stays),
         cmocka_unit_test(what_is_above_the_foot_is_no_floor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
