@@ -206,6 +206,12 @@ static int approaching(const tahr__query *query, tahr_vec3 normal)
     return v_dot(query->motion, normal) < -TAHR__PARALLEL * query->motion_length;
 }
 
+/* So little that it may only pass an edge? */
+static int hardly_approaching(const tahr__query *query, tahr_vec3 normal)
+{
+    return v_dot(query->motion, normal) >= -TAHR__GRAZING * query->motion_length;
+}
+
 /* Does the shape only pass what it is within the margin of? */
 static int passes(const flight *f)
 {
@@ -213,7 +219,7 @@ static int passes(const flight *f)
     const tahr__witness *w = &f->probe.witness;
     double tolerance = query->frame->round ? GRAZE_FLOAT : GRAZE_DOUBLE, touch = query->radius + f->prim->radius;
     tahr__descent here = {f->probe.gap - query->margin, -v_dot(query->motion, w->normal), f->t}, there = here;
-    if (here.speed > TAHR__GRAZING * query->motion_length || f->probe.gap < 0 || here.gap < -tolerance) return 0;
+    if (f->probe.gap < 0 || here.gap < -tolerance) return 0;
     tahr__witness next = *w;
     there.fraction = tahr__beyond(&here, touch + query->margin, query->motion_length);
     measure(query, f->prim, v_mad(query->start, query->motion, there.fraction), &next);
@@ -229,7 +235,8 @@ static int blocks_at_start(const flight *f, const tahr__contact_normals *normals
     const tahr__query *query = f->query;
     int overlap = f->probe.gap < 0, sensor = (f->prim->kind & TAHR__SENSOR) != 0;
     int leaving_counts = overlap && (sensor || !(query->flags & TAHR_SWEEP_LEAVE_OVERLAP));
-    if (!leaving_counts && (!approaching(query, normals->normal) || passes(f))) return 0;
+    if (!leaving_counts && !approaching(query, normals->normal)) return 0;
+    if (!leaving_counts && hardly_approaching(query, normals->normal) && passes(f)) return 0;
     out->t = 0;
     found_fill(query, f->prim, &f->probe, normals, out);
     out->overlap = (uint32_t)overlap;
@@ -310,7 +317,8 @@ static int judge(const flight *f, const tahr__contact_normals *normals, int at_s
         out->gap = f->probe.gap;
         return TAHR__BESIDE;
     }
-    if (!approaching(f->query, normals->normal) || passes(f)) return TAHR__FREE;
+    if (!approaching(f->query, normals->normal)) return TAHR__FREE;
+    if (hardly_approaching(f->query, normals->normal) && passes(f)) return TAHR__FREE;
     out->t = f->t;
     found_fill(f->query, f->prim, &f->probe, normals, out);
     return TAHR__BLOCKED;

@@ -15,7 +15,8 @@
 
 void progress_start(struct progress *progress, const tahr_state *state, double time)
 {
-    *progress = (struct progress){.anchor = state->position, .since = time, .held = state->position, .held_since = time};
+    *progress =
+        (struct progress){.anchor = state->position, .since = time, .held = state->position, .held_since = time};
 }
 
 tahr_shape shape_now(const tahr_config *config, const tahr_state *state)
