@@ -278,7 +278,7 @@ static void who_falls_and_stays_where_it_is_hangs_in_the_air(void **state)
     assert_int_equal(hangs(TAHR_MODE_WALKING, 0, 0, 2), 0);
     assert_int_equal(hangs(TAHR_MODE_FALLING, 0, 9.81, 2), 0);
     assert_int_equal(hangs(TAHR_MODE_FALLING, 4.905, 9.81, 2), 0); /* an apex */
-    assert_int_equal(hangs(TAHR_MODE_FALLING, -0.019, 0, 2), 4); /* 9.5 mm in half a second */
+    assert_int_equal(hangs(TAHR_MODE_FALLING, -0.019, 0, 2), 4);   /* 9.5 mm in half a second */
     assert_int_equal(hangs(TAHR_MODE_FALLING, -0.021, 0, 2), 0);
 }
 

@@ -216,6 +216,37 @@ static void a_box_stands_on_an_edge_with_whatever_part_of_it(void **unused)
     }
 }
 
+/* The edge of a slope, met flat: its own face slopes, and which point of it is named may be the end of the foot. */
+static void a_box_stands_on_the_crest_of_a_slope(void **unused)
+{
+    (void)unused;
+    for (int world = 0; world < LAYERS_WORLDS; world++) {
+        for (int k = 0; k < 12; k++) {
+            static layers l;
+            rig r;
+            double x = -0.25 + 0.1 * (k / 2);
+            if (!layers_begin(&l, world)) {
+                break;
+            }
+            if (k & 1) {
+                layers_add(&l, LAYER_BOX, 0, 4, 0, 0);
+            }
+            layers_slope(&l, (tahr_vec3){-2, -1, 0}, (tahr_vec3){0, 0, 0}, 0);
+            if (!(k & 1)) {
+                layers_add(&l, LAYER_BOX, 0, 4, 0, 0);
+            }
+            tahr_config c = layers_config(&l, TAHR_PRESET_UNREAL);
+            c.shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.3, .half_y = 0.25};
+            layers_open(&l, &r, &c, x, 0.1);
+            rig_steps(&r, 60, 1.0 / 60);
+            assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
+            assert_near(layers_x(&l, r.state.position), x, 1e-6);
+            assert_near(layers_foot(&l, &r), 0.0215, 0.0026);
+            rig_close(&r);
+        }
+    }
+}
+
 /* The probe begins above the foot, where the straight part of a capsule is 1.08 m long by 5.4 cm, where it touches at the
  * rim by half a metre; a ray begins at the axis. The ends of low platforms are a floor for the round of a foot, up to
  * where it leans by 60 degrees (17 cm): there it begins inside. */
@@ -259,6 +290,7 @@ int main(void)
         cmocka_unit_test(hills_are_walked_over_one_way_or_solid),
         cmocka_unit_test(flat_feet_land_on_a_slope_and_stay),
         cmocka_unit_test(a_box_stands_on_an_edge_with_whatever_part_of_it),
+        cmocka_unit_test(a_box_stands_on_the_crest_of_a_slope),
         cmocka_unit_test(what_is_above_the_foot_is_no_floor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
