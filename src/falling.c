@@ -41,6 +41,12 @@ typedef struct fall {
     tahr_hit edge;   /* the top of a wall that is pushed against */
 } fall;
 
+/* Air control is not limited by what rises less: a push along an upright wall lifts nobody (VERTICAL_SLOPE_NORMAL_Z). */
+static const double UPRIGHT = 0.001;
+
+/* Less than this part of a push along a face is the rounding of one straight into it. */
+static const double ALONG = 1e-9;
+
 /* The drive is the velocity, and gravity acts where the drive leaves falling alone. */
 static void drive_arc(const tahr__step *step, arc *a)
 {
@@ -55,7 +61,29 @@ static void drive_arc(const tahr__step *step, arc *a)
     }
 }
 
-static arc arc_of(const tahr__step *step)
+/* LimitAirControl: of a push into a face that rises only what goes along it is left. The rest would carry the character
+ * up, or hold it there against gravity. */
+static void limit_control(const fall *f, vec3 axis, tahr__law *law)
+{
+    tahr__plane walls[TAHR__MAX_PLANES];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < f->plane_count; i++) {
+        double rise = dot(f->planes[i].normal, axis);
+        vec3 level = add_scaled(f->planes[i].normal, axis, -rise);
+        if (rise > UPRIGHT && length_squared(level) > 1e-12) {
+            walls[count] = f->planes[i];
+            walls[count++].normal = unit(level);
+        }
+    }
+    if (count > 0) {
+        vec3 along = tahr__bend(walls, count, law->wish);
+        double part = length(along);
+        law->wish = part > ALONG ? scale(along, 1.0 / part) : vec(0, 0, 0);
+        law->acceleration *= part;
+    }
+}
+
+static arc arc_of(const tahr__step *step, const fall *f)
 {
     const tahr_config *c = step->config;
     arc a = {.gravity = step->pull->size, .terminal = c->terminal_speed};
@@ -68,6 +96,7 @@ static arc arc_of(const tahr__step *step)
     a.law.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0);
     a.law.speed = c->max_speed * min_of(size, 1);
     a.law.acceleration = c->acceleration * c->air_control;
+    limit_control(f, a.axis, &a.law);
     a.law.turn_friction = c->air_turn_friction;
     if (c->integrator == TAHR_INTEGRATOR_STEPPED) { /* the slice began with its velocity across up */
         a.law = tahr__constant_law();
@@ -280,7 +309,7 @@ enum { MOST_APEXES = 16 };
 /* One chord. Returns 1 if something was hit. */
 static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
 {
-    arc a = arc_of(step);
+    arc a = arc_of(step, f);
     if (step->limits->feel) {
         a.gravity *= tahr__gravity_factor(step, a.rise);
         a.terminal = fastest_fall(step);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * sweep.c: the sweep slot: for each piece that Box2D finds the first fraction by tangents of the convex distance,
  * then who comes first. */
+#include "../common/graze.h"
 #include "../common/hits.h"
 #include "../common/one_way.h"
 #include "scene.h"
@@ -116,6 +117,23 @@ static void pass_seam(search *s, meeting *m)
     }
 }
 
+/* Does the shape only pass what it has come within the margin of? */
+static int passes(const search *s, const meeting *m, double gap, double speed)
+{
+    const tahr__b2_probe *p = s->probe;
+    const tahr__descent here = {gap, speed, m->fraction};
+    tahr__descent there = here;
+    tahr__flat_near near;
+
+    if (speed > TAHR__GRAZING * p->motion_length) return 0;
+    there.fraction = tahr__beyond(&here, p->shape.radius + m->piece->flat.radius + p->margin, p->motion_length);
+    p->context->narrow_iterations++;
+    tahr__flat_measure(&p->shape, place_at(s, there.fraction), &m->piece->flat, 0, &near);
+    there.gap = near.distance - p->margin;
+    there.speed = -f_dot(p->motion, near.normal);
+    return tahr__grazes(&here, &there, p->motion_length, ARRIVED);
+}
+
 /* A tangent of a convex function lies below it: a step to its root never overshoots. Returns 1 if they meet. */
 static int advance(search *s, meeting *m)
 {
@@ -125,7 +143,7 @@ static int advance(search *s, meeting *m)
     for (int i = 0; i < MAX_TANGENTS; i++) {
         double gap = m->near.distance - p->margin, speed = -f_dot(p->motion, m->near.normal);
         m->fraction = t;
-        if (gap <= ARRIVED && i > 0) return 1;
+        if (gap <= ARRIVED && i > 0) return !passes(s, m, gap, speed);
         if (!(speed > 0)) return 0;
         t += gap / speed;
         if (t > limit) return 0;

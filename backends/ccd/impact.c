@@ -2,6 +2,7 @@
  * impact.c: the first fraction of the motion at which the shape comes within its margin of a convex piece: by tangents
  * of the distance, which is convex along the motion; where the setting says so, libccd's boolean brackets it by
  * bisection before. */
+#include "../common/graze.h"
 #include "scene.h"
 
 /* Arrived (m). libccd's own answer scatters by 1e-8 to 1e-5 m around contact. */
@@ -11,6 +12,21 @@
 /* Growth of the steps that look for the far end of the bracket. */
 #define STRIDE 16
 enum { MAX_APPROACHES = 4, MAX_BISECTIONS = 40, MAX_TANGENTS = 64 };
+
+/* Does the shape only pass what it has come within the margin of? */
+static int passes(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, const tahr__descent *here)
+{
+    tahr__descent there = *here;
+    tahr__ccd_near near;
+
+    if (here->speed > TAHR__GRAZING * probe->motion_length) return 0;
+    there.fraction = tahr__beyond(here, probe->radius + piece->radius + probe->margin, probe->motion_length);
+    probe->context->narrow_iterations++;
+    tahr__ccd_measure_far(probe, piece, v_scale(probe->motion, there.fraction), &near);
+    there.gap = near.distance - probe->margin;
+    there.speed = -v_dot(probe->motion, near.normal);
+    return tahr__grazes(here, &there, probe->motion_length, ARRIVED);
+}
 
 /* A tangent of a convex function lies below it: a step to its root never overshoots, and one that starts late goes back
  * to the early side. came_by_tangent: *fraction is such a root, of the tangent at *near. */
@@ -24,7 +40,8 @@ static tahr__ccd_verdict advance(const tahr__ccd_probe *probe, const tahr__ccd_p
         probe->context->narrow_iterations++;
         double gap = near->distance - probe->margin, speed = -v_dot(probe->motion, near->normal);
         *fraction = t;
-        if (gap <= ARRIVED && gap >= -ARRIVED) return TAHR__CCD_HIT;
+        if (gap <= ARRIVED && gap >= -ARRIVED)
+            return passes(probe, piece, &(tahr__descent){gap, speed, t}) ? TAHR__CCD_FREE : TAHR__CCD_HIT;
         if (came_by_tangent && gap < 0) {
             /* They touch, no more. What is deeper is the way back to the front of a triangle that is crossed there: the
              * contact itself is seen from a micrometre before. */

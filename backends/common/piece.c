@@ -3,6 +3,7 @@
 #include "piece.h"
 
 #include "core_box.h"
+#include "graze.h"
 
 /* Nearer than this the direction between the nearest points is rounding: the way out is taken instead. */
 #define TOUCHING 1e-10
@@ -292,6 +293,22 @@ static int look_back(const tahr__motion *motion, const tahr__piece *piece, doubl
     return 0;
 }
 
+/* Does the shape only pass what it has come within the margin of? */
+static int passes(const tahr__motion *motion, const tahr__piece *piece, const tahr__descent *here)
+{
+    double length = v_length(motion->motion);
+    tahr__descent there = *here;
+    tahr__near near;
+
+    if (here->speed > TAHR__GRAZING * length) return 0;
+    there.fraction = tahr__beyond(here, motion->shape->radius + piece->radius + motion->margin, length);
+    ++*motion->iterations;
+    tahr__piece_measure(motion->shape, v_scale(motion->motion, there.fraction), piece, &near);
+    there.gap = near.distance - motion->margin;
+    there.speed = -v_dot(motion->motion, near.normal);
+    return tahr__grazes(here, &there, length, ARRIVED);
+}
+
 /* A tangent of a convex function lies below it: a step to its root never overshoots, and one that starts late goes back
  * to the early side. */
 tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece *piece, double limit, double *fraction,
@@ -306,7 +323,8 @@ tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece 
         double gap = near->distance - motion->margin, speed = -v_dot(motion->motion, near->normal);
         ++*motion->iterations;
         *fraction = t;
-        if (gap <= ARRIVED && gap >= -ARRIVED) return TAHR__HIT;
+        if (gap <= ARRIVED && gap >= -ARRIVED)
+            return passes(motion, piece, &(tahr__descent){gap, speed, t}) ? TAHR__FREE : TAHR__HIT;
         if (gap < 0 && piece->kind == TAHR__TRIANGLE && motion->shape->radius + motion->margin <= 0)
             return look_back(motion, piece, fraction, near) ? TAHR__HIT : TAHR__UNKNOWN;
         if (near->rough && gap < 0 && by_tangent)

@@ -139,5 +139,10 @@ void moment_watch(struct run *run, const struct moment *m, struct character *cha
         add_finding(run, m, "stuck", state->position);
         track_mark(&run->track, m->index, TRACK_STUCK, end, foot_of(state->position, state));
     }
+    if (progress_hangs(&character->progress, state, end)) {
+        run->result.hung++;
+        add_finding(run, m, "hangs in the air", state->position);
+        track_mark(&run->track, m->index, TRACK_STUCK, end, foot_of(state->position, state));
+    }
     bring_back(run, m, character);
 }

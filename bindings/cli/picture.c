@@ -29,7 +29,7 @@ static const struct kind kinds[] = {
     {TAHR_EVENT_LAUNCHED, SHAPE_UP, 4.6, {0.60, 0.22, 0.58}, "launched"},
     {TAHR_EVENT_CRUSHED, SHAPE_CROSS, 4, {0.4, 0.0, 0.4}, "crushed"},
     {TRACK_FELL_OUT, SHAPE_CROSS, 5, {0.8, 0.05, 0.1}, "fell out"},
-    {TRACK_STUCK, SHAPE_RING, 6, {0.8, 0.05, 0.1}, "stuck for good"},
+    {TRACK_STUCK, SHAPE_RING, 6, {0.8, 0.05, 0.1}, "stuck, or hung in the air"},
     {TRACK_TUNNEL, SHAPE_RING, 9, {0.9, 0, 0.6}, "tunnelled"},
 };
 

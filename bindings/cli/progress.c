@@ -10,10 +10,13 @@
 #define HEADINGS 5
 #define DIRECTIONS 16
 #define FREE_STEP 0.1 /* m */
+#define FALLEN 0.01   /* m */
+#define HANG 0.5      /* s */
 
 void progress_start(struct progress *progress, const tahr_state *state, double time)
 {
-    *progress = (struct progress){.anchor = state->position, .since = time};
+    *progress =
+        (struct progress){.anchor = state->position, .since = time, .held = state->position, .held_since = time};
 }
 
 tahr_shape shape_now(const tahr_config *config, const tahr_state *state)
@@ -47,18 +50,37 @@ static int could_move(tahr_world *world, const tahr_config *config, const tahr_s
     return 0;
 }
 
+static void start_anew(struct progress *progress, const tahr_state *state, double time)
+{
+    progress->anchor = state->position;
+    progress->since = time;
+    progress->headings = 0;
+}
+
 int progress_watch(struct progress *progress, tahr_world *world, const tahr_config *config, const tahr_state *state,
                    const tahr_input *input, int heading_is_new, double time)
 {
     tahr_vec3 gone = vec_sub(state->position, progress->anchor);
     if (vec_dot(gone, gone) >= PROGRESS * PROGRESS || vec_dot(input->move, input->move) == 0) {
-        progress_start(progress, state, time);
+        start_anew(progress, state, time);
         return 0;
     }
     progress->headings += heading_is_new != 0;
     if (time - progress->since < PATIENCE || progress->headings < HEADINGS) {
         return 0;
     }
-    progress_start(progress, state, time);
+    start_anew(progress, state, time);
     return could_move(world, config, state);
+}
+
+int progress_hangs(struct progress *progress, const tahr_state *state, double time)
+{
+    tahr_vec3 gone = vec_sub(state->position, progress->held);
+    int falls = state->mode == TAHR_MODE_FALLING && vec_dot(gone, gone) < FALLEN * FALLEN;
+    if (falls && time - progress->held_since < HANG - 1e-9) { /* the rounding of a sum of steps */
+        return 0;
+    }
+    progress->held = state->position;
+    progress->held_since = time;
+    return falls;
 }

@@ -330,7 +330,7 @@ static int finish(struct run *run)
     struct result *r = &run->result;
     r->state_hash = hash_states(run);
     r->world_bytes = tahr_world_memory(run->world);
-    r->failed = r->tunnels > 0 || r->crushed_alone > 0 || r->bad_states > 0 || r->stuck > 0 ||
+    r->failed = r->tunnels > 0 || r->crushed_alone > 0 || r->bad_states > 0 || r->stuck > 0 || r->hung > 0 ||
                 r->deepest > o->backend->penetration_allowed;
     if (close_trace(run) != 0) {
         return -1;

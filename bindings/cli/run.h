@@ -28,7 +28,7 @@ struct result {
     uint32_t most_queries; /* in one step */
     uint64_t modes[MODES]; /* steps that ended in each mode */
     uint64_t events[EVENT_TYPES];
-    uint64_t fell_out, stuck, bad_states, unknown, query_caps;
+    uint64_t fell_out, stuck, hung, bad_states, unknown, query_caps;
     double time_lost; /* s */
     uint64_t checked, tunnels;
     uint64_t crushed, crushed_alone; /* of the steps looked at; alone: with no mover near */

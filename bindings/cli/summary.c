@@ -107,7 +107,8 @@ void summary_words(const struct options *o, const struct level *level, const str
            " jumps, %" PRIu64 " landings\n",
            100 * per_step(r, r->modes[TAHR_MODE_WALKING]), r->events[TAHR_EVENT_STEPPED_UP],
            r->events[TAHR_EVENT_STEPPED_DOWN], r->events[TAHR_EVENT_JUMPED], r->events[TAHR_EVENT_LANDED]);
-    printf("  trouble    %" PRIu64 " fell out of the level, %" PRIu64 " stuck for good\n", r->fell_out, r->stuck);
+    printf("  trouble    %" PRIu64 " fell out of the level, %" PRIu64 " stuck for good, %" PRIu64 " hung in the air\n",
+           r->fell_out, r->stuck, r->hung);
     if (level->side != NULL) {
         words_places(level);
     }
@@ -191,6 +192,7 @@ static void put_behaviour(json_t *object, const struct result *r)
     put_count(object, "landings", r->events[TAHR_EVENT_LANDED]);
     put_count(object, "fell_out", r->fell_out);
     put_count(object, "stuck", r->stuck);
+    put_count(object, "hung", r->hung);
     put_count(object, "bad_states", r->bad_states);
     put_count(object, "depenetrated", r->events[TAHR_EVENT_DEPENETRATED]);
     put_count(object, "crushed", r->events[TAHR_EVENT_CRUSHED]);

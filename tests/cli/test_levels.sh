@@ -16,7 +16,7 @@ walk() {
         tahr run "$@" --backend "$backend" --characters 32 --seconds 5 --check all --json
         expect 0
         [ "$(value level)" = "$name" ] && [ "$(value backend)" = "$backend" ] || fail "wrong facts about $name on $backend"
-        for key in tunnels stuck bad_states; do
+        for key in tunnels stuck hung bad_states; do
             [ "$(value $key)" = 0 ] || fail "$name on $backend: $key $(value $key)"
         done
     done <"$work/backends"

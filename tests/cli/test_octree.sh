@@ -14,7 +14,7 @@ for kind in bt ot; do
     tahr run --level "$work/room.$kind" --backend fcl --characters 8 --seconds 6 --check all --json
     expect 0
     [ "$(value level)" = "room.$kind" ] && [ "$(value backend)" = fcl ] || fail "wrong facts about room.$kind"
-    for key in tunnels stuck bad_states fell_out; do
+    for key in tunnels stuck hung bad_states fell_out; do
         [ "$(value $key)" = 0 ] || fail "room.$kind: $key $(value $key)"
     done
     [ "$(value steps_climbed)" -gt 0 ] || fail "room.$kind: nobody climbed a voxel"

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * test_parts.c: the parts of the shell that the word of a run rests on: the independent checker against brute force,
  * the random numbers and headings of wandering against published and libm values, and the histogram of step times.
- * Build: with bindings/cli as an include directory and its check.c, level.c, say.c, stats.c, wander.c. */
+ * Build: with bindings/cli as an include directory and its check.c, level.c, progress.c, say.c, stats.c, wander.c. */
 #include "check.h"
+#include "progress.h"
 #include "say.h"
 #include "stats.h"
 #include "vec.h"
@@ -253,6 +254,34 @@ static void quantiles_are_exact_below_65_us_and_within_two_percent_above(void **
     times_close(&times);
 }
 
+/* Steps of 10 Hz; returns how often it was told to hang. */
+static int hangs(uint32_t mode, double rise, double gravity, double seconds)
+{
+    struct progress progress;
+    tahr_state state = {.mode = mode, .up = {0, 0, 1}};
+    int found = 0;
+    progress_start(&progress, &state, 0);
+    for (int i = 1; i <= seconds * 10 + 0.5; i++) {
+        double t = i / 10.0;
+        state.position.z = rise * t - gravity * t * t / 2;
+        found += progress_hangs(&progress, &state, t);
+    }
+    return found;
+}
+
+static void who_falls_and_stays_where_it_is_hangs_in_the_air(void **state)
+{
+    (void)state;
+    assert_int_equal(hangs(TAHR_MODE_FALLING, 0, 0, 0.4), 0);
+    assert_int_equal(hangs(TAHR_MODE_FALLING, 0, 0, 0.5), 1);
+    assert_int_equal(hangs(TAHR_MODE_FALLING, 0, 0, 2), 4);
+    assert_int_equal(hangs(TAHR_MODE_WALKING, 0, 0, 2), 0);
+    assert_int_equal(hangs(TAHR_MODE_FALLING, 0, 9.81, 2), 0);
+    assert_int_equal(hangs(TAHR_MODE_FALLING, 4.905, 9.81, 2), 0); /* an apex */
+    assert_int_equal(hangs(TAHR_MODE_FALLING, -0.019, 0, 2), 4);   /* 9.5 mm in half a second */
+    assert_int_equal(hangs(TAHR_MODE_FALLING, -0.021, 0, 2), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -260,6 +289,7 @@ int main(void)
         cmocka_unit_test(every_segment_out_of_a_closed_box_is_a_crossing),
         cmocka_unit_test(a_crossing_of_a_terrain_is_seen_whatever_the_edge_it_goes_through),
         cmocka_unit_test(round_bodies_count_from_their_surface),
+        cmocka_unit_test(who_falls_and_stays_where_it_is_hangs_in_the_air),
         cmocka_unit_test(random_numbers_are_those_of_pcg32),
         cmocka_unit_test(headings_lie_on_the_unit_circle),
         cmocka_unit_test(wandering_does_not_depend_on_the_step_rate),

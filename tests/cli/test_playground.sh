@@ -10,7 +10,7 @@ go() {
     route=$1
     tahr run --route "$routes/$route.json" --seconds 12 --check all --json --csv "$work/csv"
     expect 0
-    [ "$(value stuck)$(value fell_out)$(value tunnels)$(value query_caps)" = 0000 ] || fail "$route: $(cat "$work/out")"
+    [ "$(value stuck)$(value hung)$(value fell_out)$(value tunnels)$(value query_caps)" = 00000 ] || fail "$route: $(cat "$work/out")"
 }
 
 # modes NAMES: the modes it goes through, from when it first stands.

@@ -8,7 +8,7 @@ tahr $run --csv "$work/a.csv" --plot "$work/a.svg"
 expect 0
 is_json || fail "run --json is no JSON"
 for key in level backend preset characters steps ns_median ns_p99 sweeps_per_step triangle_tests_per_step grounded \
-    steps_climbed jumps fell_out stuck tunnels deepest_penetration state_hash; do
+    steps_climbed jumps fell_out stuck hung tunnels deepest_penetration state_hash; do
     [ -n "$(value $key)" ] || fail "no key '$key' in the summary"
 done
 [ "$(value level)" = playground ] && [ "$(value backend)" = native ] && [ "$(value steps)" = 5760 ] || fail "wrong facts"

@@ -14,7 +14,7 @@ tour() {
     expect 0
     # One look at the summary: every number that has to be zero, and the 15 watched places.
     awk -F': ' '
-        /^  "(tunnels|stuck|bad_states|fell_out|crushed|query_caps)": / && $2 != "0," { print $0; bad = 1 }
+        /^  "(tunnels|stuck|hung|bad_states|fell_out|crushed|query_caps)": / && $2 != "0," { print $0; bad = 1 }
         /^  "places"/ { inside = 1; next }
         /^  }/ { inside = 0 }
         inside { known++; if ($2 !~ /^[0-9]/) { print "never came to" $1; bad = 1 } }

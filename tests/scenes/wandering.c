@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * wandering.c: wandering on the shared levels and on generated ones: no error, no NaN, no tunnelling, the skin
- * kept, nobody stuck for good. */
+ * kept, nobody stuck for good, nobody hanging in the air. */
 #include "wandering.h"
 
 #include <math.h>
@@ -18,12 +18,17 @@ enum { CHARACTERS = 16, STUCK_CHANGES = 5, STUCK_DIRECTIONS = 16, SKIPPED = 77 }
  * is 10 m below everything fell out. */
 static const double DT = 1.0 / 60, STUCK_SECONDS = 10, STUCK_WAY = 0.2, FREE_STEP = 0.1, FELL = 10;
 
+/* Half a second of a free fall are 0.3 m even around its apex, and half of that on a slope of 50 degrees. */
+static const double HANG_SECONDS = 0.5, HANG_WAY = 0.01;
+
 typedef struct character {
     tahr_state state;
     scene_wanderer wanderer;
     tahr_vec3 anchor; /* the last place it was 0.2 m away from */
     double waited;    /* s since then */
     uint32_t changes; /* its headings at that time */
+    tahr_vec3 held;   /* the last place it had fallen 1 cm to, or stood at */
+    double hung;      /* s since then */
 } character;
 
 typedef struct watch {
@@ -34,7 +39,7 @@ typedef struct watch {
     tahr_mover *mover;
     tahr_bounds bounds;
     uint64_t seed;
-    long tunnels, deep, close, stuck, fell, walking, steps, odd;
+    long tunnels, deep, close, stuck, hung, fell, walking, steps, odd;
     double nearest; /* m, smallest distance of the true shape; negative: penetration */
     char failure[512];
 } watch;
@@ -105,6 +110,21 @@ static void look_for_stuck(watch *w, character *c, int id, int step)
     }
 }
 
+static void look_for_hanging(watch *w, character *c, int id, int step)
+{
+    int held = c->state.mode == TAHR_MODE_FALLING && apart(c->state.position, c->held) < HANG_WAY;
+    c->hung += DT;
+    if (held && c->hung < HANG_SECONDS) {
+        return;
+    }
+    if (held) {
+        w->hung++;
+        accuse(w, "hangs in the air for s", c->hung, c, &c->state, id, step);
+    }
+    c->held = c->state.position;
+    c->hung = 0;
+}
+
 static int place(watch *w, character *c)
 {
     if (!scene_wander_spawn(w->world, &w->config, &w->bounds, &w->seed, &c->state)) {
@@ -146,6 +166,7 @@ static int take_step(watch *w, character *c, int id, int step)
     }
     w->walking += c->state.mode == TAHR_MODE_WALKING;
     look_for_stuck(w, c, id, step);
+    look_for_hanging(w, c, id, step);
     if (p.z < w->bounds.min.z - FELL) {
         w->fell++;
         return place(w, c);
@@ -191,9 +212,9 @@ static int run_level(const char *name, const scene_mesh *mesh, const scene_solid
     tahr_mover_destroy(w.mover);
     tahr_world_close(w.world);
     printf("%-11s %-14s %8ld steps, %3.0f%% walking, fell out %ld, nearest %9.6f m, tunnels %ld, deep %ld, close %ld, "
-           "stuck %ld, odd %ld\n",
+           "stuck %ld, hung %ld, odd %ld\n",
            name, backend->name, w.steps, 100.0 * (double)w.walking / (double)(w.steps + !w.steps), w.fell, w.nearest,
-           w.tunnels, w.deep, w.close, w.stuck, w.odd);
+           w.tunnels, w.deep, w.close, w.stuck, w.hung, w.odd);
     if (w.failure[0]) {
         printf("    %s\n", w.failure);
     }

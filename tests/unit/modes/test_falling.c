@@ -283,6 +283,35 @@ static void steep_slope_does_not_lift_a_falling_character(void **unused)
     }
 }
 
+/* Air control stronger than gravity would hold the character on the slope. The way down a slope of angle a is
+ * g sin(a)^2 t^2 / 2, as without a wish; of a wish askew to it the part along it acts. The wish is whole for the
+ * moment that a step takes to meet the slope anew: 0.1 mm for all of those. */
+static void a_wish_into_a_steep_slope_holds_nobody_on_it(void **unused)
+{
+    (void)unused;
+    static const double CONTROLS[] = {0.25, 0.6, 1, 3}, ANGLES[] = {55, 60, 75};
+    for (int k = 0; k < 2 * 4 * 3 * RIG_RATES; k++) {
+        fake_world w;
+        rig r;
+        double rate = rig_rates[k % RIG_RATES], T = 0.5;
+        double degrees = ANGLES[k / RIG_RATES % 3], angle = degrees * acos(-1.0) / 180;
+        int askew = k / RIG_RATES / 12;
+        fake_world_init(&w);
+        fake_add_slope(&w, degrees);
+        tahr_config c = rig_config();
+        c.air_control = CONTROLS[k / RIG_RATES / 3 % 4];
+        c.max_speed = 100;
+        double height = (0.35 + 0.01) / cos(angle) + 0.55;
+        rig_open(&r, &w, &c, fake_vec(0, 0, height));
+        r.input.move = askew ? fake_vec(0.8, 0.6, 0) : fake_vec(1, 0, 0);
+        rig_steps(&r, (int)(T * rate), 1 / rate);
+        assert_int_equal(r.state.mode, TAHR_MODE_FALLING);
+        assert_near(r.state.position.z, height - 0.5 * 9.81 * sin(angle) * sin(angle) * T * T, 1e-4);
+        assert_near(r.state.position.y, askew ? 0.5 * 0.6 * c.air_control * c.acceleration * T * T : 0, 1e-6);
+        rig_close(&r);
+    }
+}
+
 static void falling_along_a_wall_keeps_the_fall(void **unused)
 {
     (void)unused;
@@ -350,6 +379,7 @@ int main(void)
                                        cmocka_unit_test(ceiling_stops_the_rise_and_is_never_touched),
                                        cmocka_unit_test(sliding_down_a_steep_slope_accelerates_at_g_sine),
                                        cmocka_unit_test(steep_slope_does_not_lift_a_falling_character),
+                                       cmocka_unit_test(a_wish_into_a_steep_slope_holds_nobody_on_it),
                                        cmocka_unit_test(falling_along_a_wall_keeps_the_fall),
                                        cmocka_unit_test(remaining_time_after_landing_is_walked),
                                        cmocka_unit_test(weightless_input_gravity_flies_straight)};

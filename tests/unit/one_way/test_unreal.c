@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * test_unreal.c: one-way bodies for the rules of UNREAL: sweeps without a margin, a floor probe that begins above
- * the foot. */
+ * the foot, flat feet that land on slopes and edges. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -131,22 +131,118 @@ static void hills_are_walked_over_one_way_or_solid(void **unused)
     static const double ANGLES[] = {15, 22.5, 30, 37.5};
     for (int world = 0; world < LAYERS_WORLDS; world++) {
         oracle_random dice = {11};
-        for (int k = 0; k < 16; k++) {
+        for (int k = 0; k < 32; k++) {
             for (int i = world < 2 ? 0 : k % 5; i < RIG_RATES; i += world < 2 ? 1 : 5) {
                 static layers l;
                 rig r;
-                double angle = ANGLES[k / 4] * RADIAN, direction = k & 1 ? -1 : 1;
+                double angle = ANGLES[k / 8] * RADIAN, direction = k & 1 ? -1 : 1;
                 hill h = {3 * cos(angle), 3 * sin(angle), tan(angle)};
                 if (!layers_begin(&l, world)) {
                     break;
                 }
                 add_hill(&l, &h, k & 2 ? TAHR_BODY_ONE_WAY : 0);
                 tahr_config c = layers_config(&l, TAHR_PRESET_UNREAL);
+                if (k & 4) {
+                    c.shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.3, .half_y = 0.3};
+                }
                 double begin = h.run + 1 - direction * (h.run + 3 + oracle_uniform(&dice, 0, 1));
                 layers_open(&l, &r, &c, begin, 0.1);
                 walk_over_hill(&l, &h, &r, direction, 1 / rig_rates[i]);
                 rig_close(&r);
             }
+        }
+    }
+}
+
+/* The upper side of its foot touches the slope: half the width times the slope above the axis' ground. */
+static void flat_feet_land_on_a_slope_and_stay(void **unused)
+{
+    (void)unused;
+    static const double ANGLES[] = {1, 10, 22.5, 40};
+    static const tahr_shape FEET[] = {
+        {.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.3, .half_y = 0.25},
+        {.type = TAHR_SHAPE_CYLINDER, .half_height = 0.9, .radius = 0.3},
+        {.type = TAHR_SHAPE_CONE, .half_height = 0.9, .radius = 0.3},
+    };
+    static const uint32_t NEEDED[] = {TAHR_CAP_BOX, TAHR_CAP_CYLINDER, TAHR_CAP_CONE};
+    for (int world = 0; world < LAYERS_WORLDS; world++) {
+        for (int k = 0; k < 24; k++) {
+            static layers l;
+            rig r;
+            double angle = ANGLES[k / 2 % 4] * RADIAN, up = 5 * tan(angle);
+            if (!layers_begin(&l, world)) {
+                break;
+            }
+            if (!(l.backend->capabilities & NEEDED[k / 8])) {
+                continue;
+            }
+            layers_slope(&l, (tahr_vec3){-5, -up, 0}, (tahr_vec3){5, up, 0}, k & 1 ? TAHR_BODY_ONE_WAY : 0);
+            tahr_config c = layers_config(&l, TAHR_PRESET_UNREAL);
+            c.shape = FEET[k / 8];
+            layers_open(&l, &r, &c, 0, 1);
+            rig_steps(&r, 60, 1.0 / 60);
+            assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
+            assert_near(layers_x(&l, r.state.position), 0, 1e-6);
+            /* and the band of 1.9 to 2.4 cm; the probe is 0.15 cm thinner */
+            assert_near(layers_foot(&l, &r) - 0.3 * tan(angle), 0.0215, 0.0027 + 0.0015 * tan(angle));
+            rig_close(&r);
+        }
+    }
+}
+
+/* Which point of a flat contact a backend names is its affair: it may be the rim, and nothing lets a level foot slide
+ * off a level top. */
+static void a_box_stands_on_an_edge_with_whatever_part_of_it(void **unused)
+{
+    (void)unused;
+    static const double OVER[] = {1e-4, 1e-3, 2e-3, 0.02, 0.1, 0.3};
+    for (int world = 0; world < LAYERS_WORLDS; world++) {
+        for (int k = 0; k < 6; k++) {
+            static layers l;
+            rig r;
+            if (!layers_begin(&l, world)) {
+                break;
+            }
+            layers_add(&l, LAYER_BOX, -4, OVER[k] - 0.3, 1, 0);
+            layers_add(&l, LAYER_BOX, -4, 4, -1, 0);
+            tahr_config c = layers_config(&l, TAHR_PRESET_UNREAL);
+            c.shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.3, .half_y = 0.25};
+            layers_open(&l, &r, &c, 0, 1.5);
+            rig_steps(&r, 60, 1.0 / 60);
+            assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
+            assert_near(layers_foot(&l, &r), 1.0215, 0.0026);
+            rig_close(&r);
+        }
+    }
+}
+
+/* The edge of a slope, met flat: its own face slopes, and which point of it is named may be the end of the foot. */
+static void a_box_stands_on_the_crest_of_a_slope(void **unused)
+{
+    (void)unused;
+    for (int world = 0; world < LAYERS_WORLDS; world++) {
+        for (int k = 0; k < 12; k++) {
+            static layers l;
+            rig r;
+            double x = -0.25 + 0.1 * (k / 2);
+            if (!layers_begin(&l, world)) {
+                break;
+            }
+            if (k & 1) {
+                layers_add(&l, LAYER_BOX, 0, 4, 0, 0);
+            }
+            layers_slope(&l, (tahr_vec3){-2, -1, 0}, (tahr_vec3){0, 0, 0}, 0);
+            if (!(k & 1)) {
+                layers_add(&l, LAYER_BOX, 0, 4, 0, 0);
+            }
+            tahr_config c = layers_config(&l, TAHR_PRESET_UNREAL);
+            c.shape = (tahr_shape){.type = TAHR_SHAPE_BOX, .half_height = 0.9, .half_x = 0.3, .half_y = 0.25};
+            layers_open(&l, &r, &c, x, 0.1);
+            rig_steps(&r, 60, 1.0 / 60);
+            assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
+            assert_near(layers_x(&l, r.state.position), x, 1e-6);
+            assert_near(layers_foot(&l, &r), 0.0215, 0.0026);
+            rig_close(&r);
         }
     }
 }
@@ -192,6 +288,9 @@ int main(void)
         cmocka_unit_test(a_crest_stops_what_comes_down_without_a_margin),
         cmocka_unit_test(who_is_put_exactly_onto_a_platform_is_above_it),
         cmocka_unit_test(hills_are_walked_over_one_way_or_solid),
+        cmocka_unit_test(flat_feet_land_on_a_slope_and_stay),
+        cmocka_unit_test(a_box_stands_on_an_edge_with_whatever_part_of_it),
+        cmocka_unit_test(a_box_stands_on_the_crest_of_a_slope),
         cmocka_unit_test(what_is_above_the_foot_is_no_floor),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
