@@ -2,32 +2,26 @@
  * ccd.c: the table of the ccd backend: its slots are those of convex pieces, found by walk.c. */
 #include "scene.h"
 
-static tahr__piece_query *begin(tahr__ccd_walk *walk, void *self, tahr_query_context *context)
-{
-    walk->query.finder = &tahr__ccd_finder;
-    walk->query.scene = self;
-    walk->query.context = context;
-    return &walk->query;
-}
-
 static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
                          uint32_t capacity, uint32_t *count)
 {
     tahr__ccd_walk walk;
-    return tahr__piece_sweep(begin(&walk, self, context), query, hits, capacity, count);
+    return tahr__piece_sweep(tahr__piece_query_by(&walk.query, &tahr__ccd_finder, self, context), query, hits, capacity,
+                             count);
 }
 
 static tahr_status contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
                             tahr_contact *found, uint32_t capacity, uint32_t *count)
 {
     tahr__ccd_walk walk;
-    return tahr__piece_contacts(begin(&walk, self, context), query, found, capacity, count);
+    return tahr__piece_contacts(tahr__piece_query_by(&walk.query, &tahr__ccd_finder, self, context), query, found,
+                                capacity, count);
 }
 
 static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
 {
     tahr__ccd_walk walk;
-    return tahr__piece_ray(begin(&walk, self, context), query, hit, count);
+    return tahr__piece_ray(tahr__piece_query_by(&walk.query, &tahr__ccd_finder, self, context), query, hit, count);
 }
 
 static const tahr_backend backend = {

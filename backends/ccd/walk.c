@@ -21,15 +21,10 @@ static double scale_of(const tahr_shape *shape)
     return scale;
 }
 
-static tahr_bounds world_box(const tahr__piece_query *q)
-{
-    return (tahr_bounds){v_add(q->box.min, q->start.origin), v_add(q->box.max, q->start.origin)};
-}
-
 static void rewind_walk(tahr__piece_query *q)
 {
     tahr__ccd_walk *walk = (tahr__ccd_walk *)q;
-    tahr_bounds world = world_box(q);
+    tahr_bounds world = tahr__piece_query_box(q);
 
     walk->inside = walk->first = walk->count = 0;
     tahr__body_walk_begin(&walk->bodies, &tahr__ccd_scene_of(q)->tree, &world, q->start.origin);
@@ -39,8 +34,7 @@ static void rewind_walk(tahr__piece_query *q)
 static void enter_mesh(tahr__ccd_walk *walk, const tahr__scene_body *body)
 {
     const tahr__piece_query *q = &walk->query;
-    tahr_vec3 middle = v_scale(v_add(q->box.min, q->box.max), 0.5),
-              half = v_scale(v_sub(q->box.max, q->box.min), 0.5);
+    tahr_vec3 middle = v_scale(v_add(q->box.min, q->box.max), 0.5), half = v_scale(v_sub(q->box.max, q->box.min), 0.5);
     tahr_vec3 from_body = v_sub(q->start.origin, body->pose.position);
     tahr_vec3 centre = m_unapply(&body->turn, v_add(from_body, middle));
     tahr_vec3 extent = v_scale(v_abs(body->turn.row[0]), half.x);

@@ -213,7 +213,8 @@ static tahr_status build_tree(const tahr_host *host, tahr__mesh *mesh)
 /* Rings: all triangles at one edge linked in a circle, found through a table keyed by the edge's two corners. */
 static tahr_status connect(const tahr_host *host, tahr__mesh *mesh)
 {
-    uint32_t edges = mesh->triangle_count * 3, size = table_size(edges), *table = tahr__room_get(host, size, sizeof *table);
+    uint32_t edges = mesh->triangle_count * 3, size = table_size(edges),
+             *table = tahr__room_get(host, size, sizeof *table);
     if (!table) return TAHR_E_MEMORY;
     memset(table, 0xff, size * sizeof *table);
     for (uint32_t e = 0; e < edges; e++) {

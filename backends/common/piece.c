@@ -81,7 +81,8 @@ void tahr__piece_round(const tahr__placement *frame, double radius, double reach
 void tahr__piece_swept(const tahr__placement *frame, uint32_t kind, double radius, double reach, tahr__piece *piece)
 {
     begin(piece, TAHR__CONVEX, frame);
-    piece->convex = (tahr__convex_side){.convex = {.kind = kind, .centre = frame->base, .radius = radius * frame->scale}};
+    piece->convex =
+        (tahr__convex_side){.convex = {.kind = kind, .centre = frame->base, .radius = radius * frame->scale}};
     piece->convex.convex.axis[0] = column(frame, 2, reach);
 }
 

@@ -60,8 +60,7 @@ typedef struct tahr__start {
 } tahr__start;
 
 /* A frame from a position and a turn, seen from there. */
-void tahr__placement_make(tahr_vec3 position, const tahr__mat *turn, const tahr__start *start,
-                          tahr__placement *frame);
+void tahr__placement_make(tahr_vec3 position, const tahr__mat *turn, const tahr__start *start, tahr__placement *frame);
 
 /* Fill in a piece; the frame must live as long as it. Round bodies: reach is half the axis along z. */
 void tahr__piece_triangle(const tahr__placement *frame, const tahr__mesh *mesh, uint32_t triangle, tahr__piece *piece);

@@ -55,6 +55,16 @@ struct tahr__piece_finder {
                              tahr__near *near);
 };
 
+/* A query of a slot, to be answered by one of the next three. self: the scene. */
+static inline tahr__piece_query *tahr__piece_query_by(tahr__piece_query *query, const tahr__piece_finder *finder,
+                                                      const void *self, tahr_query_context *context)
+{
+    query->finder = finder;
+    query->scene = (const tahr__scene *)self;
+    query->context = context;
+    return query;
+}
+
 /* The slots; query comes with finder, scene and context. TAHR_E_UNSUPPORTED for what is no shape, TAHR_E_ARGUMENT for
  * numbers that are not finite or beyond 1e8 m. */
 tahr_status tahr__piece_sweep(tahr__piece_query *query, const tahr_sweep *sweep, tahr_hit *hits, uint32_t capacity,
@@ -90,6 +100,12 @@ static inline tahr__motion tahr__piece_query_motion(const tahr__piece_query *que
 {
     tahr__motion m = {&query->shape, query->motion, query->margin, &query->context->narrow_iterations, 0, 0};
     return m;
+}
+/* The box in the world. */
+static inline tahr_bounds tahr__piece_query_box(const tahr__piece_query *query)
+{
+    tahr_bounds b = {v_add(query->box.min, query->start.origin), v_add(query->box.max, query->start.origin)};
+    return b;
 }
 /* A place of the query in the world. */
 static inline tahr_vec3 tahr__piece_query_world(const tahr__piece_query *query, tahr_vec3 p)

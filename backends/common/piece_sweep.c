@@ -140,11 +140,8 @@ tahr_status tahr__piece_sweep(tahr__piece_query *q, const tahr_sweep *sweep, tah
     q->flags = sweep->flags;
     tahr_status status = tahr__piece_query_begin(q, sweep->position, &shape);
     s.query = q;
-    s.one_way = (tahr__one_way_sweep){.up = q->up,
-                                      .motion = q->motion,
-                                      .motion_length = q->motion_length,
-                                      .margin = q->margin,
-                                      .flags = q->flags};
+    s.one_way = (tahr__one_way_sweep){
+        .up = q->up, .motion = q->motion, .motion_length = q->motion_length, .margin = q->margin, .flags = q->flags};
     if (status >= 0) {
         s.one_way.low = tahr__shape_extent(&q->shape, v_scale(q->up, -1)) + q->shape.radius;
         do

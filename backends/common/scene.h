@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * scene.h: the bodies of a scene in space: who they are, what they are made of, where they are. A backend whose engine
- * only finds them keeps the rest here. */
+ * only finds them keeps the rest here. Slots take a scene that begins with a tahr__scene for self. */
 #ifndef TAHR_COMMON_SCENE_H
 #define TAHR_COMMON_SCENE_H
 
@@ -23,7 +23,6 @@ typedef struct tahr__scene_body {
     double mass;
 } tahr__scene_body;
 
-/* A backend's own scene begins with it. */
 typedef struct tahr__scene {
     const tahr_host *host;
     tahr__scene_body *bodies;
@@ -33,23 +32,28 @@ typedef struct tahr__scene {
     tahr__fluids fluids;
 } tahr__scene;
 
-/* Room for count bodies, none of them there yet, and the fluids of desc. scene: zeroed; to be closed in any case. */
-tahr_status tahr__scene_open(tahr__scene *scene, const tahr_host *host, const tahr_world_desc *desc, uint32_t count);
+/* The bodies and fluids of desc, and room for more bodies. scene: zeroed; to be closed in any case. TAHR_OK,
+ * TAHR_E_UNSUPPORTED, TAHR_E_GEOMETRY, TAHR_E_MEMORY. */
+tahr_status tahr__scene_open(tahr__scene *scene, const tahr_host *host, const tahr_world_desc *desc, uint32_t more);
 void tahr__scene_close(tahr__scene *scene);
 
 /* The next body as it is described, but for a mesh or a hull. NULL: there is no room. */
 tahr__scene_body *tahr__scene_add(tahr__scene *scene, const tahr_body_desc *desc, uint32_t id);
 /* The next mesh. NULL: [out] status says why. */
 const tahr__mesh *tahr__scene_mesh(tahr__scene *scene, const tahr__mesh_source *source, tahr_status *status);
-/* The next body with all that it is made of. TAHR_OK, TAHR_E_UNSUPPORTED, TAHR_E_GEOMETRY, TAHR_E_MEMORY. */
-tahr_status tahr__scene_describe(tahr__scene *scene, const tahr_body_desc *desc, uint32_t id);
+/* The place slot: of all the bodies or of none. TAHR_OK; TAHR_E_NOT_FOUND, TAHR_E_ARGUMENT (not movable, not finite or
+ * beyond 1e8 m), and says why in the log of the host. */
+tahr_status tahr__scene_place(void *self, const tahr_body_pose *poses, uint32_t count);
 
-/* May these be placed so? TAHR_OK; TAHR_E_NOT_FOUND, TAHR_E_ARGUMENT (not movable, not finite or beyond 1e8 m), and
- * says why in the log of the host. */
-tahr_status tahr__scene_check(const tahr__scene *scene, const tahr_body_pose *poses, uint32_t count);
-/* Places them and the fluids among them. */
-void tahr__scene_place(tahr__scene *scene, const tahr_body_pose *poses, uint32_t count);
-
+/* The body of that name, or NULL. */
+const tahr__scene_body *tahr__scene_find(const tahr__scene *scene, uint32_t id);
+static inline int tahr__bounds_meet(const tahr_bounds *a, const tahr_bounds *b)
+{
+    return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y && b->min.y <= a->max.y &&
+           a->min.z <= b->max.z && b->min.z <= a->max.z;
+}
+/* World bounds; those of round sides are their box's. */
+tahr_bounds tahr__scene_bounds(const tahr__scene_body *body);
 /* Of a TAHR_SHAPE_HULL the body that lends it its vertices, or NULL. */
 const tahr__hull *tahr__scene_hull(const tahr__scene *scene, const tahr_shape *shape);
 /* The piece that a body is, or of a mesh one of its triangles. */

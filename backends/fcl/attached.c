@@ -16,14 +16,6 @@ static tahr_status complain(const tahr__fcl_scene *scene, uint32_t i, const char
     return status;
 }
 
-static int is_named(const tahr__fcl_scene *scene, uint32_t id)
-{
-    for (uint32_t i = 0; i < scene->scene.body_count; i++) {
-        if (scene->scene.bodies[i].surface.id == id) return 1;
-    }
-    return 0;
-}
-
 /* Flags that mean something for a body that the core does not know. */
 static int bad_desc(const tahr_body_desc *d)
 {
@@ -51,8 +43,7 @@ static tahr_status adopt_mesh(tahr__fcl_scene *scene, uint32_t i, const tahr__fc
 /* Objects that share a geometry share the mesh. */
 static tahr_status take_mesh(tahr__fcl_scene *scene, uint32_t i, const tahr__fcl_geometry *g, tahr__scene_body *b)
 {
-    const tahr__mesh_source source = {g->vertices,   g->indices, g->vertex_count, g->triangle_count,
-                                      b->surface.id, 0};
+    const tahr__mesh_source source = {g->vertices, g->indices, g->vertex_count, g->triangle_count, b->surface.id, 0};
     tahr_status status = TAHR_OK;
     uint32_t k = 0;
 
@@ -77,7 +68,8 @@ static tahr_status attach(tahr__fcl_scene *scene, uint32_t i)
     if (scene->desc.object) status = scene->desc.object(scene->desc.user, object, &id, &desc);
     if (status == TAHR_E_NOT_FOUND) return TAHR_OK;
     if (status < 0) return complain(scene, i, "options.object refused it", status);
-    if (id == TAHR_NO_BODY || is_named(scene, id)) return complain(scene, i, "its id is another's", TAHR_E_ARGUMENT);
+    if (id == TAHR_NO_BODY || tahr__scene_find(&scene->scene, id))
+        return complain(scene, i, "its id is another's", TAHR_E_ARGUMENT);
     if (bad_desc(&desc)) return complain(scene, i, "flags, rule, mass or velocity out of range", TAHR_E_ARGUMENT);
     if (g.kind == 0) {
         snprintf(text, sizeof text, "%.40s cannot be held, or not of that size", g.name);

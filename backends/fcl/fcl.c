@@ -2,48 +2,38 @@
  * fcl.c: the table of the fcl backend: its slots are those of convex pieces, found by query.c. */
 #include "scene.h"
 
-static tahr__piece_query *begin(tahr__fcl_query *own, void *self, tahr_query_context *context)
-{
-    own->query.finder = &tahr__fcl_finder;
-    own->query.scene = self;
-    own->query.context = context;
-    return &own->query;
-}
-
 static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
                          uint32_t capacity, uint32_t *count)
 {
     tahr__fcl_query own;
-    return tahr__piece_sweep(begin(&own, self, context), query, hits, capacity, count);
+    return tahr__piece_sweep(tahr__piece_query_by(&own.query, &tahr__fcl_finder, self, context), query, hits, capacity,
+                             count);
 }
 
 static tahr_status contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
                             tahr_contact *found, uint32_t capacity, uint32_t *count)
 {
     tahr__fcl_query own;
-    return tahr__piece_contacts(begin(&own, self, context), query, found, capacity, count);
+    return tahr__piece_contacts(tahr__piece_query_by(&own.query, &tahr__fcl_finder, self, context), query, found,
+                                capacity, count);
 }
 
 static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
 {
     tahr__fcl_query own;
-    return tahr__piece_ray(begin(&own, self, context), query, hit, count);
+    return tahr__piece_ray(tahr__piece_query_by(&own.query, &tahr__fcl_finder, self, context), query, hit, count);
 }
 
 /* Octrees, which stay where they are, and attached bodies, which only the user knows the speeds of. */
 static tahr_status body_motion(void *self, uint32_t id, tahr_body_motion *motion)
 {
     const tahr__fcl_scene *scene = self;
-    const tahr__scene_body *b;
-    tahr__mat turn;
-    uint32_t i = 0;
+    const tahr__scene_body *b = tahr__scene_find(&scene->scene, id);
 
-    while (i < scene->scene.body_count && scene->scene.bodies[i].surface.id != id)
-        i++;
-    if (i == scene->scene.body_count) return TAHR_E_NOT_FOUND;
-    b = &scene->scene.bodies[i];
+    if (!b) return TAHR_E_NOT_FOUND;
+    uint32_t i = (uint32_t)(b - scene->scene.bodies);
+    tahr__mat turn = b->turn;
     motion->pose = b->pose;
-    turn = b->turn;
     if (scene->desc.manager) tahr__fcl_engine_pose(scene->engine, i, &motion->pose, &turn);
     motion->surface_velocity = m_apply(&turn, b->surface_velocity);
     motion->mass = b->mass;

@@ -2,12 +2,6 @@
  * query.c: a query's candidates as FCL finds them, and the pieces that they are. */
 #include "scene.h"
 
-static int overlap(const tahr_bounds *a, const tahr_bounds *b)
-{
-    return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y && b->min.y <= a->max.y &&
-           a->min.z <= b->max.z && b->min.z <= a->max.z;
-}
-
 static int wants(const void *user, uint32_t body)
 {
     const tahr__piece_query *q = user;
@@ -17,8 +11,7 @@ static int wants(const void *user, uint32_t body)
 static tahr_status begin(tahr__piece_query *q)
 {
     tahr__fcl_query *own = (tahr__fcl_query *)q;
-    const tahr__fcl_question question = {
-        {v_add(q->box.min, q->start.origin), v_add(q->box.max, q->start.origin)}, wants, q};
+    const tahr__fcl_question question = {tahr__piece_query_box(q), wants, q};
 
     tahr__fcl_list_begin(&own->list, q->scene->host, own->room, TAHR__FCL_ROOM);
     if (tahr__fcl_cache_find(own, &question.box, &own->parts, &own->count)) return TAHR_OK;
@@ -79,13 +72,13 @@ static int within_reach(const tahr__piece_query *q, const tahr__piece *piece)
     if (piece->kind == TAHR__TRIANGLE) {
         bounds.min = v_min(piece->facet.v[0], v_min(piece->facet.v[1], piece->facet.v[2]));
         bounds.max = v_max(piece->facet.v[0], v_max(piece->facet.v[1], piece->facet.v[2]));
-        return overlap(&bounds, &q->box);
+        return tahr__bounds_meet(&bounds, &q->box);
     }
     for (int i = 0; i < piece->solid.axis_count; i++)
         half = v_add(half, v_abs(piece->solid.axis[i]));
     bounds.min = v_sub(piece->middle, half);
     bounds.max = v_add(piece->middle, half);
-    return overlap(&bounds, &q->box);
+    return tahr__bounds_meet(&bounds, &q->box);
 }
 
 /* A half space, or a cell. */

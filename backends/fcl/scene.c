@@ -24,10 +24,8 @@ static tahr_status add_mesh(tahr__fcl_scene *scene, const tahr__scene_body *b)
     return status;
 }
 
-static tahr_status open_body(tahr__fcl_scene *scene, const tahr_body_desc *d, uint32_t id)
+static tahr_status add_body(tahr__fcl_scene *scene, const tahr__scene_body *b)
 {
-    tahr_status status = tahr__scene_describe(&scene->scene, d, id);
-    const tahr__scene_body *b = &scene->scene.bodies[id];
     const tahr__fcl_geometry g = {.kind = b->kind,
                                   .half_extents = b->half_extents,
                                   .radius = b->radius,
@@ -35,7 +33,6 @@ static tahr_status open_body(tahr__fcl_scene *scene, const tahr_body_desc *d, ui
                                   .vertices = b->hull.count > 0 ? &b->hull.vertices[0].x : NULL,
                                   .vertex_count = b->hull.count};
 
-    if (status < 0) return status;
     return b->mesh ? add_mesh(scene, b) : tahr__fcl_engine_add(scene->engine, &g, &b->pose);
 }
 
@@ -77,19 +74,19 @@ static tahr_status check_options(const tahr__fcl_scene *scene, const tahr_world_
     return TAHR_E_ARGUMENT;
 }
 
-static tahr_status open_described(tahr__fcl_scene *scene, const tahr_world_desc *desc)
+static tahr_status add_bodies(tahr__fcl_scene *scene)
 {
     tahr_status status = TAHR_OK;
 
-    for (uint32_t i = 0; i < desc->body_count && status >= 0; i++)
-        status = open_body(scene, &desc->bodies[i], i);
+    for (uint32_t i = 0; i < scene->scene.described && status >= 0; i++)
+        status = add_body(scene, &scene->scene.bodies[i]);
     if (status >= 0) status = tahr__fcl_scene_octrees(scene);
     return status < 0 ? status : tahr__fcl_engine_finish(scene->engine);
 }
 
 static tahr_status open_scene(tahr__fcl_scene *scene, const tahr_host *host, const tahr_world_desc *desc)
 {
-    uint32_t count = desc->body_count;
+    uint32_t attached = 0;
     tahr_status status = tahr__options_read(host, desc->options, &scene->desc, sizeof scene->desc);
 
     if (status >= 0) status = check_options(scene, desc);
@@ -97,9 +94,9 @@ static tahr_status open_scene(tahr__fcl_scene *scene, const tahr_host *host, con
     if (scene->desc.cache_parts == 0) scene->desc.cache_parts = 256;
     if (!(scene->desc.cache_margin > 0)) scene->desc.cache_margin = 0.5;
     status = tahr__fcl_engine_open(host, &scene->desc, &scene->engine);
-    if (status >= 0 && scene->desc.manager) status = tahr__fcl_engine_attach(scene->engine, &count);
-    if (status >= 0) status = tahr__scene_open(&scene->scene, host, desc, count + scene->desc.octree_count);
-    if (status >= 0) status = scene->desc.manager ? tahr__fcl_scene_attach(scene) : open_described(scene, desc);
+    if (status >= 0 && scene->desc.manager) status = tahr__fcl_engine_attach(scene->engine, &attached);
+    if (status >= 0) status = tahr__scene_open(&scene->scene, host, desc, attached + scene->desc.octree_count);
+    if (status >= 0) status = scene->desc.manager ? tahr__fcl_scene_attach(scene) : add_bodies(scene);
     return status < 0 ? status : probe(scene);
 }
 
@@ -133,10 +130,9 @@ void tahr__fcl_close(void *self)
 tahr_status tahr__fcl_place(void *self, const tahr_body_pose *poses, uint32_t count)
 {
     tahr__fcl_scene *scene = self;
-    tahr_status status = tahr__scene_check(&scene->scene, poses, count);
+    tahr_status status = tahr__scene_place(self, poses, count);
 
     if (status < 0) return status;
-    tahr__scene_place(&scene->scene, poses, count);
     for (uint32_t i = 0; i < count && status >= 0; i++)
         status = tahr__fcl_engine_place(scene->engine, poses[i].body, &poses[i].pose);
     if (status >= 0) status = tahr__fcl_engine_update(scene->engine);
