@@ -2,6 +2,8 @@
  * body.c: a described body in the plane: its corners in double, as they were given. */
 #include "scene.h"
 
+#include "../common/room.h"
+
 #include <stdio.h>
 
 /* A pose this far out of the plane (sine of the angle) is meant to be out of it. */
@@ -109,13 +111,10 @@ static tahr_status open_chain(const tahr_host *host, const tahr_body_desc *d, ui
     return TAHR_OK;
 }
 
-static size_t bytes_of(const tahr_body_desc *d)
+static uint32_t capacity_of(const tahr_body_desc *d)
 {
-    size_t count = d->type == TAHR_BODY_HULL || d->type == TAHR_BODY_CHAIN ? d->vertex_count
-                   : d->type == TAHR_BODY_BOX                              ? 4
-                   : d->type == TAHR_BODY_CAPSULE                          ? 2
-                                                                           : 1;
-    return count * sizeof(tahr__vec2);
+    if (d->type == TAHR_BODY_HULL || d->type == TAHR_BODY_CHAIN) return d->vertex_count > 0 ? d->vertex_count : 1;
+    return d->type == TAHR_BODY_BOX ? 4 : d->type == TAHR_BODY_CAPSULE ? 2 : 1;
 }
 
 static tahr_status open_corners(const tahr_host *host, const tahr_body_desc *d, uint32_t id, tahr__b2_body *b)
@@ -150,8 +149,8 @@ tahr_status tahr__b2_body_open(const tahr_host *host, const tahr_body_desc *d, u
 
     *b = (tahr__b2_body){.type = d->type, .radius = d->type == TAHR_BODY_BOX ? 0 : d->radius};
     b->owner = tahr__surface_of(d, id);
-    b->bytes = bytes_of(d);
-    b->vertices = host->allocator.alloc(host->allocator.user, b->bytes, 16);
+    b->vertex_capacity = capacity_of(d);
+    b->vertices = tahr__room_get(host, b->vertex_capacity, sizeof *b->vertices);
     if (!b->vertices) return TAHR_E_MEMORY;
     status = open_corners(host, d, id, b);
     problem = status < 0 ? NULL : tahr__b2_body_place(b, &d->pose);
@@ -165,7 +164,7 @@ tahr_status tahr__b2_body_open(const tahr_host *host, const tahr_body_desc *d, u
 
 void tahr__b2_body_close(const tahr_host *host, tahr__b2_body *b)
 {
-    if (b->vertices) host->allocator.free(host->allocator.user, b->vertices, b->bytes, 16);
+    tahr__room_put(host, b->vertices, b->vertex_capacity, sizeof *b->vertices);
     b->vertices = NULL;
 }
 

@@ -1,36 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * box2d.c: the table of the box2d backend and its life cycle. */
+ * box2d.c: the table of the box2d backend. */
 #include "scene.h"
-
-static tahr_status open_scene(const tahr_host *host, const tahr_world_desc *desc, void **self)
-{
-    tahr__b2_scene *scene = host->allocator.alloc(host->allocator.user, sizeof *scene, 64);
-    tahr_status status;
-
-    if (!scene) return TAHR_E_MEMORY;
-    status = tahr__b2_scene_open(scene, host, desc);
-    if (status < 0)
-        host->allocator.free(host->allocator.user, scene, sizeof *scene, 64);
-    else
-        *self = scene;
-    return status;
-}
-
-static void close_scene(void *self)
-{
-    tahr__b2_scene *scene = self;
-    tahr_allocator allocator;
-
-    if (!scene) return;
-    allocator = scene->host->allocator;
-    tahr__b2_scene_close(scene);
-    allocator.free(allocator.user, scene, sizeof *scene, 64);
-}
-
-static tahr_status place(void *self, const tahr_body_pose *poses, uint32_t count)
-{
-    return tahr__b2_scene_place(self, poses, count);
-}
 
 static tahr_status body_motion(void *self, uint32_t body, tahr_body_motion *motion)
 {
@@ -64,12 +34,12 @@ static const tahr_backend backend = {
 #else
     .version = "2.4",
 #endif
-    .open = open_scene,
-    .close = close_scene,
+    .open = tahr__b2_open,
+    .close = tahr__b2_close,
     .sweep = tahr__b2_sweep,
     .contacts = tahr__b2_contacts,
     .ray = tahr__b2_ray,
-    .place = place,
+    .place = tahr__b2_place,
     .body_motion = body_motion,
     .fluid = fluid,
 };

@@ -3,6 +3,7 @@
 #include "scene.h"
 
 #include "../common/options.h"
+#include "../common/room.h"
 
 /* Box2D's trees hold floats, and version 3 none beyond 1e5 m: boxes end here (m from the middle of the scene). Boxes
  * that are cut off still meet each other, only less is told apart by the tree. */
@@ -83,12 +84,11 @@ static tahr_status add_items(tahr__b2_scene *scene, uint32_t body)
 
 static tahr_status open_items(tahr__b2_scene *scene)
 {
-    const tahr_allocator *a = &scene->host->allocator;
     tahr_status status = TAHR_OK;
 
     for (uint32_t i = 0; i < scene->body_count; i++)
         scene->item_capacity += tahr__b2_body_items(&scene->bodies[i]);
-    scene->items = a->alloc(a->user, scene->item_capacity * sizeof *scene->items, 16);
+    scene->items = tahr__room_get(scene->host, scene->item_capacity, sizeof *scene->items);
     scene->tree = scene->items ? scene->engine->tree_open() : NULL;
     if (!scene->tree) return TAHR_E_MEMORY;
     for (uint32_t i = 0; i < scene->body_count && status >= 0; i++)
@@ -107,18 +107,14 @@ static void flatten(tahr__fluids *fluids)
 
 static tahr_status open_bodies(tahr__b2_scene *scene, const tahr_world_desc *desc)
 {
-    const tahr_allocator *a = &scene->host->allocator;
     tahr_status status = TAHR_OK;
 
     if (desc->body_count == 0) return TAHR_OK;
-    scene->bodies = a->alloc(a->user, desc->body_count * sizeof *scene->bodies, 16);
+    scene->bodies = tahr__room_get(scene->host, desc->body_count, sizeof *scene->bodies);
     if (!scene->bodies) return TAHR_E_MEMORY;
-    for (uint32_t i = 0; i < desc->body_count && status >= 0; i++) {
-        scene->bodies[i].vertices = NULL;
+    scene->body_count = desc->body_count;
+    for (uint32_t i = 0; i < desc->body_count && status >= 0; i++)
         status = tahr__b2_body_open(scene->host, &desc->bodies[i], i, &scene->bodies[i]);
-        scene->body_count++;
-    }
-    scene->body_capacity = desc->body_count;
     if (status < 0) return status;
     scene->origin = middle_of(desc);
     status = open_items(scene);
@@ -167,30 +163,34 @@ static tahr_status choose(tahr__b2_scene *scene)
     return TAHR_E_UNSUPPORTED;
 }
 
-tahr_status tahr__b2_scene_open(tahr__b2_scene *scene, const tahr_host *host, const tahr_world_desc *desc)
+tahr_status tahr__b2_open(const tahr_host *host, const tahr_world_desc *desc, void **self)
 {
-    tahr_status status;
+    tahr__b2_scene *scene = tahr__room_get(host, 1, sizeof *scene);
 
-    *scene = (tahr__b2_scene){.host = host};
-    status = tahr__options_read(host, desc->options, &scene->desc, sizeof scene->desc);
+    if (!scene) return TAHR_E_MEMORY;
+    scene->host = host;
+    tahr_status status = tahr__options_read(host, desc->options, &scene->desc, sizeof scene->desc);
     if (status >= 0) status = choose(scene);
     if (status >= 0) status = scene->desc.world2 || scene->desc.world3 ? attach(scene, desc) : open_bodies(scene, desc);
-    if (status < 0) tahr__b2_scene_close(scene);
+    if (status < 0)
+        tahr__b2_close(scene);
+    else
+        *self = scene;
     return status;
 }
 
-void tahr__b2_scene_close(tahr__b2_scene *scene)
+void tahr__b2_close(void *self)
 {
-    const tahr_allocator *a = &scene->host->allocator;
+    tahr__b2_scene *scene = self;
 
+    if (!scene) return;
     for (uint32_t i = 0; i < scene->body_count; i++)
         tahr__b2_body_close(scene->host, &scene->bodies[i]);
     if (scene->tree) scene->engine->tree_close(scene->tree);
-    if (scene->items) a->free(a->user, scene->items, scene->item_capacity * sizeof *scene->items, 16);
-    if (scene->bodies) a->free(a->user, scene->bodies, scene->body_capacity * sizeof *scene->bodies, 16);
+    tahr__room_put(scene->host, scene->items, scene->item_capacity, sizeof *scene->items);
+    tahr__room_put(scene->host, scene->bodies, scene->body_count, sizeof *scene->bodies);
     tahr__fluids_close(&scene->fluids, scene->host);
-    scene->bodies = NULL;
-    scene->body_count = 0;
+    tahr__room_put(scene->host, scene, 1, sizeof *scene);
 }
 
 static const char *bad_pose(const tahr__b2_scene *scene, const tahr_body_pose *p)
@@ -204,8 +204,10 @@ static const char *bad_pose(const tahr__b2_scene *scene, const tahr_body_pose *p
     return tahr__b2_body_turn(b->type, b->vertex_count == 1, q, &turn);
 }
 
-tahr_status tahr__b2_scene_place(tahr__b2_scene *scene, const tahr_body_pose *poses, uint32_t count)
+tahr_status tahr__b2_place(void *self, const tahr_body_pose *poses, uint32_t count)
 {
+    tahr__b2_scene *scene = self;
+
     for (uint32_t i = 0; i < count; i++) {
         const char *problem;
         if (poses[i].body >= scene->body_count) return TAHR_E_NOT_FOUND;

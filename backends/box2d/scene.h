@@ -13,12 +13,11 @@
 typedef struct tahr__b2_body {
     tahr__surface owner;
     uint32_t type, first, count; /* its items */
-    uint32_t vertex_count;
+    uint32_t vertex_count, vertex_capacity;
     tahr_vec3 position;
     tahr__vec2 turn;      /* cosine and sine */
     double radius;        /* circles, capsules */
     tahr__vec2 *vertices; /* local; the ends of the axis of a capsule */
-    size_t bytes;         /* of vertices */
 } tahr__b2_body;
 
 /* What is in the tree: a whole body, or a segment of a chain. */
@@ -35,7 +34,7 @@ typedef struct tahr__b2_scene {
     void *tree;
     tahr__b2_body *bodies;
     tahr__b2_item *items;
-    uint32_t body_count, body_capacity, item_count, item_capacity;
+    uint32_t body_count, item_count, item_capacity;
     tahr__vec2 origin; /* of the tree */
     tahr__fluids fluids;
 } tahr__b2_scene;
@@ -56,10 +55,10 @@ static inline tahr_vec3 tahr__b2_lift(tahr__vec2 v, double z)
     return v_make(v.x, v.y, z);
 }
 
-/* scene.c */
-tahr_status tahr__b2_scene_open(tahr__b2_scene *scene, const tahr_host *host, const tahr_world_desc *desc);
-void tahr__b2_scene_close(tahr__b2_scene *scene);
-tahr_status tahr__b2_scene_place(tahr__b2_scene *scene, const tahr_body_pose *poses, uint32_t count);
+/* scene.c: slots. */
+tahr_status tahr__b2_open(const tahr_host *host, const tahr_world_desc *desc, void **self);
+void tahr__b2_close(void *self);
+tahr_status tahr__b2_place(void *self, const tahr_body_pose *poses, uint32_t count);
 
 /* body.c: one described body. */
 tahr_status tahr__b2_body_open(const tahr_host *host, const tahr_body_desc *desc, uint32_t id, tahr__b2_body *body);

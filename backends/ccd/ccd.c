@@ -1,44 +1,27 @@
 /* SPDX-License-Identifier: MIT
- * ccd.c: the table of the ccd backend and its life cycle. */
+ * ccd.c: the table of the ccd backend: its slots are those of convex pieces, found by walk.c. */
 #include "scene.h"
 
-static tahr_status open_scene(const tahr_host *host, const tahr_world_desc *desc, void **self)
+static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
+                         uint32_t capacity, uint32_t *count)
 {
-    tahr__ccd_scene *scene = host->allocator.alloc(host->allocator.user, sizeof *scene, 64);
-    tahr_status status;
-
-    if (!scene) return TAHR_E_MEMORY;
-    status = tahr__ccd_scene_open(scene, host, desc);
-    if (status < 0)
-        host->allocator.free(host->allocator.user, scene, sizeof *scene, 64);
-    else
-        *self = scene;
-    return status;
+    tahr__ccd_walk walk;
+    return tahr__piece_sweep(tahr__piece_query_by(&walk.query, &tahr__ccd_finder, self, context), query, hits, capacity,
+                             count);
 }
 
-static void close_scene(void *self)
+static tahr_status contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
+                            tahr_contact *found, uint32_t capacity, uint32_t *count)
 {
-    tahr__ccd_scene *scene = self;
-    tahr_allocator allocator;
-
-    if (!scene) return;
-    allocator = scene->host->allocator;
-    tahr__ccd_scene_close(scene);
-    allocator.free(allocator.user, scene, sizeof *scene, 64);
+    tahr__ccd_walk walk;
+    return tahr__piece_contacts(tahr__piece_query_by(&walk.query, &tahr__ccd_finder, self, context), query, found,
+                                capacity, count);
 }
 
-static tahr_status place(void *self, const tahr_body_pose *poses, uint32_t count)
+static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
 {
-    return tahr__ccd_scene_place(self, poses, count);
-}
-
-static tahr_status fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *answer)
-{
-    const tahr__ccd_scene *scene = self;
-
-    (void)context;
-    tahr__fluids_ask(&scene->fluids, query, answer);
-    return TAHR_OK;
+    tahr__ccd_walk walk;
+    return tahr__piece_ray(tahr__piece_query_by(&walk.query, &tahr__ccd_finder, self, context), query, hit, count);
 }
 
 static const tahr_backend backend = {
@@ -51,13 +34,13 @@ static const tahr_backend backend = {
                     TAHR_CAP_ONE_WAY,
     .name = "ccd",
     .version = "2.x", /* libccd says 2.0 in its CMake files and is 2.1 in Debian; nothing in it tells at run time */
-    .open = open_scene,
-    .close = close_scene,
-    .sweep = tahr__ccd_sweep,
-    .contacts = tahr__ccd_contacts,
-    .ray = tahr__ccd_ray,
-    .place = place,
-    .fluid = fluid,
+    .open = tahr__ccd_open,
+    .close = tahr__ccd_close,
+    .sweep = sweep,
+    .contacts = contacts,
+    .ray = ray,
+    .place = tahr__ccd_place,
+    .fluid = tahr__scene_fluid,
 };
 
 const tahr_backend *tahr_backend_v1_ccd(void)

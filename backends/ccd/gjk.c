@@ -77,17 +77,18 @@ static void first_direction(const void *object1, const void *object2, ccd_vec3_t
     if (v_dot(p, p) < 1e-12) ccdVec3Set(dir, 1, 0, 0);
 }
 
-int tahr__ccd_swept_overlap(const tahr__ccd_probe *probe, const tahr__ccd_piece *piece, double fraction)
+int tahr__ccd_swept_overlap(const tahr__piece_query *q, const tahr__piece *piece, double fraction)
 {
-    const tahr__ccd_scene *scene = probe->scene;
+    const tahr__ccd_scene *scene = tahr__ccd_scene_of(q);
     uint32_t calls = 0;
-    swept s = {&probe->shape, probe->radius + probe->margin + piece->radius, v_scale(probe->motion, fraction), &calls,
-               scene->max_iterations};
-    tahr__convex c;
+    tahr__convex_side shape, side;
     ccd_t ccd;
     int overlap;
 
-    tahr__ccd_convex(probe, piece, &c);
+    tahr__shape_side(&q->shape, v_make(0, 0, 0), &shape);
+    tahr__piece_side(piece, &side);
+    swept s = {&shape.convex, q->shape.radius + q->margin + piece->radius, v_scale(q->motion, fraction), &calls,
+               scene->max_iterations};
     CCD_INIT(&ccd);
     ccd.first_dir = first_direction;
     ccd.support1 = support_swept;
@@ -96,8 +97,8 @@ int tahr__ccd_swept_overlap(const tahr__ccd_probe *probe, const tahr__ccd_piece 
     ccd.center2 = centre_piece;
     ccd.max_iterations = scene->max_iterations;
     ccd.mpr_tolerance = MPR_TOLERANCE;
-    overlap = scene->boolean == TAHR_CCD_BOOLEAN_MPR ? ccdMPRIntersect(&s, &c, &ccd) : ccdGJKIntersect(&s, &c, &ccd);
-    probe->context->narrow_iterations += calls;
+    overlap = (scene->boolean == TAHR_CCD_BOOLEAN_MPR ? ccdMPRIntersect : ccdGJKIntersect)(&s, &side.convex, &ccd);
+    q->context->narrow_iterations += calls;
     /* libccd itself calls giving up "no overlap". */
     return calls > s.most ? -1 : overlap;
 }

@@ -3,63 +3,40 @@
  * own. */
 #include "scene.h"
 
-/* Boxes grow by this (m): far more than the rounding of coordinates at 1e7 m, far less than anything it would cost. */
-#define SLACK 1e-5
+/* Shapes between these half sizes (m) keep metres for their unit. */
+#define SMALL 0.0625
+#define LARGE 16.0
 
-/* Half the extent of the shape along each axis, and a little more where it is not the same both ways. */
-static tahr_vec3 half_extent(const tahr__ccd_probe *probe)
+/* Others are brought to about 1: libccd's tolerances are absolute. A power of two: scaling by it rounds nothing. */
+static double scale_of(const tahr_shape *shape)
 {
-    tahr_vec3 half = v_make(0, 0, 0);
+    double size = d_max(d_max(shape->radius, shape->half_height), d_max(shape->half_x, shape->half_y)), scale = 1;
 
-    if (probe->is_core) {
-        for (int i = 0; i < probe->core.axis_count; i++)
-            half = v_add(half, v_abs(probe->core.axis[i]));
-        return half;
-    }
-    for (int i = 0; i < 3; i++) {
-        tahr_vec3 n = v_make(i == 0, i == 1, i == 2);
-        double most = d_max(tahr__convex_extent(&probe->shape, n), tahr__convex_extent(&probe->shape, v_scale(n, -1)));
-        half = v_mad(half, n, most);
-    }
-    return half;
+    if (!(size > 0)) return 0;
+    if (size >= SMALL && size <= LARGE) return 1;
+    while (size * scale < 0.5)
+        scale *= 2;
+    while (size * scale > 1)
+        scale *= 0.5;
+    return scale;
 }
 
-void tahr__ccd_walk_begin(tahr__ccd_walk *walk, const tahr__ccd_probe *probe, tahr_vec3 motion, double reach)
+static void rewind_walk(tahr__piece_query *q)
 {
-    tahr_vec3 half = v_add(half_extent(probe), v_make(reach, reach, reach)), zero = v_make(0, 0, 0);
-    double metres = 1 / probe->unit;
-    tahr_bounds world;
+    tahr__ccd_walk *walk = (tahr__ccd_walk *)q;
+    tahr_bounds world = tahr__piece_query_box(q);
 
-    half = v_add(v_scale(half, metres), v_make(SLACK, SLACK, SLACK));
-    motion = v_scale(motion, metres);
-    walk->probe = probe;
-    walk->box.min = v_sub(v_min(zero, motion), half);
-    walk->box.max = v_add(v_max(zero, motion), half);
     walk->inside = walk->first = walk->count = 0;
-    world.min = v_add(walk->box.min, probe->origin);
-    world.max = v_add(walk->box.max, probe->origin);
-    tahr__body_walk_begin(&walk->bodies, &probe->scene->tree, &world, probe->origin);
-}
-
-static int overlap(const tahr_bounds *a, const tahr_bounds *b)
-{
-    return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y && b->min.y <= a->max.y &&
-           a->min.z <= b->max.z && b->min.z <= a->max.z;
-}
-
-static int passes(const tahr__ccd_walk *walk, const tahr__ccd_body *body)
-{
-    tahr_bounds world = {v_add(walk->box.min, walk->probe->origin), v_add(walk->box.max, walk->probe->origin)};
-    return tahr__filter_passes(&walk->probe->filter, &body->surface) && overlap(&world, &body->bounds);
+    tahr__body_walk_begin(&walk->bodies, &tahr__ccd_scene_of(q)->tree, &world, q->start.origin);
 }
 
 /* The query's box in the frame of the mesh. */
-static void enter_mesh(tahr__ccd_walk *walk, const tahr__ccd_body *body)
+static void enter_mesh(tahr__ccd_walk *walk, const tahr__scene_body *body)
 {
-    tahr_vec3 middle = v_scale(v_add(walk->box.min, walk->box.max), 0.5),
-              half = v_scale(v_sub(walk->box.max, walk->box.min), 0.5);
-    tahr_vec3 centre = m_unapply(&body->turn, v_add(v_sub(walk->probe->origin, body->position), middle));
-    tahr_vec3 start = m_unapply(&body->turn, v_sub(walk->probe->origin, body->position));
+    const tahr__piece_query *q = &walk->query;
+    tahr_vec3 middle = v_scale(v_add(q->box.min, q->box.max), 0.5), half = v_scale(v_sub(q->box.max, q->box.min), 0.5);
+    tahr_vec3 from_body = v_sub(q->start.origin, body->pose.position);
+    tahr_vec3 centre = m_unapply(&body->turn, v_add(from_body, middle));
     tahr_vec3 extent = v_scale(v_abs(body->turn.row[0]), half.x);
     tahr_bounds box;
 
@@ -67,30 +44,43 @@ static void enter_mesh(tahr__ccd_walk *walk, const tahr__ccd_body *body)
     extent = v_mad(extent, v_abs(body->turn.row[2]), half.z);
     box.min = v_sub(centre, extent);
     box.max = v_add(centre, extent);
-    tahr__bvh_walk_begin(&walk->tree, &body->mesh.bvh, &box, 0, start);
+    tahr__bvh_walk_begin(&walk->tree, &body->mesh->bvh, &box, 0, m_unapply(&body->turn, from_body));
     walk->inside = 1;
     walk->count = 0;
 }
 
-int tahr__ccd_walk_next(tahr__ccd_walk *walk, tahr__ccd_piece *piece)
+/* A body and a triangle of it. */
+static uint64_t name_of(uint32_t body, uint32_t triangle)
 {
-    const tahr__ccd_body *bodies = walk->probe->scene->bodies;
+    return (uint64_t)body << 32 | triangle;
+}
+
+static int next(tahr__piece_query *q, uint64_t *name)
+{
+    tahr__ccd_walk *walk = (tahr__ccd_walk *)q;
 
     for (;;) {
         if (walk->inside && walk->count > 0) {
             walk->count--;
-            tahr__ccd_triangle(walk->probe, &bodies[walk->body], walk->first++, piece);
+            *name = name_of(walk->body, walk->first++);
             return 1;
         }
         if (walk->inside && tahr__bvh_walk_next(&walk->tree, &walk->first, &walk->count)) continue;
         walk->inside = 0;
         do {
             if (!tahr__body_walk_next(&walk->bodies, &walk->body)) return 0;
-        } while (!passes(walk, &bodies[walk->body]));
-        if (bodies[walk->body].type != TAHR_BODY_MESH) {
-            tahr__ccd_whole_body(walk->probe, &bodies[walk->body], piece);
-            return 1;
-        }
-        enter_mesh(walk, &bodies[walk->body]);
+        } while (!tahr__piece_wanted(q, &q->scene->bodies[walk->body]));
+        *name = name_of(walk->body, 0);
+        if (q->scene->bodies[walk->body].kind != TAHR_BODY_MESH) return 1;
+        enter_mesh(walk, &q->scene->bodies[walk->body]);
     }
 }
+
+static int make(tahr__piece_query *q, tahr__piece_found *found)
+{
+    tahr__piece_of_body(q, &q->scene->bodies[found->name >> 32], (uint32_t)found->name, found);
+    return 1;
+}
+
+const tahr__piece_finder tahr__ccd_finder = {
+    .scale = scale_of, .rewind = rewind_walk, .next = next, .make = make, .advance = tahr__ccd_advance};

@@ -2,17 +2,7 @@
  * body_tree.c: see body_tree.h. */
 #include "body_tree.h"
 
-#include <string.h>
-
-static void *get(const tahr_host *host, size_t count, size_t size)
-{
-    return host->allocator.alloc(host->allocator.user, count * size, 64);
-}
-
-static void put(const tahr_host *host, void *memory, size_t count, size_t size)
-{
-    if (memory) host->allocator.free(host->allocator.user, memory, count * size, 64);
-}
+#include "room.h"
 
 tahr_status tahr__body_tree_open(const tahr_host *host, const tahr_bounds *bounds, uint32_t count,
                                  tahr__body_tree *tree)
@@ -26,9 +16,9 @@ tahr_status tahr__body_tree_open(const tahr_host *host, const tahr_bounds *bound
     }
     tahr_vec3 centre = v_scale(v_add(low, high), 0.5);
     tree->count = count;
-    tree->boxes = get(host, count, sizeof *tree->boxes);
-    tree->order = get(host, count, sizeof *tree->order);
-    tree->place = get(host, count, sizeof *tree->place);
+    tree->boxes = tahr__room_get(host, count, sizeof *tree->boxes);
+    tree->order = tahr__room_get(host, count, sizeof *tree->order);
+    tree->place = tahr__room_get(host, count, sizeof *tree->place);
     tahr_status status = tree->boxes && tree->order && tree->place ? TAHR_OK : TAHR_E_MEMORY;
     for (uint32_t i = 0; i < count && status == TAHR_OK; i++)
         tree->boxes[i] = tahr__bvh_box_make(&bounds[i], centre);
@@ -44,9 +34,9 @@ tahr_status tahr__body_tree_open(const tahr_host *host, const tahr_bounds *bound
 
 void tahr__body_tree_close(const tahr_host *host, tahr__body_tree *tree)
 {
-    put(host, tree->boxes, tree->count, sizeof *tree->boxes);
-    put(host, tree->order, tree->count, sizeof *tree->order);
-    put(host, tree->place, tree->count, sizeof *tree->place);
+    tahr__room_put(host, tree->boxes, tree->count, sizeof *tree->boxes);
+    tahr__room_put(host, tree->order, tree->count, sizeof *tree->order);
+    tahr__room_put(host, tree->place, tree->count, sizeof *tree->place);
     tahr__bvh_free(host, &tree->bvh);
     memset(tree, 0, sizeof *tree);
 }

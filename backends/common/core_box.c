@@ -96,5 +96,8 @@ void tahr__core_box(const tahr__core *core, tahr_vec3 centre, const tahr__box *b
     out->feature = TAHR__FACE;
     out->reserved = 0;
     out->distance = v_length(apart);
-    out->normal = out->distance > 0 ? v_scale(apart, 1.0 / out->distance) : v_make(0, 0, 0);
+    out->normal = v_make(0, 0, 0);
+    if (out->distance > 0) { /* divided, not scaled: straight in front of a face the normal is the face's to the bit */
+        out->normal = v_make(apart.x / out->distance, apart.y / out->distance, apart.z / out->distance);
+    }
 }

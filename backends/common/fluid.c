@@ -2,6 +2,8 @@
  * fluid.c: how much of an upright segment lies inside a convex body: the segment is clipped by it. */
 #include "fluid.h"
 
+#include "room.h"
+
 /* Part [from, to] of a segment, as fractions of its half length from its middle: -1 is the foot, 1 the head. */
 typedef struct span {
     double from, to;
@@ -21,7 +23,7 @@ tahr_status tahr__fluids_open(tahr__fluids *fluids, const tahr_host *host, const
     for (uint32_t i = 0; i < desc->body_count; i++)
         count += (desc->bodies[i].flags & TAHR_BODY_FLUID) != 0;
     if (count == 0) return TAHR_OK;
-    fluids->bodies = host->allocator.alloc(host->allocator.user, count * sizeof *fluids->bodies, 64);
+    fluids->bodies = tahr__room_get(host, count, sizeof *fluids->bodies);
     if (!fluids->bodies) return TAHR_E_MEMORY;
     for (uint32_t i = 0; i < desc->body_count; i++) {
         const tahr_body_desc *d = &desc->bodies[i];
@@ -42,9 +44,7 @@ tahr_status tahr__fluids_open(tahr__fluids *fluids, const tahr_host *host, const
 
 void tahr__fluids_close(tahr__fluids *fluids, const tahr_host *host)
 {
-    if (fluids->bodies) {
-        host->allocator.free(host->allocator.user, fluids->bodies, fluids->count * sizeof *fluids->bodies, 64);
-    }
+    tahr__room_put(host, fluids->bodies, fluids->count, sizeof *fluids->bodies);
     fluids->bodies = NULL;
     fluids->count = 0;
 }

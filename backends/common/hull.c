@@ -3,12 +3,10 @@
 #include "hull.h"
 
 #include "mesh.h"
-
-#include <string.h>
+#include "room.h"
 
 tahr_status tahr__hull_open(const tahr_host *host, const tahr_body_desc *d, uint32_t id, tahr__hull *hull)
 {
-    const tahr_allocator *a = &host->allocator;
     const char *reason;
 
     memset(hull, 0, sizeof *hull);
@@ -16,7 +14,7 @@ tahr_status tahr__hull_open(const tahr_host *host, const tahr_body_desc *d, uint
         tahr__log_body(host, id, "vertex_count: a hull has 4 to 256 vertices");
         return TAHR_E_GEOMETRY;
     }
-    hull->vertices = a->alloc(a->user, d->vertex_count * sizeof *hull->vertices, 64);
+    hull->vertices = tahr__room_get(host, d->vertex_count, sizeof *hull->vertices);
     if (!hull->vertices) return TAHR_E_MEMORY;
     hull->count = d->vertex_count;
     for (uint32_t i = 0; i < hull->count; i++)
@@ -36,9 +34,7 @@ tahr_status tahr__hull_open(const tahr_host *host, const tahr_body_desc *d, uint
 
 void tahr__hull_close(const tahr_host *host, tahr__hull *hull)
 {
-    const tahr_allocator *a = &host->allocator;
-
-    if (hull->vertices) a->free(a->user, hull->vertices, hull->count * sizeof *hull->vertices, 64);
+    tahr__room_put(host, hull->vertices, hull->count, sizeof *hull->vertices);
     tahr__hull_planes_free(host, &hull->planes);
     memset(hull, 0, sizeof *hull);
 }

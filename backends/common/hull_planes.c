@@ -3,7 +3,7 @@
  * faces to the rim of the hole that they leave. At most 256 points, at open only: nothing clever is needed. */
 #include "hull_planes.h"
 
-#include <string.h>
+#include "room.h"
 
 /* Of the extent: a point less in front of a face lies on it. A vertex that is left out by that is so little outside of
  * the faces; support functions know it all the same. */
@@ -138,16 +138,9 @@ static void keep_planes(const builder *b, uint32_t count, tahr__hull_planes *pla
     }
 }
 
-static void *get(const tahr_host *host, size_t size)
-{
-    return host->allocator.alloc(host->allocator.user, size, 64);
-}
-
 tahr_status tahr__hull_planes_build(const tahr_host *host, const tahr_vec3 *points, uint32_t count,
                                     tahr__hull_planes *planes, const char **reason)
 {
-    const tahr_allocator *a = &host->allocator;
-    const size_t size = TAHR__HULL_PLANES * sizeof(face);
     builder b = {.points = points};
     uint32_t corner[4];
     memset(planes, 0, sizeof *planes);
@@ -163,9 +156,9 @@ tahr_status tahr__hull_planes_build(const tahr_host *host, const tahr_vec3 *poin
         *reason = "vertices: all of a hull's lie in a plane";
         return TAHR_E_GEOMETRY;
     }
-    b.faces = get(host, size);
-    planes->normals = get(host, TAHR__HULL_PLANES * sizeof *planes->normals);
-    planes->offsets = get(host, TAHR__HULL_PLANES * sizeof *planes->offsets);
+    b.faces = tahr__room_get(host, TAHR__HULL_PLANES, sizeof *b.faces);
+    planes->normals = tahr__room_get(host, TAHR__HULL_PLANES, sizeof *planes->normals);
+    planes->offsets = tahr__room_get(host, TAHR__HULL_PLANES, sizeof *planes->offsets);
     planes->capacity = TAHR__HULL_PLANES;
     tahr_status status = b.faces && planes->normals && planes->offsets ? TAHR_OK : TAHR_E_MEMORY;
     if (status == TAHR_OK) {
@@ -179,14 +172,13 @@ tahr_status tahr__hull_planes_build(const tahr_host *host, const tahr_vec3 *poin
     } else {
         tahr__hull_planes_free(host, planes);
     }
-    if (b.faces) a->free(a->user, b.faces, size, 64);
+    tahr__room_put(host, b.faces, TAHR__HULL_PLANES, sizeof *b.faces);
     return status;
 }
 
 void tahr__hull_planes_free(const tahr_host *host, tahr__hull_planes *planes)
 {
-    const tahr_allocator *a = &host->allocator;
-    if (planes->normals) a->free(a->user, planes->normals, planes->capacity * sizeof *planes->normals, 64);
-    if (planes->offsets) a->free(a->user, planes->offsets, planes->capacity * sizeof *planes->offsets, 64);
+    tahr__room_put(host, planes->normals, planes->capacity, sizeof *planes->normals);
+    tahr__room_put(host, planes->offsets, planes->capacity, sizeof *planes->offsets);
     memset(planes, 0, sizeof *planes);
 }

@@ -2,8 +2,9 @@
  * mesh.c: checking, welding, cleaning and connecting a triangle mesh at load. */
 #include "mesh.h"
 
+#include "room.h"
+
 #include <stdio.h>
-#include <string.h>
 
 /* Beyond this a double has no nanometres left, and products of coordinates in the narrow phase lose micrometres. */
 #define COORDINATE_LIMIT 1e7
@@ -11,16 +12,6 @@
 #define MAX_TRIANGLES (1u << 28)
 #define MAX_VERTICES (3u << 28)
 #define NONE 0xFFFFFFFFu
-
-static void *get(const tahr_host *host, size_t count, size_t size)
-{
-    return host->allocator.alloc(host->allocator.user, count * size, 64);
-}
-
-static void put(const tahr_host *host, void *memory, size_t count, size_t size)
-{
-    if (memory) host->allocator.free(host->allocator.user, memory, count * size, 64);
-}
 
 void tahr__log_body(const tahr_host *host, uint32_t body, const char *text)
 {
@@ -93,7 +84,7 @@ static uint32_t hash_vertex(const double *v)
 /* remap[i] = the first vertex at the same place as vertex i. */
 static tahr_status weld(const tahr_host *host, const tahr__mesh_source *s, uint32_t *remap)
 {
-    uint32_t size = table_size(s->vertex_count), *table = get(host, size, sizeof *table);
+    uint32_t size = table_size(s->vertex_count), *table = tahr__room_get(host, size, sizeof *table);
     if (!table) return TAHR_E_MEMORY;
     memset(table, 0xff, size * sizeof *table);
     for (uint32_t i = 0; i < s->vertex_count; i++) {
@@ -107,7 +98,7 @@ static tahr_status weld(const tahr_host *host, const tahr__mesh_source *s, uint3
         if (table[slot] == NONE) table[slot] = i;
         remap[i] = table[slot];
     }
-    put(host, table, size, sizeof *table);
+    tahr__room_put(host, table, size, sizeof *table);
     return TAHR_OK;
 }
 
@@ -129,7 +120,7 @@ static void canonical(const uint32_t v[3], uint32_t out[3])
 static tahr_status clean(const tahr_host *host, const tahr__mesh_source *s, const uint32_t *remap,
                          tahr__triangle *triangles, uint32_t *count)
 {
-    uint32_t size = table_size(s->triangle_count), *table = get(host, size, sizeof *table), kept = 0;
+    uint32_t size = table_size(s->triangle_count), *table = tahr__room_get(host, size, sizeof *table), kept = 0;
     if (!table) return TAHR_E_MEMORY;
     memset(table, 0xff, size * sizeof *table);
     for (uint32_t i = 0; i < s->triangle_count; i++) {
@@ -151,7 +142,7 @@ static tahr_status clean(const tahr_host *host, const tahr__mesh_source *s, cons
         triangles[kept].source = i | (slim < TAHR__THIN ? TAHR__MESH_THIN : 0);
         kept++;
     }
-    put(host, table, size, sizeof *table);
+    tahr__room_put(host, table, size, sizeof *table);
     *count = kept;
     return TAHR_OK;
 }
@@ -169,7 +160,7 @@ static tahr_status compact(const tahr_host *host, const tahr__mesh_source *s, ui
     for (uint32_t i = 0; i < s->vertex_count; i++) {
         if (remap[i] != NONE) remap[i] = used++;
     }
-    mesh->vertices = get(host, used, sizeof *mesh->vertices);
+    mesh->vertices = tahr__room_get(host, used, sizeof *mesh->vertices);
     if (!mesh->vertices) return TAHR_E_MEMORY;
     mesh->vertex_count = mesh->vertex_capacity = used;
     for (uint32_t i = 0; i < s->vertex_count; i++) {
@@ -190,9 +181,9 @@ static tahr_status compact(const tahr_host *host, const tahr__mesh_source *s, ui
 static tahr_status build_tree(const tahr_host *host, tahr__mesh *mesh)
 {
     uint32_t n = mesh->triangle_count;
-    tahr__bvh_box *boxes = get(host, n, sizeof *boxes);
-    uint32_t *order = get(host, n, sizeof *order);
-    tahr__triangle *sorted = get(host, n, sizeof *sorted);
+    tahr__bvh_box *boxes = tahr__room_get(host, n, sizeof *boxes);
+    uint32_t *order = tahr__room_get(host, n, sizeof *order);
+    tahr__triangle *sorted = tahr__room_get(host, n, sizeof *sorted);
     tahr_vec3 centre = v_scale(v_add(mesh->bounds.min, mesh->bounds.max), 0.5);
     tahr_status status = boxes && order && sorted ? TAHR_OK : TAHR_E_MEMORY;
     for (uint32_t i = 0; status == TAHR_OK && i < n; i++) {
@@ -202,7 +193,7 @@ static tahr_status build_tree(const tahr_host *host, tahr__mesh *mesh)
         boxes[i] = tahr__bvh_box_make(&bounds, centre);
     }
     if (status == TAHR_OK) status = tahr__bvh_build(host, boxes, order, n, centre, &mesh->bvh);
-    put(host, boxes, n, sizeof *boxes);
+    tahr__room_put(host, boxes, n, sizeof *boxes);
     if (status == TAHR_OK) {
         for (uint32_t i = 0; i < n; i++)
             sorted[i] = mesh->triangles[order[i]];
@@ -211,18 +202,19 @@ static tahr_status build_tree(const tahr_host *host, tahr__mesh *mesh)
         sorted = old;
         uint32_t capacity = mesh->triangle_capacity;
         mesh->triangle_capacity = n;
-        put(host, sorted, capacity, sizeof *sorted);
+        tahr__room_put(host, sorted, capacity, sizeof *sorted);
     } else {
-        put(host, sorted, n, sizeof *sorted);
+        tahr__room_put(host, sorted, n, sizeof *sorted);
     }
-    put(host, order, n, sizeof *order);
+    tahr__room_put(host, order, n, sizeof *order);
     return status;
 }
 
 /* Rings: all triangles at one edge linked in a circle, found through a table keyed by the edge's two corners. */
 static tahr_status connect(const tahr_host *host, tahr__mesh *mesh)
 {
-    uint32_t edges = mesh->triangle_count * 3, size = table_size(edges), *table = get(host, size, sizeof *table);
+    uint32_t edges = mesh->triangle_count * 3, size = table_size(edges),
+             *table = tahr__room_get(host, size, sizeof *table);
     if (!table) return TAHR_E_MEMORY;
     memset(table, 0xff, size * sizeof *table);
     for (uint32_t e = 0; e < edges; e++) {
@@ -243,13 +235,13 @@ static tahr_status connect(const tahr_host *host, tahr__mesh *mesh)
         }
         if (table[slot] == NONE) table[slot] = e;
     }
-    put(host, table, size, sizeof *table);
+    tahr__room_put(host, table, size, sizeof *table);
     return TAHR_OK;
 }
 
 static tahr_status set_normals(const tahr_host *host, tahr__mesh *mesh)
 {
-    mesh->normals = get(host, mesh->triangle_count, sizeof *mesh->normals);
+    mesh->normals = tahr__room_get(host, mesh->triangle_count, sizeof *mesh->normals);
     if (!mesh->normals) return TAHR_E_MEMORY;
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         const uint32_t *v = mesh->triangles[i].vertex;
@@ -265,8 +257,8 @@ tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *sou
     memset(&m, 0, sizeof m);
     tahr_status status = check(host, source);
     if (status != TAHR_OK) return status;
-    uint32_t *remap = get(host, source->vertex_count, sizeof *remap);
-    m.triangles = get(host, source->triangle_count, sizeof *m.triangles);
+    uint32_t *remap = tahr__room_get(host, source->vertex_count, sizeof *remap);
+    m.triangles = tahr__room_get(host, source->triangle_count, sizeof *m.triangles);
     m.triangle_capacity = source->triangle_count;
     status = remap && m.triangles ? weld(host, source, remap) : TAHR_E_MEMORY;
     if (status == TAHR_OK) status = clean(host, source, remap, m.triangles, &m.triangle_count);
@@ -275,7 +267,7 @@ tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *sou
         status = TAHR_E_GEOMETRY;
     }
     if (status == TAHR_OK) status = compact(host, source, remap, &m);
-    put(host, remap, source->vertex_count, sizeof *remap);
+    tahr__room_put(host, remap, source->vertex_count, sizeof *remap);
     if (status == TAHR_OK) status = build_tree(host, &m);
     if (status == TAHR_OK) status = connect(host, &m);
     if (status == TAHR_OK) status = set_normals(host, &m);
@@ -288,9 +280,9 @@ tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *sou
 
 void tahr__mesh_free(const tahr_host *host, tahr__mesh *mesh)
 {
-    put(host, mesh->vertices, mesh->vertex_capacity, sizeof *mesh->vertices);
-    put(host, mesh->normals, mesh->triangle_count, sizeof *mesh->normals);
-    put(host, mesh->triangles, mesh->triangle_capacity, sizeof *mesh->triangles);
+    tahr__room_put(host, mesh->vertices, mesh->vertex_capacity, sizeof *mesh->vertices);
+    tahr__room_put(host, mesh->normals, mesh->triangle_count, sizeof *mesh->normals);
+    tahr__room_put(host, mesh->triangles, mesh->triangle_capacity, sizeof *mesh->triangles);
     tahr__bvh_free(host, &mesh->bvh);
     memset(mesh, 0, sizeof *mesh);
 }

@@ -14,21 +14,24 @@
 /* Tangents converge quadratically, and halve the rest where the motion grazes: 30 halvings of a metre are 1e-9 m. */
 enum { MAX_TANGENTS = 64 };
 
-void tahr__placement_make(const tahr_vec3 *position, const tahr__mat *turn, tahr_vec3 start, tahr__placement *frame)
+void tahr__placement_make(tahr_vec3 position, const tahr__mat *turn, const tahr__start *start, tahr__placement *frame)
 {
-    frame->base = v_sub(*position, start);
+    frame->base = v_scale(v_sub(position, start->origin), start->scale);
     frame->turn = *turn;
+    frame->scale = start->scale;
     frame->turned = turn->row[0].x != 1 || turn->row[1].y != 1 || turn->row[2].z != 1;
     frame->reserved = 0;
 }
 
 static tahr_vec3 place(const tahr__placement *frame, tahr_vec3 local)
 {
+    local = v_scale(local, frame->scale);
     return v_add(frame->base, frame->turned ? m_apply(&frame->turn, local) : local);
 }
 
 static tahr_vec3 column(const tahr__placement *frame, int i, double length)
 {
+    length *= frame->scale;
     tahr_vec3 along = v_make(i == 0 ? length : 0, i == 1 ? length : 0, i == 2 ? length : 0);
     return frame->turned ? m_apply(&frame->turn, along) : along;
 }
@@ -36,7 +39,7 @@ static tahr_vec3 column(const tahr__placement *frame, int i, double length)
 static void begin(tahr__piece *piece, uint32_t kind, const tahr__placement *frame)
 {
     piece->kind = kind;
-    piece->two_sided = piece->triangle = piece->reserved = 0;
+    piece->two_sided = piece->triangle = piece->is_cell = 0;
     piece->frame = frame;
     piece->mesh = NULL;
     piece->solid.axis_count = 0;
@@ -57,7 +60,7 @@ void tahr__piece_box(const tahr__placement *frame, tahr_vec3 middle, tahr_vec3 h
 {
     begin(piece, TAHR__BOX, frame);
     piece->middle = place(frame, middle);
-    piece->half = half;
+    piece->half = v_scale(half, frame->scale);
     piece->solid.axis_count = 3;
     for (int i = 0; i < 3; i++)
         piece->solid.axis[i] = column(frame, i, v_get(half, i));
@@ -67,7 +70,7 @@ void tahr__piece_round(const tahr__placement *frame, double radius, double reach
 {
     begin(piece, TAHR__ROUND, frame);
     piece->middle = frame->base;
-    piece->radius = radius;
+    piece->radius = radius * frame->scale;
     piece->solid.axis_count = reach > 0 ? 1 : 0;
     piece->solid.axis[0] = column(frame, 2, reach);
     /* A triangle that shrank to a segment or a point. */
@@ -79,7 +82,8 @@ void tahr__piece_round(const tahr__placement *frame, double radius, double reach
 void tahr__piece_swept(const tahr__placement *frame, uint32_t kind, double radius, double reach, tahr__piece *piece)
 {
     begin(piece, TAHR__CONVEX, frame);
-    piece->convex = (tahr__convex_side){.convex = {.kind = kind, .centre = frame->base, .radius = radius}};
+    piece->convex =
+        (tahr__convex_side){.convex = {.kind = kind, .centre = frame->base, .radius = radius * frame->scale}};
     piece->convex.convex.axis[0] = column(frame, 2, reach);
 }
 
@@ -99,7 +103,7 @@ void tahr__piece_hull(const tahr__placement *frame, const tahr__hull *hull, tahr
                                                    .centre = frame->base,
                                                    .points = hull->vertices,
                                                    .turn = frame->turned ? &frame->turn : NULL,
-                                                   .scale = 1},
+                                                   .scale = frame->scale},
                                         .planes = &hull->planes};
 }
 
@@ -182,8 +186,7 @@ static void measure_half_space(const tahr__shape *shape, tahr_vec3 centre, const
     near->point = v_mad(centre, piece->solid.axis[0], -height);
 }
 
-/* A piece of any kind by its support function. */
-static void side_of(const tahr__piece *piece, tahr__convex_side *side)
+void tahr__piece_side(const tahr__piece *piece, tahr__convex_side *side)
 {
     if (piece->kind == TAHR__CONVEX) {
         *side = piece->convex;
@@ -200,7 +203,7 @@ static void side_of(const tahr__piece *piece, tahr__convex_side *side)
         side->convex.axis[i] = piece->solid.axis[i];
 }
 
-static void shape_side(const tahr__shape *shape, tahr_vec3 centre, tahr__convex_side *side)
+void tahr__shape_side(const tahr__shape *shape, tahr_vec3 centre, tahr__convex_side *side)
 {
     *side = (tahr__convex_side){.radius = shape->radius};
     if (shape->is_convex) *side = shape->convex;
@@ -216,8 +219,8 @@ static tahr_vec3 touching_point(const tahr__shape *shape, tahr_vec3 centre, cons
     tahr__convex_side own, other;
     tahr__gap gap;
 
-    shape_side(shape, centre, &own);
-    side_of(piece, &other);
+    tahr__shape_side(shape, centre, &own);
+    tahr__piece_side(piece, &other);
     tahr__convex_touch(&own.convex, &other.convex, depth, normal, &gap);
     return gap.on_b;
 }
@@ -227,8 +230,8 @@ static void measure_convex(const tahr__shape *shape, tahr_vec3 centre, const tah
 {
     tahr__convex_side own, other;
 
-    shape_side(shape, centre, &own);
-    side_of(piece, &other);
+    tahr__shape_side(shape, centre, &own);
+    tahr__piece_side(piece, &other);
     tahr__convex_measure(&own, &other, enough, near);
 }
 
@@ -276,19 +279,25 @@ void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr_
     measure(shape, centre, piece, NULL, near);
 }
 
+void tahr__piece_measure_far(const tahr__motion *motion, const tahr__piece *piece, double fraction, tahr__near *near)
+{
+    const tahr__clearance enough = {motion->motion, motion->shape->radius + piece->radius + motion->margin};
+
+    measure(motion->shape, v_scale(motion->motion, fraction), piece, &enough, near);
+}
+
 /* What a bare core (no radius, no margin) or any convex shape arrives at it touches, and out of what it touches the way
  * may lead anywhere: of a one-sided triangle to its front, however far that is. A little earlier it is still free, and
- * the nearest points say where it came from: looks back 1e-9, 1e-8, 1e-7 m; by iteration 1e-6 to 1e-4 m. */
-static int look_back(const tahr__motion *motion, const tahr__piece *piece, double *fraction, tahr__near *near)
+ * the nearest points say where it came from: looks back 1e-9, 1e-8, 1e-7 m; by iteration 1e-6 to 1e-4 m. The fraction
+ * stays, for it is the root of a tangent: the contact is not before it. */
+static int look_back(const tahr__motion *motion, const tahr__piece *piece, double fraction, tahr__near *near)
 {
     double length = v_length(motion->motion), first = near->rough ? CROSSED : ARRIVED;
 
     for (double back = first; back < 200 * first; back *= 10) {
-        double t = d_max(0, *fraction - back / length);
+        double t = d_max(0, fraction - back / length);
         tahr__piece_measure(motion->shape, v_scale(motion->motion, t), piece, near);
-        if (near->distance < motion->margin - ARRIVED) continue;
-        *fraction = t;
-        return 1;
+        if (near->distance >= motion->margin - ARRIVED) return 1;
     }
     return 0;
 }
@@ -309,26 +318,33 @@ static int passes(const tahr__motion *motion, const tahr__piece *piece, const ta
     return tahr__grazes(here, &there, length, ARRIVED);
 }
 
+/* What a tangent led to is met there, however deep it seems. */
+static tahr__verdict arrive(const tahr__motion *motion, const tahr__piece *piece, double fraction, tahr__near *near)
+{
+    double gap = near->distance - motion->margin;
+
+    if (!(near->rough && gap >= -CROSSED) && !look_back(motion, piece, fraction, near)) return TAHR__UNKNOWN;
+    near->distance = motion->margin;
+    return TAHR__HIT;
+}
+
 /* A tangent of a convex function lies below it: a step to its root never overshoots, and one that starts late goes back
  * to the early side. */
 tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece *piece, double limit, double *fraction,
                                   tahr__near *near)
 {
-    const tahr__clearance enough = {motion->motion, motion->shape->radius + piece->radius + motion->margin};
     double t = *fraction;
-    int by_tangent = t > 0; /* t is the root of one */
+    int by_tangent = t > 0 && !motion->unsure; /* t is the root of one */
 
     for (int i = 0; i < MAX_TANGENTS; i++) {
-        measure(motion->shape, v_scale(motion->motion, t), piece, &enough, near);
+        tahr__piece_measure_far(motion, piece, t, near);
         double gap = near->distance - motion->margin, speed = -v_dot(motion->motion, near->normal);
         ++*motion->iterations;
         *fraction = t;
         if (gap <= ARRIVED && gap >= -ARRIVED)
             return passes(motion, piece, &(tahr__descent){gap, speed, t}) ? TAHR__FREE : TAHR__HIT;
-        if (gap < 0 && piece->kind == TAHR__TRIANGLE && motion->shape->radius + motion->margin <= 0)
-            return look_back(motion, piece, fraction, near) ? TAHR__HIT : TAHR__UNKNOWN;
-        if (near->rough && gap < 0 && by_tangent)
-            return gap >= -CROSSED || look_back(motion, piece, fraction, near) ? TAHR__HIT : TAHR__UNKNOWN;
+        int bare = piece->kind == TAHR__TRIANGLE && motion->shape->radius + motion->margin <= 0;
+        if (gap < 0 && (bare || (near->rough && by_tangent))) return arrive(motion, piece, t, near);
         by_tangent = gap > 0;
         if (!(speed > 0)) return gap > 0 ? TAHR__FREE : TAHR__UNKNOWN;
         t += gap / speed;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * piece.h: one convex piece of a body as a query sees it (a triangle of a mesh, a box, a sphere, a capsule, a half
- * space, or any other convex body), with everything that the core distance decides about it: signed distance, both normals, which face, and
- * whether an edge of a mesh is to be felt. All coordinates are relative to the start of the query. */
+ * space, or any other convex body), with everything that the core distance decides about it: signed distance, both
+ * normals, which face, and whether an edge of a mesh is to be felt. All coordinates are relative to the start of the
+ * query and in its unit. */
 #ifndef TAHR_COMMON_PIECE_H
 #define TAHR_COMMON_PIECE_H
 
@@ -12,10 +13,11 @@
 
 enum { TAHR__TRIANGLE = 0, TAHR__BOX = 1, TAHR__ROUND = 2, TAHR__HALF_SPACE = 3, TAHR__CONVEX = 4 };
 
-/* Where the frame of a body is: corners are base + turn * local. */
+/* Where the frame of a body is: corners are base + turn * local * scale. */
 typedef struct tahr__placement {
     tahr_vec3 base; /* relative to the start of the query */
     tahr__mat turn;
+    double scale;    /* units of the query in a metre: a power of two, which rounds nothing */
     uint32_t turned; /* 0: turn is the identity */
     uint32_t reserved;
 } tahr__placement;
@@ -26,7 +28,7 @@ typedef struct tahr__piece {
     const tahr__placement *frame;
     const tahr__mesh *mesh;
     uint32_t triangle; /* in leaf order of the mesh */
-    uint32_t reserved;
+    uint32_t is_cell;  /* 1: a box that is a cell of a larger solid */
     tahr__facet facet;
     /* Boxes: centre and half axes. Round bodies: centre, half the axis, radius. Half spaces: a point on the surface and,
      * as axis[0], the unit normal. */
@@ -51,8 +53,14 @@ static inline double tahr__shape_extent(const tahr__shape *shape, tahr_vec3 n)
     return shape->is_convex ? tahr__convex_extent(&shape->convex.convex, n) : tahr__core_extent(&shape->core, n);
 }
 
-/* A frame from a pose, seen from the start of a query. */
-void tahr__placement_make(const tahr_vec3 *position, const tahr__mat *turn, tahr_vec3 start, tahr__placement *frame);
+/* Where a query starts, in metres, and its unit. */
+typedef struct tahr__start {
+    tahr_vec3 origin;
+    double scale;
+} tahr__start;
+
+/* A frame from a position and a turn, seen from there. */
+void tahr__placement_make(tahr_vec3 position, const tahr__mat *turn, const tahr__start *start, tahr__placement *frame);
 
 /* Fill in a piece; the frame must live as long as it. Round bodies: reach is half the axis along z. */
 void tahr__piece_triangle(const tahr__placement *frame, const tahr__mesh *mesh, uint32_t triangle, tahr__piece *piece);
@@ -71,12 +79,17 @@ typedef struct tahr__shape_source {
     tahr_vec3 up;
     tahr_quat orientation;
     const tahr__hull *hull; /* who lends the vertices of a TAHR_SHAPE_HULL, or NULL */
+    double scale;           /* see tahr__placement */
 } tahr__shape_source;
 
 /* A point, for rays. */
 void tahr__shape_point(tahr__shape *out);
 /* TAHR_OK; TAHR_E_UNSUPPORTED for no kind of shape; TAHR_E_ARGUMENT if it is not finite, or without its hull. */
 tahr_status tahr__shape_make(const tahr__shape_source *source, tahr__shape *out);
+
+/* Both by their support functions. */
+void tahr__shape_side(const tahr__shape *shape, tahr_vec3 centre, tahr__convex_side *side);
+void tahr__piece_side(const tahr__piece *piece, tahr__convex_side *side);
 
 /* Nearest points, or the way out, of a shape at centre. */
 void tahr__piece_measure(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, tahr__near *near);
@@ -91,8 +104,6 @@ int tahr__piece_face(const tahr__piece *piece, tahr_vec3 direction, tahr__near *
 /* Triangle of the caller, face of a box (-x, +x, -y, +y, -z, +z), face of a hull, 0. */
 uint32_t tahr__piece_feature(const tahr__piece *piece, tahr_vec3 normal);
 
-/* The first fraction in [*fraction, limit] of a motion at which the distance falls to margin, from a fraction that is
- * known to be free, by tangents of the convex distance: never late. */
 typedef enum tahr__verdict { TAHR__FREE, TAHR__HIT, TAHR__UNKNOWN } tahr__verdict;
 
 typedef struct tahr__motion {
@@ -100,8 +111,16 @@ typedef struct tahr__motion {
     tahr_vec3 motion;
     double margin;
     uint64_t *iterations; /* counted up */
+    uint32_t unsure;      /* 1: the fraction that an advance begins at may be late */
+    uint32_t reserved;
 } tahr__motion;
 
+/* Nearest points at a fraction of a motion: within the margin; beyond it as well as a tangent needs: a plane between the
+ * two that the motion does not cross before near->distance and near->normal say so. The rest of near is not sure there. */
+void tahr__piece_measure_far(const tahr__motion *motion, const tahr__piece *piece, double fraction, tahr__near *near);
+
+/* The first fraction in [*fraction, limit] of a motion at which the distance falls to margin, by tangents of the convex
+ * distance: never late. *fraction: 0 or known to be free, unless the motion is unsure of it. */
 tahr__verdict tahr__piece_advance(const tahr__motion *motion, const tahr__piece *piece, double limit, double *fraction,
                                   tahr__near *near);
 

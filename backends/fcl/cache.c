@@ -50,7 +50,7 @@ tahr_status tahr__fcl_prepare(void *self, tahr_query_context *context, const tah
     c->revision = 0;
     if (!((b->max.x - b->min.x + b->max.y - b->min.y + b->max.z - b->min.z) * 0 == 0)) return TAHR_OK;
     context->gathers++;
-    tahr__fcl_list_begin(&list, scene->host, c->parts, scene->desc.cache_parts);
+    tahr__fcl_list_begin(&list, scene->scene.host, c->parts, scene->desc.cache_parts);
     tahr_status status = tahr__fcl_engine_gather(scene->engine, &question, &list);
     tahr__fcl_list_sort(&list);
     if (status >= 0) {
@@ -65,11 +65,12 @@ tahr_status tahr__fcl_prepare(void *self, tahr_query_context *context, const tah
 int tahr__fcl_cache_find(const tahr__fcl_query *query, const tahr_bounds *box, const tahr__fcl_part **parts,
                          uint32_t *count)
 {
-    const cache *c = query->context->cache;
+    const tahr__fcl_scene *scene = tahr__fcl_scene_of(&query->query);
+    const cache *c = query->query.context->cache;
 
-    if (!c || !is_used(query->scene) || c->revision != query->scene->revision + 1 || c->count == TOO_MANY) return 0;
+    if (!c || !is_used(scene) || c->revision != scene->revision + 1 || c->count == TOO_MANY) return 0;
     if (!holds(&c->box, box)) {
-        query->context->escapes++;
+        query->query.context->escapes++;
         return 0;
     }
     *parts = c->parts;

@@ -15,7 +15,7 @@ static int32_t cell_size(const tahr__fcl_part *cell)
     return 1 << (TAHR__FCL_LEVELS - cell->depth);
 }
 
-void tahr__fcl_cell_box(const tahr__fcl_body *body, const tahr__fcl_part *cell, tahr_vec3 *middle, tahr_vec3 *half)
+void tahr__fcl_cell_box(const tahr__scene_body *body, const tahr__fcl_part *cell, tahr_vec3 *middle, tahr_vec3 *half)
 {
     double r = body->radius, h = 0.5 * cell_size(cell);
 
@@ -41,9 +41,10 @@ static int32_t key_at(const tahr__fcl_part *cell, int i, double at, double half,
 
 /* Around the nearest point there are up to eight octants, in occupied cells or not. One is nearer if it leads from there
  * toward the shape: if the normal points into it along any axis. */
-int tahr__fcl_cell_felt(const tahr__fcl_query *q, uint32_t i, const tahr__piece *piece, const tahr__near *near)
+int tahr__fcl_cell_felt(const tahr__piece_query *q, const tahr__piece_found *found, const tahr__near *near)
 {
-    const tahr__fcl_part *cell = &q->parts[i];
+    const tahr__fcl_part *cell = tahr__fcl_query_part(q, found->name);
+    const tahr__piece *piece = &found->piece;
     double r = q->scene->bodies[cell->body].radius, half = piece->half.x, at[3];
     double beside = near->rough ? TAHR__SAME_PLACE : ON_FACE, lean = near->rough ? TAHR__SAME_DIRECTION : LEAN;
     tahr_vec3 normal = m_unapply(&piece->frame->turn, near->normal);
@@ -64,30 +65,31 @@ int tahr__fcl_cell_felt(const tahr__fcl_query *q, uint32_t i, const tahr__piece 
             leads |= key[k][0] != key[k][1] && (up ? v_get(normal, k) > lean : v_get(normal, k) < -lean);
             own &= place[k] >= cell->key[k] && place[k] < cell->key[k] + cell_size(cell);
         }
-        if (leads && !own && tahr__fcl_engine_occupied(q->scene->engine, cell->body, place)) return 0;
+        if (leads && !own && tahr__fcl_engine_occupied(tahr__fcl_scene_of(q)->engine, cell->body, place)) return 0;
     }
     return 1;
 }
 
 /* How far (m) the solid reaches beyond the cell along axis k, on the row through key. */
-static double row_length(const tahr__fcl_query *q, const tahr__fcl_part *cell, const int32_t key[3], int k, int up)
+static double row_length(const tahr__piece_query *q, const tahr__fcl_part *cell, const int32_t key[3], int k, int up)
 {
     int32_t at[3] = {key[0], key[1], key[2]};
     int steps = 0;
 
     at[k] = up ? cell->key[k] + cell_size(cell) : cell->key[k] - 1;
-    while (steps < LONGEST_WAY && tahr__fcl_engine_occupied(q->scene->engine, cell->body, at)) {
+    while (steps < LONGEST_WAY && tahr__fcl_engine_occupied(tahr__fcl_scene_of(q)->engine, cell->body, at)) {
         at[k] += up ? 1 : -1;
         steps++;
     }
     return steps * q->scene->bodies[cell->body].radius;
 }
 
-void tahr__fcl_cell_way_out(const tahr__fcl_query *q, uint32_t i, const tahr__piece *piece, tahr_vec3 centre,
-                            tahr__near *near)
+void tahr__fcl_cell_way_out(const tahr__piece_query *q, const tahr__piece_found *found, tahr__near *near)
 {
-    const tahr__fcl_part *cell = &q->parts[i];
+    const tahr__fcl_part *cell = tahr__fcl_query_part(q, found->name);
+    const tahr__piece *piece = &found->piece;
     double r = q->scene->bodies[cell->body].radius, half = piece->half.x, at[3], least = 1e300;
+    tahr_vec3 centre = v_make(0, 0, 0);
     int32_t key[3];
 
     to_cell(piece, centre, at);

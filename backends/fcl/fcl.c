@@ -1,62 +1,39 @@
 /* SPDX-License-Identifier: MIT
- * fcl.c: the table of the fcl backend and its life cycle. */
+ * fcl.c: the table of the fcl backend: its slots are those of convex pieces, found by query.c. */
 #include "scene.h"
 
-#include <string.h>
-
-static tahr_status open_scene(const tahr_host *host, const tahr_world_desc *desc, void **self)
+static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
+                         uint32_t capacity, uint32_t *count)
 {
-    tahr__fcl_scene *scene = host->allocator.alloc(host->allocator.user, sizeof *scene, 64);
-    tahr_status status;
-
-    if (!scene) return TAHR_E_MEMORY;
-    status = tahr__fcl_scene_open(scene, host, desc);
-    if (status < 0)
-        host->allocator.free(host->allocator.user, scene, sizeof *scene, 64);
-    else
-        *self = scene;
-    return status;
+    tahr__fcl_query own;
+    return tahr__piece_sweep(tahr__piece_query_by(&own.query, &tahr__fcl_finder, self, context), query, hits, capacity,
+                             count);
 }
 
-static void close_scene(void *self)
+static tahr_status contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
+                            tahr_contact *found, uint32_t capacity, uint32_t *count)
 {
-    tahr__fcl_scene *scene = self;
-    tahr_allocator allocator;
-
-    if (!scene) return;
-    allocator = scene->host->allocator;
-    tahr__fcl_scene_close(scene);
-    allocator.free(allocator.user, scene, sizeof *scene, 64);
+    tahr__fcl_query own;
+    return tahr__piece_contacts(tahr__piece_query_by(&own.query, &tahr__fcl_finder, self, context), query, found,
+                                capacity, count);
 }
 
-static tahr_status place(void *self, const tahr_body_pose *poses, uint32_t count)
+static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
 {
-    return tahr__fcl_scene_place(self, poses, count);
-}
-
-static tahr_status fluid(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *answer)
-{
-    const tahr__fcl_scene *scene = self;
-
-    (void)context;
-    tahr__fluids_ask(&scene->fluids, query, answer);
-    return TAHR_OK;
+    tahr__fcl_query own;
+    return tahr__piece_ray(tahr__piece_query_by(&own.query, &tahr__fcl_finder, self, context), query, hit, count);
 }
 
 /* Octrees, which stay where they are, and attached bodies, which only the user knows the speeds of. */
 static tahr_status body_motion(void *self, uint32_t id, tahr_body_motion *motion)
 {
     const tahr__fcl_scene *scene = self;
-    const tahr__fcl_body *b;
-    tahr__mat turn;
-    uint32_t i = 0;
+    const tahr__scene_body *b = tahr__scene_find(&scene->scene, id);
 
-    while (i < scene->body_count && scene->bodies[i].surface.id != id)
-        i++;
-    if (i == scene->body_count) return TAHR_E_NOT_FOUND;
-    b = &scene->bodies[i];
+    if (!b) return TAHR_E_NOT_FOUND;
+    uint32_t i = (uint32_t)(b - scene->scene.bodies);
+    tahr__mat turn = b->turn;
     motion->pose = b->pose;
-    turn = b->turn;
     if (scene->desc.manager) tahr__fcl_engine_pose(scene->engine, i, &motion->pose, &turn);
     motion->surface_velocity = m_apply(&turn, b->surface_velocity);
     motion->mass = b->mass;
@@ -75,16 +52,16 @@ static const tahr_backend backend = {
                     TAHR_CAP_ONE_WAY,
     .name = "fcl",
     .version = "0.7", /* the oldest that is known to work; nothing in FCL tells at run time */
-    .open = open_scene,
-    .close = close_scene,
-    .sweep = tahr__fcl_sweep,
-    .contacts = tahr__fcl_contacts,
-    .ray = tahr__fcl_ray,
+    .open = tahr__fcl_open,
+    .close = tahr__fcl_close,
+    .sweep = sweep,
+    .contacts = contacts,
+    .ray = ray,
     .cache_size = tahr__fcl_cache_size,
     .prepare = tahr__fcl_prepare,
-    .place = place,
+    .place = tahr__fcl_place,
     .body_motion = body_motion,
-    .fluid = fluid,
+    .fluid = tahr__scene_fluid,
 };
 
 const tahr_backend *tahr_backend_v1_fcl(void)

@@ -337,8 +337,9 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
         if (arrived == 0) return TAHR__FREE;
         if (!at_start) f->probe.gap = f->probe.witness.distance - touch;
         tahr__contact_normals normals;
+        normals.measure = beside != NULL;
         tahr_vec3 centre = v_mad(query->start, query->motion, f->t);
-        int verdict = tahr__resolve(query, f->prim, centre, &f->probe.witness, query->motion, beside != NULL, &normals);
+        int verdict = tahr__resolve(query, f->prim, centre, &f->probe.witness, query->motion, &normals);
         if (verdict == TAHR__REJECTED) return TAHR__FREE;
         if (verdict == TAHR__ACCEPTED || arrived < 0) {
             int answer = judge(f, &normals, at_start, out);
@@ -382,9 +383,10 @@ int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double m
     query->context->narrow_iterations++;
     tahr__probe probe;
     tahr__contact_normals normals;
+    normals.measure = 0;
     if (!probe_start(query, prim, &probe) || probe.gap > margin) return 0;
     tahr_vec3 toward = v_scale(probe.witness.normal, -1);
-    if (tahr__resolve(query, prim, query->start, &probe.witness, toward, 0, &normals) != TAHR__ACCEPTED) return 0;
+    if (tahr__resolve(query, prim, query->start, &probe.witness, toward, &normals) != TAHR__ACCEPTED) return 0;
     if ((prim->kind & TAHR__ONE_WAY) && (!tahr__one_way_blocks(UP, normals.normal, probe.gap, margin, 0) ||
                                          tahr__one_way_edge(normals.normal, normals.face))) {
         return 0;

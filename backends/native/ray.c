@@ -57,10 +57,11 @@ static int probe_triangle(const ray_state *s, const tahr__prim *prim, tahr__foun
     if (along == 0 || (along > 0 && !(prim->kind & TAHR__TWO_SIDED))) return 0;
     tahr__witness w;
     tahr__contact_normals normals;
+    normals.measure = 0;
     memset(&w, 0, sizeof w);
     w.feature = TAHR__FACE;
     w.normal = v_scale(n, (along > 0 ? -1 : 1) / prim->facet.length);
-    if (tahr__resolve(query, prim, query->start, &w, query->motion, 0, &normals) != TAHR__ACCEPTED) return 0;
+    if (tahr__resolve(query, prim, query->start, &w, query->motion, &normals) != TAHR__ACCEPTED) return 0;
     f->t = t;
     f->gap = 0;
     f->normal = f->face = normals.normal;

@@ -153,7 +153,7 @@ static void look_around(work *w, const tahr__witness *witness)
 }
 
 int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
-                  tahr_vec3 motion, int measure, tahr__contact_normals *out)
+                  tahr_vec3 motion, tahr__contact_normals *out)
 {
     out->normal = out->face = witness->normal;
     out->closer = witness->distance;
@@ -182,7 +182,7 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
     w.out = out;
     w.best = v_dot(motion, own);
     w.best_feature = 0;
-    w.measure = measure;
+    w.measure = (int)out->measure;
     w.nearer = 0;
     look_around(&w, witness);
     if (w.nearer) return TAHR__NEIGHBOUR;

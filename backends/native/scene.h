@@ -249,12 +249,14 @@ enum { TAHR__REJECTED = 0, TAHR__ACCEPTED = 1, TAHR__NEIGHBOUR = 2 };
 typedef struct tahr__contact_normals {
     tahr_vec3 normal, face; /* local, unit */
     double closer;          /* with TAHR__NEIGHBOUR: distance of the core to the neighbour that is nearer */
+    uint32_t measure;       /* [in] 1: closer is asked for */
+    uint32_t reserved;
 } tahr__contact_normals;
 
 /* witness: of the core at centre. NEIGHBOUR: the nearest point is an edge or corner, and another triangle at it is
- * nearer; closer is the distance to that one if measure was asked for. */
+ * nearer. */
 int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
-                  tahr_vec3 motion, int measure, tahr__contact_normals *out);
+                  tahr_vec3 motion, tahr__contact_normals *out);
 
 /* What it is at. Takes a neighbour; 1: no others are needed. */
 typedef struct tahr__resolving tahr__resolving;

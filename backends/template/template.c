@@ -1,97 +1,82 @@
 /* SPDX-License-Identifier: MIT
- * template.c: a whole backend to copy: boxes, spheres and capsules, asked one by one. README.md goes through it. Where
- * an engine of yours comes in, it finds the bodies (instead of the loops); what decides stays the core distance. */
-#include "../common/solid.h"
-
-#include <string.h>
+ * template.c: a whole backend to copy: boxes, spheres and capsules, looked at one by one. README.md goes through it. Where
+ * an engine of yours comes in, it finds the bodies (instead of next); what decides stays the core distance. */
+#include "../common/piece_query.h"
+#include "../common/room.h"
 
 TAHR_API const tahr_backend *tahr_backend_v1_template(void);
 
-typedef struct scene {
-    const tahr_host *host;
-    uint32_t count, reserved;
-    tahr_body_desc bodies[];
-} scene;
+static void close_scene(void *self)
+{
+    tahr__scene *scene = self;
+    const tahr_host *host = scene->host;
+    tahr__scene_close(scene);
+    tahr__room_put(host, scene, 1, sizeof *scene);
+}
 
 static tahr_status open_scene(const tahr_host *host, const tahr_world_desc *desc, void **self)
 {
-    const size_t size = sizeof(scene) + desc->body_count * sizeof *desc->bodies;
-    scene *s = host->allocator.alloc(host->allocator.user, size, 8);
-    if (!s) return TAHR_E_MEMORY;
-    s->host = host;
-    s->count = desc->body_count;
-    if (s->count > 0) memcpy(s->bodies, desc->bodies, s->count * sizeof *s->bodies);
-    *self = s;
-    return TAHR_OK;
+    tahr__scene *scene = tahr__room_get(host, 1, sizeof *scene);
+    if (!scene) return TAHR_E_MEMORY;
+    tahr_status status = tahr__scene_open(scene, host, desc, 0);
+    if (status < 0)
+        close_scene(scene);
+    else
+        *self = scene;
+    return status;
 }
 
-static void close_scene(void *self)
+/* What is kept for one query: how far it has come. */
+typedef struct search {
+    tahr__piece_query query;
+    uint32_t body, reserved;
+} search;
+
+static void from_the_first(tahr__piece_query *query)
 {
-    scene *s = self;
-    const tahr_allocator a = s->host->allocator;
-    a.free(a.user, s, sizeof *s + s->count * sizeof *s->bodies, 8);
+    ((search *)query)->body = 0;
 }
 
-static int is_there(const scene *s, uint32_t body, uint32_t mask, uint32_t ignored, uint32_t flags)
+/* The next body whose bounds meet the box of the query. */
+static int next(tahr__piece_query *query, uint64_t *name)
 {
-    const uint32_t own = s->bodies[body].mask ? s->bodies[body].mask : 0xFFFFFFFFu; /* 0: all bits */
-    return own & mask && (flags & TAHR_SWEEP_ONLY_BODY ? body == ignored : body != ignored);
+    const tahr_bounds box = tahr__piece_query_box(query);
+    search *s = (search *)query;
+    while (s->body < query->scene->body_count) {
+        const tahr_bounds bounds = tahr__scene_bounds(&query->scene->bodies[s->body]);
+        *name = s->body++;
+        if (tahr__bounds_meet(&bounds, &box)) return 1;
+    }
+    return 0;
 }
+
+static int make(tahr__piece_query *query, tahr__piece_found *found)
+{
+    const tahr__scene_body *body = &query->scene->bodies[found->name];
+    tahr__piece_of_body(query, body, 0, found);
+    return tahr__piece_wanted(query, body);
+}
+
+static const tahr__piece_finder finder = {.rewind = from_the_first, .next = next, .make = make};
 
 static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
                          uint32_t capacity, uint32_t *count)
 {
-    const scene *s = self;
-    tahr_hit hit;
-    *count = 0;
-    if (capacity == 0 || query->flags & TAHR_SWEEP_SENSORS) return TAHR_OK; /* there are none */
-    for (uint32_t i = 0; i < s->count; i++) {
-        if (!is_there(s, i, query->mask, query->ignore_body, query->flags)) continue;
-        context->narrow_tests++;
-        if (!tahr__solid_sweep(&s->bodies[i], i, query, &hit)) continue;
-        if (*count == 0 || tahr__solid_before(&hit, hits)) *hits = hit;
-        *count = 1;
-    }
-    return TAHR_OK;
+    search s;
+    return tahr__piece_sweep(tahr__piece_query_by(&s.query, &finder, self, context), query, hits, capacity, count);
 }
 
 static tahr_status contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
                             tahr_contact *found, uint32_t capacity, uint32_t *count)
 {
-    const scene *s = self;
-    tahr_status status = TAHR_OK;
-    tahr_contact contact;
-    *count = 0;
-    for (uint32_t i = 0; i < s->count; i++) {
-        if (!is_there(s, i, query->mask, query->ignore_body, 0)) continue;
-        context->narrow_tests++;
-        if (!tahr__solid_contact(&s->bodies[i], i, query, &contact)) continue;
-        if (!tahr__solid_insert(&contact, found, capacity, count)) status = TAHR_TRUNCATED;
-    }
-    return status;
+    search s;
+    return tahr__piece_contacts(tahr__piece_query_by(&s.query, &finder, self, context), query, found, capacity, count);
 }
 
 static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *query, tahr_hit *hit, uint32_t *count)
 {
-    const scene *s = self;
-    tahr_hit one;
-    *count = 0;
-    for (uint32_t i = 0; i < s->count; i++) {
-        if (!is_there(s, i, query->mask, query->ignore_body, 0)) continue;
-        context->narrow_tests++;
-        if (!tahr__solid_ray(&s->bodies[i], i, query, &one)) continue;
-        if (*count == 0 || tahr__solid_before(&one, hit)) *hit = one;
-        *count = 1;
-    }
-    return TAHR_OK;
-}
-
-static tahr_status place(void *self, const tahr_body_pose *poses, uint32_t count)
-{
-    scene *s = self;
-    for (uint32_t i = 0; i < count; i++)
-        s->bodies[poses[i].body].pose = poses[i].pose; /* the library has checked both */
-    return TAHR_OK;
+    search s;
+    return tahr__piece_ray(tahr__piece_query_by(&s.query, &finder, self, context), query, hit, count);
 }
 
 static const tahr_backend backend = {
@@ -107,7 +92,7 @@ static const tahr_backend backend = {
     .sweep = sweep,
     .contacts = contacts,
     .ray = ray,
-    .place = place,
+    .place = tahr__scene_place,
 };
 
 const tahr_backend *tahr_backend_v1_template(void)

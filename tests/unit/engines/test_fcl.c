@@ -289,6 +289,32 @@ static void contacts_come_in_order_and_say_when_more_existed(void **state)
     tahr_world_close(world);
 }
 
+/* An ellipsoid with equal semi-axes is a ball, and where a ball meets a ridge is a square root. Beyond the ridge lies a
+ * triangle whose front is far away: an answer by the way out would be early by a micrometre. */
+static void an_ellipsoid_without_a_margin_meets_a_ridge_to_the_nanometre(void **state)
+{
+    static const double roof[] = {-4, -4, -4, 0, -4, 0, 0, 4, 0, -4, 4, -4, 4, -4, -4, 4, 4, -4};
+    static const uint32_t triangles[] = {0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2};
+    tahr_body_desc body = fixture_mesh(roof, 6, triangles, 4);
+    tahr_world *world = open_fcl(&body, 1);
+    tahr_hit hit;
+
+    (void)state;
+    dice.state = 9;
+    for (int i = 0; i < 1000; i++) {
+        double a = uniform(0.2, 0.6), beside = uniform(-0.5, 0.5) * a, height = sqrt(a * a - beside * beside);
+        tahr_sweep q =
+            fixture_sweep(fixture_shape(TAHR_SHAPE_ELLIPSOID, 0, a), (tahr_vec3){beside, uniform(-2, 2), uniform(1, 2)},
+                          (tahr_vec3){0, uniform(-1, 1), -3}, 0);
+        q.shape.half_x = q.shape.half_y = a;
+        assert_int_equal(sweep(world, &q, &hit), 1);
+        double late =
+            hit.fraction * 3 - (q.position.z - height); /* m along the fall; height / a of it closes the gap */
+        assert_true(fabs(late) * height / a < 2e-9 && fabs(hit.distance) < 2e-9 && !hit.start_overlap);
+    }
+    tahr_world_close(world);
+}
+
 static void rays_meet_faces_and_never_start_inside(void **state)
 {
     tahr_body_desc bodies[2] = {box_body((tahr_vec3){2, 0, 0}, 0.5), box_body((tahr_vec3){0, 0, 5}, 0.5)};
@@ -675,6 +701,7 @@ int main(void)
         cmocka_unit_test(sweep_lists_sensors_before_the_blocking_hit),
         cmocka_unit_test(placing_moves_movable_bodies_all_or_nothing),
         cmocka_unit_test(contacts_come_in_order_and_say_when_more_existed),
+        cmocka_unit_test(an_ellipsoid_without_a_margin_meets_a_ridge_to_the_nanometre),
         cmocka_unit_test(rays_meet_faces_and_never_start_inside),
         cmocka_unit_test(opening_returns_all_memory_when_any_allocation_fails),
         cmocka_unit_test(sweeps_agree_with_native_on_every_kind_of_body),
