@@ -17,6 +17,7 @@
 /* Where a shape is nearest to a piece of a body. */
 typedef struct tahr__near {
     double distance;  /* signed, between the surfaces */
+    double lean;      /* sine of the angle by which rounding may have turned the normal of two that hardly part; or 0 */
     tahr_vec3 normal; /* unit, from the piece to the shape, or the way out */
     tahr_vec3 point;  /* on the surface of the piece */
     uint32_t part;    /* of a triangle: TAHR__FACE, TAHR__EDGE + i, TAHR__CORNER + i */

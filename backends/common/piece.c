@@ -5,6 +5,8 @@
 #include "core_box.h"
 #include "graze.h"
 
+/* What rounding makes of the difference of two places some metres from the start of the query, and more. */
+#define ROUNDING 1e-14
 /* Nearer than this the direction between the nearest points is rounding: the way out is taken instead. */
 #define TOUCHING 1e-10
 /* Arrived (m). */
@@ -256,6 +258,7 @@ static void measure_core(const tahr__shape *shape, tahr_vec3 centre, const tahr_
     near->point = w.point;
     near->part = depth >= 0 ? TAHR__FACE : w.feature;
     near->normal = depth >= 0 ? way_out : w.normal;
+    if (depth < 0 && w.distance > 0) near->lean = ROUNDING / w.distance;
     near->distance = (depth >= 0 ? -depth : w.distance) - shape->radius - piece->radius;
     if (depth >= 0) near->point = touching_point(shape, centre, piece, depth, near->normal);
     near->point = v_mad(near->point, near->normal, piece->radius);
@@ -266,6 +269,7 @@ static void measure(const tahr__shape *shape, tahr_vec3 centre, const tahr__piec
                     tahr__near *near)
 {
     near->rough = 0;
+    near->lean = 0;
     if (piece->kind == TAHR__HALF_SPACE)
         measure_half_space(shape, centre, piece, near);
     else if (shape->is_convex || piece->kind == TAHR__CONVEX)

@@ -5,7 +5,7 @@
 /* A contact whose normal leans behind a one-sided face by more than this came from behind and is none. */
 #define BEHIND (-1e-6)
 /* Slope at which a neighbour leads toward the shape: rounding makes 1e-13 of a centimetre. */
-#define NEARER 1e-9
+#define NEARER 1e-9 /* or near->lean if that is more */
 /* Contact normals this close to the face's are the face's: what is left of rounding at an edge of a flat surface. */
 #define SNAP 1e-7
 /* How far beside a face (m) its points may lie by rounding, and how far a normal may lean off it. */
@@ -75,7 +75,7 @@ static uint32_t corner_of(const tahr__triangle *t, uint32_t vertex)
 /* Is a neighbour nearer than the edge (corners at, to) or corner (at == to) that it shares? It is if its face leads
  * from there toward the shape. Judged by slope, not by two distances: those would differ by rounding and each could
  * hide the other. */
-static int is_nearer(const tahr__facet *other, uint32_t at, uint32_t to, tahr_vec3 normal)
+static int is_nearer(const tahr__facet *other, uint32_t at, uint32_t to, const tahr__near *near)
 {
     tahr_vec3 edge = v_sub(other->v[to], other->v[at]);
 
@@ -83,7 +83,7 @@ static int is_nearer(const tahr__facet *other, uint32_t at, uint32_t to, tahr_ve
         tahr_vec3 into = v_sub(other->v[i], other->v[at]);
         if (i == at || i == to) continue;
         if (at != to) into = v_mad(into, edge, -v_dot(into, edge) / v_dot(edge, edge));
-        if (v_dot(normal, into) > NEARER * v_length(into)) return 1;
+        if (v_dot(near->normal, into) > d_max(NEARER, near->lean) * v_length(into)) return 1;
     }
     return 0;
 }
@@ -116,7 +116,7 @@ static int look_at(fan *f, uint32_t triangle)
     tahr__piece_triangle(f->piece->frame, mesh, triangle, &other);
     tahr_vec3 normal = facing_normal(&other.facet, f->piece->two_sided, f->near->normal);
     if (v_dot(normal, f->near->normal) < BEHIND) return 1;
-    if (is_nearer(&other.facet, from, to, f->near->normal)) return 0;
+    if (is_nearer(&other.facet, from, to, f->near)) return 0;
     if (v_dot(normal, f->direction) > f->most) {
         f->most = v_dot(normal, f->direction);
         *f->face = normal;

@@ -12,6 +12,11 @@ enum { MAX_WAITING = 64 };
  * it: ten times what tangents leave. */
 #define NEARER 1e-8
 
+/* A shape without a radius is stopped at least at this distance (of the query's unit), and goes the rest straight: where
+ * it touches, the direction to what it touches is rounding, and neighbours of a mesh could each take the other for nearer.
+ * Ten times the tolerance of arrivals (piece.c). */
+#define LEAST_MARGIN 1e-8
+
 /* A piece that may be hit, not before the fraction at which the tangent of its distance at the start says so. */
 typedef struct waiter {
     double earliest;
@@ -22,8 +27,9 @@ typedef struct search {
     tahr__piece_query *query;
     tahr__hits hits;
     tahr__one_way_sweep one_way;
-    double beside; /* the smallest distance of what is within the margin at the start and does not block */
-    double hidden; /* how near an edge or corner could come that a nearer neighbour hid */
+    double surplus; /* the query's margin is so much more than was asked for */
+    double beside;  /* the smallest distance of what is within the margin at the start and does not block */
+    double hidden;  /* how near an edge or corner could come that a nearer neighbour hid */
     uint32_t waiting_count, again;   /* again: this is the second time */
     waiter waiting[MAX_WAITING + 1]; /* by earliest */
 } search;
@@ -74,6 +80,17 @@ static void hide(search *s, const meeting *m)
     s->hidden = d_min(s->hidden, height + d_min(0, v_dot(q->motion, n)));
 }
 
+/* From where a margin was reached that is more than what was asked for: along the tangent, which is never late. */
+static int goes_the_rest(const search *s, meeting *m)
+{
+    double rest = d_min(s->surplus, m->near.distance - s->query->margin + s->surplus);
+
+    if (rest <= 0 || m->fraction == 0 || m->unknown) return 1;
+    m->near.distance -= rest;
+    m->fraction += rest / -v_dot(s->query->motion, m->near.normal);
+    return m->fraction <= tahr__hits_limit(&s->hits);
+}
+
 /* Takes a contact, unless it is from behind, or not approached. Returns 0 if it is an internal edge. */
 static int report(search *s, meeting *m)
 {
@@ -91,6 +108,7 @@ static int report(search *s, meeting *m)
         if (m->fraction == 0 && !hit.sensor) s->beside = d_min(s->beside, m->near.distance);
         return 1;
     }
+    if (approaches && !goes_the_rest(s, m)) return 1;
     hit.unknown = m->unknown;
     hit.fraction = m->fraction;
     hit.distance = m->near.distance / q->start.scale;
@@ -199,6 +217,8 @@ tahr_status tahr__piece_sweep(tahr__piece_query *q, const tahr_sweep *sweep, tah
     q->flags = sweep->flags;
     tahr_status status = tahr__piece_query_begin(q, sweep->position, &shape);
     s.query = q;
+    s.surplus = q->shape.radius > 0 ? 0 : d_max(0, LEAST_MARGIN - q->margin);
+    q->margin += s.surplus;
     s.one_way = (tahr__one_way_sweep){
         .up = q->up, .motion = q->motion, .motion_length = q->motion_length, .margin = q->margin, .flags = q->flags};
     if (status >= 0) {

@@ -324,6 +324,16 @@ static int judge(const flight *f, const tahr__contact_normals *normals, int at_s
     return TAHR__BLOCKED;
 }
 
+/* From where a margin was reached that is more than what was asked for: along the tangent, which is never late. */
+static int go_the_rest(const flight *f, double limit, tahr__found *out)
+{
+    double rest = d_min(f->query->surplus, out->gap - f->query->margin + f->query->surplus);
+    if (rest <= 0) return TAHR__BLOCKED;
+    out->gap -= rest;
+    out->t += rest / -v_dot(f->query->motion, f->probe.witness.normal);
+    return out->t <= limit ? TAHR__BLOCKED : TAHR__FREE;
+}
+
 /* Goes on until something is decided. A contact that belongs to a nearer neighbour is not this triangle's: its turn
  * comes when it is as near as that neighbour was, at the latest when it is as near as anything beside the start
  * (beside, a gap). The first time it steps back instead: most often the neighbour blocks before. */
@@ -344,7 +354,7 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
         if (verdict == TAHR__ACCEPTED || arrived < 0) {
             int answer = judge(f, &normals, at_start, out);
             out->unknown = arrived < 0;
-            return answer;
+            return answer == TAHR__BLOCKED && !at_start && query->surplus > 0 ? go_the_rest(f, limit, out) : answer;
         }
         out->t = f->t;
         if (!beside) return TAHR__LATER;

@@ -8,6 +8,9 @@
 /* Slope at which a neighbour counts as nearer than the shared edge: well above rounding (1e-15 / 0.01 m), so that two
  * neighbours never both give way to the other. */
 #define NEARER 1e-9
+/* What rounding makes of the difference of two places some metres away, and more: at less than 10 um it turns a normal by
+ * more than NEARER. */
+#define ROUNDING 1e-14
 /* Contact normals this close to a face's normal are that face's: below it lies what rounding corners to float (2.4e-7 m
  * over a few centimetres) or to double makes of a flat surface. Without it a walker would feel that it is made of
  * triangles. */
@@ -22,7 +25,8 @@ typedef struct work {
     tahr__map map;
     tahr_vec3 centre, motion;
     tahr__contact_normals *out;
-    double best; /* of motion . face so far */
+    double slope; /* at which a neighbour counts as nearer */
+    double best;  /* of motion . face so far */
     uint32_t best_feature;
     int measure, nearer;
 } work;
@@ -36,7 +40,7 @@ static tahr_vec3 face_normal(const work *w, uint32_t triangle)
 
 /* Does the triangle (corners v, local) lead from its corner `at` nearer to the core than the touched feature? to: the
  * other corner of a touched edge, 3 for a touched corner. */
-static int leads_nearer(tahr_vec3 n, const tahr_vec3 v[3], uint32_t at, uint32_t to)
+static int leads_nearer(const work *w, const tahr_vec3 v[3], uint32_t at, uint32_t to)
 {
     for (uint32_t i = 1; i < 3; i++) {
         uint32_t k = (at + i) % 3;
@@ -48,8 +52,8 @@ static int leads_nearer(tahr_vec3 n, const tahr_vec3 v[3], uint32_t at, uint32_t
             double e2 = v_dot(e, e);
             if (e2 > 0) d = v_mad(d, e, -(v_dot(d, e) / e2));
         }
-        double rise = v_dot(n, d);
-        if (rise > 0 && rise * rise > NEARER * NEARER * v_dot(d, d)) return 1;
+        double rise = v_dot(w->out->normal, d);
+        if (rise > 0 && rise * rise > w->slope * w->slope * v_dot(d, d)) return 1;
     }
     return 0;
 }
@@ -67,7 +71,7 @@ static int meets(const work *w, uint32_t two_sided, tahr_vec3 *face)
  * in. */
 static int weigh(work *w, tahr_vec3 face, const tahr_vec3 v[3], uint32_t at, uint32_t to, uint32_t feature)
 {
-    if (leads_nearer(w->out->normal, v, at, to)) {
+    if (leads_nearer(w, v, at, to)) {
         w->nearer = 1;
         if (!w->measure) return 1;
         tahr__witness other;
@@ -180,6 +184,7 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
     w.centre = centre;
     w.motion = motion;
     w.out = out;
+    w.slope = witness->distance * NEARER < ROUNDING ? ROUNDING / witness->distance : NEARER;
     w.best = v_dot(motion, own);
     w.best_feature = 0;
     w.measure = (int)out->measure;

@@ -146,6 +146,7 @@ typedef struct tahr__query {
     tahr_vec3 start, motion; /* local */
     double motion_length;
     double radius, margin;
+    double surplus;                    /* the margin is so much more than was asked for */
     double half;                       /* of an upright segment, 0 for a point */
     uint32_t mask, ignore_body, flags; /* flags: of a sweep; with ONLY_BODY nothing but ignore_body is searched */
     uint32_t sensors;                  /* TAHR__SENSORS_* */

@@ -12,8 +12,8 @@ enum { SENSORS = 32 };
  * m out, and no more than what the double narrow phase promises. */
 enum { TIES = 8 };
 #define HAIR 1e-9
-/* Boxes keep at least this distance (m): they have no radius, and where the core itself touches, the direction to what it
- * touches is rounding. Four times what is told from rounding (BLURRED of probe.c). */
+/* Boxes are stopped at least at this distance (m), and go the rest straight: they have no radius, and where the core itself
+ * touches, the direction to what it touches is rounding. Four times what is told from rounding (BLURRED of probe.c). */
 #define LEAST_OF_BOXES 4e-9
 
 /* Cached primitives that wait for their turn, the earliest first; one more is probed at once. */
@@ -63,7 +63,7 @@ void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query
     if (query->frame->turned) query->start = m_apply(&query->frame->turn, query->start);
     query->core.axis_count = 0;
     query->extent = query->motion = v_make(0, 0, 0);
-    query->motion_length = query->radius = query->margin = query->half = 0;
+    query->motion_length = query->radius = query->margin = query->surplus = query->half = 0;
     query->flags = 0;
     query->sensors = TAHR__SENSORS_NONE;
     query->sinks = 0;
@@ -353,6 +353,7 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.motion = query.frame->turned ? m_apply(&query.frame->turn, sweep->motion) : sweep->motion;
     query.motion_length = v_length(query.motion);
     query.margin = query.core.axis_count == 3 ? d_max(sweep->margin, LEAST_OF_BOXES) : sweep->margin;
+    query.surplus = query.margin - sweep->margin;
     query.mask = sweep->mask;
     query.ignore_body = sweep->ignore_body;
     query.flags = sweep->flags;
