@@ -12,9 +12,9 @@ enum { MAX_WAITING = 64 };
  * it: ten times what tangents leave. */
 #define NEARER 1e-8
 
-/* A shape without a radius is stopped at least at this distance (of the query's unit), and goes the rest straight: where
- * it touches, the direction to what it touches is rounding, and neighbours of a mesh could each take the other for nearer.
- * Ten times the tolerance of arrivals (piece.c). */
+/* A box is stopped at least at this distance (of the query's unit, or of the box if that is smaller), and goes the rest
+ * straight: it has no radius, and where it touches, the direction to what it touches is rounding, so that neighbours of a
+ * mesh could each take the other for nearer. Ten times the tolerance of arrivals (piece.c). */
 #define LEAST_MARGIN 1e-8
 
 /* A piece that may be hit, not before the fraction at which the tangent of its distance at the start says so. */
@@ -85,7 +85,7 @@ static int goes_the_rest(const search *s, meeting *m)
 {
     double rest = d_min(s->surplus, m->near.distance - s->query->margin + s->surplus);
 
-    if (rest <= 0 || m->fraction == 0 || m->unknown) return 1;
+    if (rest <= 0 || m->unknown) return 1;
     m->near.distance -= rest;
     m->fraction += rest / -v_dot(s->query->motion, m->near.normal);
     return m->fraction <= tahr__hits_limit(&s->hits);
@@ -201,6 +201,22 @@ static void run(search *s)
     look(s);
 }
 
+static void begin(search *s, tahr__piece_query *q)
+{
+    double low = tahr__shape_extent(&q->shape, v_scale(q->up, -1)) + q->shape.radius;
+    int bare = !q->shape.is_convex && q->shape.radius <= 0;
+
+    s->query = q;
+    s->surplus = bare ? d_max(0, LEAST_MARGIN * d_min(1, low) - q->margin) : 0;
+    q->margin += s->surplus;
+    s->one_way = (tahr__one_way_sweep){.up = q->up,
+                                       .motion = q->motion,
+                                       .motion_length = q->motion_length,
+                                       .margin = q->margin,
+                                       .flags = q->flags,
+                                       .low = low};
+}
+
 tahr_status tahr__piece_sweep(tahr__piece_query *q, const tahr_sweep *sweep, tahr_hit *hits, uint32_t capacity,
                               uint32_t *count)
 {
@@ -216,13 +232,8 @@ tahr_status tahr__piece_sweep(tahr__piece_query *q, const tahr_sweep *sweep, tah
     q->filter = tahr__filter_of_sweep(sweep, capacity);
     q->flags = sweep->flags;
     tahr_status status = tahr__piece_query_begin(q, sweep->position, &shape);
-    s.query = q;
-    s.surplus = q->shape.radius > 0 ? 0 : d_max(0, LEAST_MARGIN - q->margin);
-    q->margin += s.surplus;
-    s.one_way = (tahr__one_way_sweep){
-        .up = q->up, .motion = q->motion, .motion_length = q->motion_length, .margin = q->margin, .flags = q->flags};
     if (status >= 0) {
-        s.one_way.low = tahr__shape_extent(&q->shape, v_scale(q->up, -1)) + q->shape.radius;
+        begin(&s, q);
         do
             run(&s);
         while (tahr__one_way_again(&s.one_way));
