@@ -12,7 +12,7 @@
 /* A normal that rises less is a wall's; normals that differ by no more along every axis are one. */
 static const double SMALL = 1e-4;
 
-/* A contact normal that is up to a millionth of that is one of a level face with all that it lies on. */
+/* Cosine: what is met by a normal nearer to up than this lies level under a flat base. */
 static const double LEVEL = 1 - 1e-6;
 
 static int is_edge(vec3 normal, vec3 surface_normal)
