@@ -4,8 +4,10 @@
 
 /* A contact whose normal leans behind a one-sided face by more than this came from behind and is none. */
 #define BEHIND (-1e-6)
-/* Slope at which a neighbour leads toward the shape: rounding makes 1e-13 of a centimetre. */
-#define NEARER 1e-9 /* or near->lean if that is more */
+/* Slope at which a neighbour leads toward the shape, or near->lean if that is more. Of places whose distances differ by
+ * rounding alone any may be found nearest: directions to them are apart by the square root of that, 2e-8 or a little
+ * more. */
+#define NEARER 1e-7
 /* Contact normals this close to the face's are the face's: what is left of rounding at an edge of a flat surface. */
 #define SNAP 1e-7
 /* How far beside a face (m) its points may lie by rounding, and how far a normal may lean off it. */
