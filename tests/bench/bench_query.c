@@ -199,17 +199,15 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Whether a sweep hits, against the exact answers around it, and whether it says that it overlaps, beyond TAU. */
-static void score_answer(const tahr_hit *hit, double fraction, const bracket *exact, bench_query_result *r)
+/* Whether both say that it overlaps at the start, beyond TAU, and how deep. */
+static void score_overlap(const tahr_hit *hit, const tahr_hit *exact, bench_query_result *r)
 {
-    double depth = hit->start_overlap ? hit->depth : 0, other = exact->hit.start_overlap ? exact->hit.depth : 0;
+    double depth = hit->start_overlap ? hit->depth : 0, other = exact->start_overlap ? exact->depth : 0;
     double off = fabs(depth - other);
-    r->hits += fraction < NONE;
-    r->at_start += fraction <= 0;
-    r->overlaps += exact->hit.start_overlap;
+    r->overlaps += exact->start_overlap;
     r->depth_max = off > r->depth_max ? off : r->depth_max;
-    r->misses += fraction > exact->last || (other > TAU && !hit->start_overlap);
-    r->false_hits += fraction < exact->first || (depth > TAU && !exact->hit.start_overlap);
+    r->misses += other > TAU && !hit->start_overlap;
+    r->false_hits += depth > TAU && !exact->start_overlap;
 }
 
 /* How far off its margin a sweep stops. What was nearer from the start may be as near as it was: not approached, it does
@@ -232,7 +230,10 @@ static void score(const bench_queries *b, const tahr_hit *hits, const uint32_t *
         const tahr_hit *hit = counts[i] ? &hits[i] : &nothing;
         double fraction = counts[i] ? hit->fraction : NONE;
         bracket exact = exact_answer(b, q);
-        score_answer(hit, fraction, &exact, r);
+        r->hits += fraction < NONE;
+        r->at_start += fraction <= 0;
+        r->misses += fraction > exact.last;
+        r->false_hits += fraction < exact.first;
         double gap = fraction < NONE ? stop_gap(b, q, hit) : 0;
         if (fraction < NONE && (fraction > 0 || gap > 0)) {
             gaps[measured++] = gap;
@@ -242,6 +243,31 @@ static void score(const bench_queries *b, const tahr_hit *hits, const uint32_t *
     r->gap_p50 = measured ? gaps[measured / 2] : 0;
     r->gap_p99 = measured ? gaps[measured - 1 - measured / 100] : 0;
     r->gap_max = measured ? gaps[measured - 1] : 0;
+}
+
+/* Wanderers overlap nothing: where the exact answers stop, a margin and a half farther on, they would. */
+static tahr_status score_sunk(const bench_queries *b, tahr_world *world, bench_query_result *r)
+{
+    for (uint32_t i = 0; i < b->sweep_count; i++) {
+        tahr_sweep q = b->sweeps[i];
+        tahr_hit exact, hit = {0};
+        uint32_t count;
+        double fraction = exact_fraction(b, &q, q.margin, &exact), sunk = 1.5 * q.margin;
+        if (fraction >= NONE) {
+            continue;
+        }
+        q.position.x += q.motion.x * fraction - exact.normal.x * sunk;
+        q.position.y += q.motion.y * fraction - exact.normal.y * sunk;
+        q.position.z += q.motion.z * fraction - exact.normal.z * sunk;
+        q.motion = (tahr_vec3){0, 0, 0};
+        exact_fraction(b, &q, q.margin, &exact);
+        tahr_status status = tahr_world_sweep(world, &q, &hit, 1, &count);
+        if (status < 0) {
+            return status;
+        }
+        score_overlap(&hit, &exact, r);
+    }
+    return TAHR_OK;
 }
 
 /* The least of some rounds: on a machine shared with others the rest is their noise. */
@@ -294,11 +320,12 @@ tahr_status bench_queries_run(const bench_queries *b, const bench_world *world, 
     if (status >= 0) {
         status = time_contacts(b, opened, &result->contacts_ns);
     }
+    if (status >= 0) {
+        score(b, hits, counts, result);
+        status = score_sunk(b, opened, result);
+    }
     tahr_world_close(opened);
     result->sweeps = b->sweep_count;
     result->contact_queries = b->contact_count;
-    if (status >= 0) {
-        score(b, hits, counts, result);
-    }
     return status;
 }
