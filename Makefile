@@ -64,7 +64,8 @@ test-full: setup
 	@$(call compile,$(BUILD))
 	@$(call check,$(BUILD),)
 
-# Tests labelled "toolchain" compile the sources again by themselves, so there is nothing in them for a sanitizer to see.
+# Tests labelled "toolchain" compile the sources again by themselves, so there is nothing in them for a sanitizer to
+# see.
 asan: setup
 	@$(call configure,$(BUILD)/asan,-DTAHR_TESTS=ON -DTAHR_SANITIZE=ON)
 	@$(call compile,$(BUILD)/asan)

@@ -8,8 +8,8 @@
 /* Slope at which a neighbour counts as nearer than the shared edge: well above rounding (1e-15 / 0.01 m), so that two
  * neighbours never both give way to the other. */
 #define NEARER 1e-9
-/* What rounding makes of the difference of two places some metres away, and more: at less than 10 um it turns a normal by
- * more than NEARER. */
+/* What rounding makes of the difference of two places some metres away, and more: at less than 10 um it turns a normal
+ * by more than NEARER. */
 #define ROUNDING 1e-14
 /* Contact normals this close to a face's normal are that face's: below it lies what rounding corners to float (2.4e-7 m
  * over a few centimetres) or to double makes of a flat surface. Without it a walker would feel that it is made of

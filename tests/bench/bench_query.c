@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * bench_query.c: asks what wandering characters asked, one query at a time, and times and scores the answers.
  *
- * A hit is right if the exact backend stops there too, with the margin asked for or one a micrometre off: fractions alone
- * say nothing where a graze turns rounding into a long way. How right it is says the backward error: how far from its
- * margin the shape is where the answer stops it, measured by the contacts of the exact backend at that place. A one-way
- * body counts there only if it is what stopped the sweep. */
+ * A hit is right if the exact backend stops there too, with the margin asked for or one a micrometre off: fractions
+ * alone say nothing where a graze turns rounding into a long way. How right it is says the backward error: how far from
+ * its margin the shape is where the answer stops it, measured by the contacts of the exact backend at that place. A
+ * one-way body counts there only if it is what stopped the sweep. */
 #include "bench_query.h"
 
 #include <math.h>
@@ -210,8 +210,8 @@ static void score_overlap(const tahr_hit *hit, const tahr_hit *exact, bench_quer
     r->false_hits += depth > TAU && !exact->start_overlap;
 }
 
-/* How far off its margin a sweep stops. What was nearer from the start may be as near as it was: not approached, it does
- * not block, and another surface did. */
+/* How far off its margin a sweep stops. What was nearer from the start may be as near as it was: not approached, it
+ * does not block, and another surface did. */
 static double stop_gap(const bench_queries *b, const tahr_sweep *q, const tahr_hit *hit)
 {
     double stop = clearance(b, q, hit->fraction, hit->body), start = clearance(b, q, 0, hit->body);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * test_everything.c: random characters with random input among random bodies, every feature at once: no step fails, every
- * state is one that a step accepts, reports say nothing that cannot be, and nothing but the arguments of a step decides it.
- * Arguments: a factor of the number of rounds and a first seed, to look longer. */
+ * test_everything.c: random characters with random input among random bodies, every feature at once: no step fails,
+ * every state is one that a step accepts, reports say nothing that cannot be, and nothing but the arguments of a step
+ * decides it. Arguments: a factor of the number of rounds and a first seed, to look longer. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * test_planar_wrong.c: what leaves the plane of a world of two dimensions is named before anything is asked, or does not
- * count; positions along z never do. The backend is native over deep boxes, told to say that it is planar, and counts. */
+ * test_planar_wrong.c: what leaves the plane of a world of two dimensions is named before anything is asked, or does
+ * not count; positions along z never do. The backend is native over deep boxes, told to say that it is planar, and
+ * counts. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
