@@ -60,13 +60,13 @@ print(base64.b64encode((zlib if sys.argv[1] == 'zlib' else gzip).compress(data))
         tahr run --2d --level "$work/packed.tmj" --seconds 0.1 --characters 1
         if [ "$code" = 2 ]; then
             expect 2 "without zlib"
-            echo "SKIP: packed layers: this shell was built without zlib"
+            echo "SKIP: cli_side_maps: packed layers: this shell was built without zlib"
         else
             same "$work/packed.tmj"
         fi
     done
 else
-    echo "SKIP: packed layers: python3 is not there to pack one"
+    echo "SKIP: cli_side_maps: packed layers: python3 is not there to pack one"
 fi
 printf '{"type": "tileset", %s' "${tileset#\{\"firstgid\": 1, }" >"$work/set.tsj"
 map 8 4 "$(tiles 8 4 "$(floor 8)"), $start" '{"firstgid": 1, "source": "set.tsj"}' >"$work/external.tmj"

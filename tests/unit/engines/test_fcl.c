@@ -18,7 +18,7 @@
 #ifndef TAHR_HAVE_FCL
 int main(void)
 {
-    puts("SKIP: unit_fcl: built without FCL");
+    puts("SKIP: unit_engines_fcl: built without FCL");
     return 77;
 }
 #else

@@ -359,7 +359,7 @@ static void bodies_far_away_along_z_push_and_carry(void **unused)
     assert_true(r.state.position.z == 0);
     rig_close(&r);
 #else
-    printf("SKIP: bodies_far_away_along_z_push_and_carry: needs the box2d backend\n");
+    printf("SKIP: unit_motion_planar_wrong: bodies_far_away_along_z_push_and_carry needs the box2d backend\n");
     skip();
 #endif
 }
