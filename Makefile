@@ -26,7 +26,7 @@ BOX2D3 = $(BUILD)/box2d3/source
 box2d_3 = $$(if [ -d $(BOX2D3)/src ]; then echo "-DTAHR_BOX2D3_DIR=$(abspath $(BOX2D3))"; fi)
 compile = cmake --build $(1) --parallel $(JOBS)
 # ctest's own output first, then the table of parity by rows (tests/parity_count.sh), then why something was left out:
-# every skipped test says so in a line "SKIP: ...".
+# every skipped test says so in a line "SKIP: name: why".
 check = cd $(1) && (ctest --output-on-failure --no-label-summary -j $(JOBS) $(2); status=$$?; \
 	grep -h '^parity: ' Testing/Temporary/LastTest.log | tail -n 1; \
 	grep -h '^SKIP: ' Testing/Temporary/LastTest.log | sort -u; exit $$status)
@@ -64,7 +64,8 @@ test-full: setup
 	@$(call compile,$(BUILD))
 	@$(call check,$(BUILD),)
 
-# Tests labelled "toolchain" compile the sources again by themselves, so there is nothing in them for a sanitizer to see.
+# Tests labelled "toolchain" compile the sources again by themselves, so there is nothing in them for a sanitizer to
+# see.
 asan: setup
 	@$(call configure,$(BUILD)/asan,-DTAHR_TESTS=ON -DTAHR_SANITIZE=ON)
 	@$(call compile,$(BUILD)/asan)

@@ -23,7 +23,8 @@ if(cxx_runtime)
     set(pc_cxx "-l${cxx_runtime}")
 endif()
 
-# Writes NAME.pc. REQUIRES: other .pc files; PRIVATE: what the archive needs, and where there is only the archive everybody.
+# Writes NAME.pc. REQUIRES: other .pc files; PRIVATE: what the archive needs, and where there is only the archive
+# everybody.
 function(tahr_pc name description requires private)
     set(public)
     if(NOT TAHR_SHARED)

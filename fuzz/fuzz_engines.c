@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * fuzz_engines.c: the same scene on native in double and on every other engine of this build: the same answers within the
- * contract. Three of four scenes are of three dimensions, the others of two: those native has drawn out into space. Where two engines stop at different fractions, each is judged by the distance that
- * the other measures there: at a graze the fraction may be far off and do no harm. */
+ * fuzz_engines.c: the same scene on native in double and on every other engine of this build: the same answers within
+ * the contract. Three of four scenes are of three dimensions, the others of two: those native has drawn out into space.
+ * Where two engines stop at different fractions, each is judged by the distance that the other measures there: at a
+ * graze the fraction may be far off and do no harm. */
 #include "flat.h"
 #include "target.h"
 
@@ -61,8 +62,8 @@ static double nearest(tahr_world *world, const tahr_sweep *q, double t, double r
     return count ? c[0].distance : reach;
 }
 
-/* Nowhere nearer than the margin on the way, or than it was at the start, measured by the other engine; and at the margin
- * at the end, if blocked. */
+/* Nowhere nearer than the margin on the way, or than it was at the start, measured by the other engine; and at the
+ * margin at the end, if blocked. */
 static void judge(tahr_world *judge_world, const tahr_sweep *q, double start, const tahr_hit *h, const char *who)
 {
     double end = h->fraction, way = length(q->motion), nearer = fmin(q->margin, start);

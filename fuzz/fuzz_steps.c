@@ -156,9 +156,9 @@ static void refuse(twin *t, const tahr_input *input, uint32_t how)
     FUZZ_CHECK(memcmp(&t->state[0], &before, sizeof before) == 0, "state");
 }
 
-/* m that a sweep may be off: 1e-4 of the size of the scene, as in fuzz_engines; the rounding of its coordinates; and that
- * of corners to floats, from the corner of their cell of 4 m (backends/native/README.md): half of 2^-21 m in each of three
- * directions. */
+/* m that a sweep may be off: 1e-4 of the size of the scene, as in fuzz_engines; the rounding of its coordinates; and
+ * that of corners to floats, from the corner of their cell of 4 m (backends/native/README.md): half of 2^-21 m in each
+ * of three directions. */
 static double slack_of(const scene *s)
 {
     return 1e-4 * s->scale + 8 * 2.3e-16 * (fabs(s->origin.x) + fabs(s->origin.y)) + 5e-7;

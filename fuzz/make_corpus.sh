@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # make_corpus.sh: writes the seeds of fuzz/corpus: short texts, of which every byte is a decision (see scene.c, tape.c).
-# Run from the root of the sources; set TAHR to the shell if it is not build/bin/tahr. What fuzzers found lies beside them under names that begin with found_.
+# Run from the root of the sources; set TAHR to the shell if it is not build/bin/tahr. What fuzzers found lies beside
+# them under names that begin with found_.
 set -eu
 seed() {
     mkdir -p "fuzz/corpus/$1"

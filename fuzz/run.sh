@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# run.sh BUILD SECONDS: every fuzzer of BUILD/bin for SECONDS seconds each, from the corpus, one line each. What they find
-# is kept as BUILD/found/TARGET-*; what they learn as BUILD/corpus/TARGET. Ends with 1 if there was a find.
+# run.sh BUILD SECONDS: every fuzzer of BUILD/bin for SECONDS seconds each, from the corpus, one line each. What they
+# find is kept as BUILD/found/TARGET-*; what they learn as BUILD/corpus/TARGET. Ends with 1 if there was a find.
 set -u
 build=$1
 seconds=$2

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * scene.h: bytes as a scene: bodies from a lattice, so that about half of all coordinates coincide exactly, and the rest
- * nearly. */
+ * scene.h: bytes as a scene: bodies from a lattice, so that about half of all coordinates coincide exactly, and the
+ * rest nearly. */
 #ifndef TAHR_FUZZ_SCENE_H
 #define TAHR_FUZZ_SCENE_H
 

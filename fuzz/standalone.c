@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * standalone.c: a main for targets without a fuzzer: replays the files, and the files of the folders, that it is given. */
+ * standalone.c: a main for targets without a fuzzer: replays the files, and the files of the folders, that it is
+ * given. */
 #include "target.h"
 
 #include <dirent.h>
 #include <string.h>
 #include <time.h>
 
-/* s of processor time that no input may take: the slowest of the corpus takes a hundredth of it, and what once hung took
- * several times as much. */
+/* s of processor time that no input may take: the slowest of the corpus takes a hundredth of it, and what once hung
+ * took several times as much. */
 static const double MOST_TIME = 0.5;
 
 static int replay_file(const char *path)

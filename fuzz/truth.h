@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * truth.h: how far a round shape is from a scene, by brute force in double: nothing of it is shared with any backend. */
+ * truth.h: how far a round shape is from a scene, by brute force in double: nothing of it is shared with any
+ * backend. */
 #ifndef TAHR_FUZZ_TRUTH_H
 #define TAHR_FUZZ_TRUTH_H
 

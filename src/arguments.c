@@ -73,7 +73,8 @@ static int all_zero(const uint8_t tail[sizeof((tahr_state *)0)->reserved])
     return any == 0;
 }
 
-/* Normals are unit, or zero where there is no floor; the rest lies within the world, and a little beyond. A sum of squares hides nothing. */
+/* Normals are unit, or zero where there is no floor; the rest lies within the world, and a little beyond. A sum of
+ * squares hides nothing. */
 static const char *bad_floor(const tahr_state *s)
 {
     const double unit2 = 1 + 1e-6, far2 = 1e16; /* m2: five times the farthest position */

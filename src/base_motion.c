@@ -96,7 +96,8 @@ static void forget_base(tahr_base *base)
     base->pose.orientation.w = 1;
 }
 
-/* ImpartBaseVelocity: what a base hands to who leaves it: its present velocity, or the one remembered since it stopped. */
+/* ImpartBaseVelocity: what a base hands to who leaves it: its present velocity, or the one remembered since it
+ * stopped. */
 static vec3 handed_over(tahr__step *step)
 {
     tahr_state *s = &step->state;

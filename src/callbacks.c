@@ -20,8 +20,8 @@ static vec3 rim_toward(const tahr_sweep *q, vec3 direction)
     return size > 1e-9 ? scale(level, q->shape.radius / size) : vec(0, 0, 0);
 }
 
-/* The lowest point of the shape at the origin along a normal. Of a hull that of the box of its extents: its vertices are
- * the user's. */
+/* The lowest point of the shape at the origin along a normal. Of a hull that of the box of its extents: its vertices
+ * are the user's. */
 static vec3 lowest_point(const tahr_sweep *q, vec3 normal)
 {
     const tahr_shape *s = &q->shape;

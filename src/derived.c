@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * derived.c: contacts for users who have only a sweep.
  *
- * A sweep that goes nowhere tells the deepest overlap. Out of it by as much, another one tells what is still overlapped,
- * and so on: corners and wedges are found surface by surface. What is near is felt for with short sweeps all around
- * (TAHR_CALLBACKS_PROBE). Every place is told by its plane, so distances are exact only of flat surfaces. */
+ * A sweep that goes nowhere tells the deepest overlap. Out of it by as much, another one tells what is still
+ * overlapped, and so on: corners and wedges are found surface by surface. What is near is felt for with short sweeps
+ * all around (TAHR_CALLBACKS_PROBE). Every place is told by its plane, so distances are exact only of flat surfaces. */
 #include "callbacks.h"
 
 #include "vec.h"
@@ -94,7 +94,8 @@ static vec3 direction(const tahr_contact_query *q, int i)
     return add_scaled(d, front, i & 4 ? third : -third);
 }
 
-/* One short sweep from a place that lies `off` from the query's. Returns its status; hit->blocking: it met something. */
+/* One short sweep from a place that lies `off` from the query's. Returns its status; hit->blocking: it met
+ * something. */
 static tahr_status feel(felt *f, const tahr_contact_query *q, vec3 off, vec3 motion, tahr_hit *hit)
 {
     uint32_t found = 0;
@@ -122,8 +123,8 @@ static vec3 deflected(vec3 motion, const vec3 met[2], int count)
     return l2 > 0 ? scale(crease, dot(crease, motion) / l2) : vec(0, 0, 0);
 }
 
-/* As far as it takes to meet a plane at the margin, 36.2 degrees aside: 1 / cos is 1.24. What is met first hides what is
- * behind it: the rest of the way goes along it, and again along two. */
+/* As far as it takes to meet a plane at the margin, 36.2 degrees aside: 1 / cos is 1.24. What is met first hides what
+ * is behind it: the rest of the way goes along it, and again along two. */
 static tahr_status feel_along(felt *f, const tahr_contact_query *q, vec3 begin, vec3 way)
 {
     vec3 met[2], off = begin, motion = way;

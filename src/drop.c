@@ -117,8 +117,8 @@ void tahr__end_drop(tahr__step *step)
     step->state.drop_feature = 0;
 }
 
-/* Does what was met lie under the floor that it stood on, and that over it? Where a level foot covers a whole valley the
- * place that was met may be any under it: then it is asked what is straight below the floor. */
+/* Does what was met lie under the floor that it stood on, and that over it? Where a level foot covers a whole valley
+ * the place that was met may be any under it: then it is asked what is straight below the floor. */
 static int is_next_layer(tahr__step *step, const tahr_hit *met)
 {
     const tahr_floor *floor = &step->state.floor;

@@ -41,7 +41,8 @@ typedef struct fall {
     tahr_hit edge;   /* the top of a wall that is pushed against */
 } fall;
 
-/* Air control is not limited by what rises less: a push along an upright wall lifts nobody (VERTICAL_SLOPE_NORMAL_Z). */
+/* Air control is not limited by what rises less: a push along an upright wall lifts nobody
+ * (VERTICAL_SLOPE_NORMAL_Z). */
 static const double UPRIGHT = 0.001;
 
 /* Less than this part of a push along a face is the rounding of one straight into it. */

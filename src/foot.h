@@ -11,8 +11,8 @@ tahr__foot tahr__foot_of(const tahr_shape *shape, uint32_t capabilities);
 /* The foot of the character's shape, thinner all round, with its end where it was. */
 tahr__foot tahr__thinner_foot(const tahr__step *step, double by);
 
-/* Makes a shape thinner all round, with its height and the kind of its ends kept; never thinner than a part of it. A hull
- * cannot be: it becomes the box of its extents, or stays as it is where the backend has no boxes. */
+/* Makes a shape thinner all round, with its height and the kind of its ends kept; never thinner than a part of it. A
+ * hull cannot be: it becomes the box of its extents, or stays as it is where the backend has no boxes. */
 void tahr__thin_shape(tahr_shape *shape, double by, double part, uint32_t capabilities);
 
 /* Sweeps a foot down from the character's position, keeping the skin. One sweep. */

@@ -57,8 +57,8 @@ typedef struct tahr__glide_motion {
 } tahr__glide_motion;
 int tahr__glide_two_walls(tahr__step *step, tahr__glide *glide, const tahr__glide_motion *motion, tahr_hit *hit);
 
-/* The end of a slice: what could not be used is lost. STEPPED: the velocity is what was really covered, unless by a push out
- * of an overlap. */
+/* The end of a slice: what could not be used is lost. STEPPED: the velocity is what was really covered, unless by a
+ * push out of an overlap. */
 void tahr__glide_end(tahr__step *step, tahr__glide *glide);
 
 /* No floor is known, as nothing looks for one in these modes. */

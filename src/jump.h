@@ -18,8 +18,8 @@
 
 #include "core.h"
 
-/* CheckJumpInput: looks at the button at the begin of a step. One contact query for a press in the air with wall jumps; an edge costs
- * what climbing does. */
+/* CheckJumpInput: looks at the button at the begin of a step. One contact query for a press in the air with wall jumps;
+ * an edge costs what climbing does. */
 void tahr__look_at_button(tahr__step *step);
 
 static inline void tahr__begin_jump(tahr__step *step)

@@ -21,15 +21,16 @@ static int is_edge(vec3 normal, vec3 surface_normal)
     return max_of(max_of(d.x, -d.x), max_of(max_of(d.y, -d.y), max_of(d.z, -d.z))) > SMALL;
 }
 
-/* Does what a flat base met carry it, whichever point of the contact is named? A face meets it always from below, at its
- * rim if it slopes; and what it meets flat lies under all of it, be it the crest of a roof. */
+/* Does what a flat base met carry it, whichever point of the contact is named? A face meets it always from below, at
+ * its rim if it slopes; and what it meets flat lies under all of it, be it the crest of a roof. */
 static int carries_flat(const tahr__step *step, vec3 normal, vec3 surface_normal)
 {
     return shape_is_flat(&step->limits->shape) &&
            (!is_edge(normal, surface_normal) || dot(normal, step->state.up) > LEVEL);
 }
 
-/* Is the point on the lower cap of the shape at `centre`, and well inside its rim? Of a flat base: on its lower face. */
+/* Is the point on the lower cap of the shape at `centre`, and well inside its rim? Of a flat base: on its lower
+ * face. */
 static int is_under_foot(const tahr__step *step, vec3 centre, vec3 point)
 {
     const tahr_shape *s = &step->limits->shape;

@@ -8,8 +8,8 @@
 #include "report.h"
 #include "slide.h"
 
-/* By halving, until the place is known to a millionth of the piece, or less well where every look asks much: the rest of
- * the step must be left enough to ask. */
+/* By halving, until the place is known to a millionth of the piece, or less well where every look asks much: the rest
+ * of the step must be left enough to ask. */
 void tahr__floor_end(tahr__step *step, const tahr__path *w, vec3 to, double *inside, double *outside)
 {
     enum { ROUNDS = 20, MOST = TAHR_MAX_QUERIES_PER_STEP * 5 / 8 };

@@ -16,7 +16,8 @@ extern const tahr__mode tahr__modes[TAHR_MODE_CUSTOM + 1];
 /* What follows when the mode that ran hands over to another. */
 void tahr__end_mode(tahr__step *step, uint32_t ran, uint32_t next);
 
-/* StartNewPhysics: runs the state's mode for at most `time` seconds and changes to the mode that goes on. Returns the time left. */
+/* StartNewPhysics: runs the state's mode for at most `time` seconds and changes to the mode that goes on. Returns the
+ * time left. */
 static inline double tahr__run_mode(tahr__step *step, double time)
 {
     const uint32_t mode = step->state.mode;

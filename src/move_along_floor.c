@@ -52,8 +52,8 @@ static void leave_overlap(tahr__step *step, vec3 delta, tahr__swept *swept)
     tahr__slide_along_surface(step, delta, 1, swept->hit.normal, swept);
 }
 
-/* Up the step that blocks the rest of the motion. Without level speeds the velocity becomes that of the way made, which an
- * overlap that is left may have made longer. */
+/* Up the step that blocks the rest of the motion. Without level speeds the velocity becomes that of the way made, which
+ * an overlap that is left may have made longer. */
 static int step_up(tahr__step *step, vec3 rest, double time, const tahr__swept *obstacle, int *found_floor)
 {
     vec3 before = step->state.position;

@@ -146,8 +146,8 @@ static void end(tahr__step *step)
     }
 }
 
-/* PerformMovement. plain: nothing was asked for but to go and to jump, nothing is remembered, and the world holds nothing that moves or
- * is only felt. Most steps are. */
+/* PerformMovement. plain: nothing was asked for but to go and to jump, nothing is remembered, and the world holds
+ * nothing that moves or is only felt. Most steps are. */
 static void run(tahr__step *step, double dt, int plain)
 {
     plain = plain && is_upright(step);

@@ -180,8 +180,8 @@ static vec3 along_floor(const tahr__path *w, const tahr__step *step, vec3 level)
 /* m: heights that are rounding of the backends, and nothing to step up on. */
 static const double SEAM = 1e-9;
 
-/* An edge as high as the floor, as between bodies that lie flush, of which a face is told that is no floor. Of one that is
- * higher, the round of the foot and its skin would meet the top beside their lowest point, where the normal leans by
+/* An edge as high as the floor, as between bodies that lie flush, of which a face is told that is no floor. Of one that
+ * is higher, the round of the foot and its skin would meet the top beside their lowest point, where the normal leans by
  * this height over their radius from up. */
 static int is_seam(const tahr__step *step, const tahr_hit *hit, double up)
 {

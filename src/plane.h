@@ -24,8 +24,8 @@ static inline int may_rise(const tahr__step *step)
     return !is_in_plane(step) || (out < 1e-6 && out > -1e-6);
 }
 
-/* Is it seen from the side, and may not turn about up? In a world of two dimensions, and a shape that is not round: half
- * turned it would be another one in the plane. */
+/* Is it seen from the side, and may not turn about up? In a world of two dimensions, and a shape that is not round:
+ * half turned it would be another one in the plane. */
 static inline int is_flat(const tahr__step *step)
 {
     return is_in_plane(step) && may_rise(step) &&

@@ -12,8 +12,8 @@
 #if defined(__linux__)
 #include <link.h>
 
-/* What the file has to hold for all of its segments; 0: it is no shared object of this machine, or cannot be read, which
- * the loader says better. */
+/* What the file has to hold for all of its segments; 0: it is no shared object of this machine, or cannot be read,
+ * which the loader says better. */
 static uint64_t bytes_needed(FILE *file)
 {
     ElfW(Ehdr) head;

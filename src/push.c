@@ -245,8 +245,8 @@ static uint32_t first_met(tahr__step *step, vec3 own, uint32_t *inside)
     return first;
 }
 
-/* Who drops falls away from the platform, not from the world: seen from the world a lift that rises would pass him before
- * he has left it. */
+/* Who drops falls away from the platform, not from the world: seen from the world a lift that rises would pass him
+ * before he has left it. */
 static uint32_t dropped_from(const tahr__step *step)
 {
     uint32_t body = step->state.drop_body;

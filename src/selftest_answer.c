@@ -28,6 +28,22 @@ static double wide_of(const tahr__lab *lab)
     return tahr__lab_reach(lab, tahr__lab_toward(lab, 1, 0));
 }
 
+/* Which number a face of a block has is its backend's business, but the top and the left side have two. */
+static void contacts_name_faces(tahr__lab *lab)
+{
+    tahr_contact top[8], side[8];
+    tahr_status status;
+    tahr_sweep on = tahr__lab_sweep(lab, 0, low_of(lab) + 0.004, 0, 0);
+    tahr_sweep beside = tahr__lab_sweep(lab, -6.004 - wide_of(lab), -1 - low_of(lab), 0, 0);
+    uint32_t n = tahr__lab_touch(lab, &on, 0.01, 0, top, 8, &status);
+    uint32_t m = tahr__lab_touch(lab, &beside, 0.01, 0, side, 8, &status);
+    tahr__lab_check(
+        lab, n >= 1 && m >= 1 && top->body == 0 && side->body == 0 && (!lab->backend || top->feature != side->feature),
+        "contacts: the top and the left side of body 0, two features",
+        "%s: %u contacts, feature %u, and %u, feature %u", lab->shape_name, n, n ? top->feature : 0, m,
+        m ? side->feature : 0);
+}
+
 static void contact_distance(tahr__lab *lab)
 {
     static const double gaps[] = {0.004, 0.0001, 0.01, -0.02, 0.3};
@@ -49,6 +65,7 @@ static void contact_distance(tahr__lab *lab)
                             "%s at %g: %u contacts, distance %.9g, body %u", lab->shape_name, gaps[i], n,
                             n ? c[0].distance : 0, n ? c[0].body : TAHR_NO_BODY);
         }
+        contacts_name_faces(lab);
     }
 }
 
@@ -163,6 +180,30 @@ static void tie_by_body(tahr__lab *lab)
     }
 }
 
+/* Away from the seam the triangle itself is named by all three: 10 to the right, 11 to the left.
+ * Callbacks name features only if they have them. */
+static void triangles_are_named(tahr__lab *lab)
+{
+    for (uint32_t side = 0; side < 2 && lab->backend; side++) {
+        tahr_contact c[8];
+        tahr_hit hit, seen = {0};
+        tahr_status status;
+        tahr_sweep q = tahr__lab_sweep(lab, side ? -1.5 : 1.5, low_of(lab) + 0.5, 0, -1), on = q;
+        on.position = sub(q.position, tahr__lab_along(lab, 0, 0.495));
+        if (!tahr__lab_ask(lab, &q, &hit)) {
+            return;
+        }
+        uint32_t n = lab->claims & TAHR_CAP_CONTACTS ? tahr__lab_touch(lab, &on, 0.01, 0, c, 8, &status) : 0;
+        int ray = lab->claims & TAHR_CAP_RAY && tahr__lab_ray(lab, q.position, tahr__lab_along(lab, 0, -3), &seen);
+        uint32_t felt = n ? c[0].feature : 10 + side, met = ray ? seen.feature : 10 + side;
+        lab->number = side;
+        tahr__lab_check(lab, hit.feature == 10 + side && felt == 10 + side && met == 10 + side,
+                        "beside the seam of triangles 10 and 11: that triangle, by sweep, contacts and ray",
+                        "%s, triangle %u: sweep %u, contacts %u, ray %u", lab->shape_name, 10 + side, hit.feature, felt,
+                        met);
+    }
+}
+
 static void tie_by_feature(tahr__lab *lab)
 {
     for (uint32_t at = 0; tahr__lab_next(lab, &at, TAHR__LAB_USUAL);) {
@@ -178,7 +219,19 @@ static void tie_by_feature(tahr__lab *lab)
         }
         tahr__lab_check(lab, hit.blocking && hit.feature == 10, "on the seam of triangles 10 and 11: feature 10",
                         "%s: feature %u", lab->shape_name, hit.feature);
+        triangles_are_named(lab);
     }
+}
+
+static void rays_name_faces(tahr__lab *lab)
+{
+    tahr_hit top, side;
+    int on = tahr__lab_ray(lab, tahr__lab_at(lab, 0.3, 2), tahr__lab_along(lab, 0.2, -4), &top);
+    int beside = tahr__lab_ray(lab, tahr__lab_at(lab, -8, -1), tahr__lab_along(lab, 4, 0.1), &side);
+    tahr__lab_check(lab,
+                    on && beside && top.body == 0 && side.body == 0 && (!lab->backend || top.feature != side.feature),
+                    "rays: the top and the left side of body 0, two features", "met %d and %d, features %u and %u", on,
+                    beside, on ? top.feature : 0, beside ? side.feature : 0);
 }
 
 static void ray_hits(tahr__lab *lab)
@@ -212,6 +265,7 @@ static void ray_hits(tahr__lab *lab)
         int away = tahr__lab_ray(lab, tahr__lab_at(lab, -5, 2), tahr__lab_along(lab, -8, 0), &hit);
         tahr__lab_check(lab, !short_of && !away, "rays that end before a face, or go away: nothing", "%d and %d",
                         short_of, away);
+        rays_name_faces(lab);
     }
 }
 

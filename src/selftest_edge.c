@@ -10,7 +10,8 @@ static int is_on_edge(const tahr__lab *lab, vec3 point)
            fabs(dot(off, tahr__lab_up(lab))) <= 2 * tahr__lab_slack(lab);
 }
 
-/* The contact where a sweep ended on the edge. facing: of the faces there the one that faces the contact normal most. */
+/* The contact where a sweep ended on the edge. facing: of the faces there the one that faces the contact normal
+ * most. */
 static void edge_contact(tahr__lab *lab, const tahr_sweep *q, double fraction, vec3 contact, vec3 facing)
 {
     tahr_contact c[8];

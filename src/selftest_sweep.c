@@ -55,26 +55,35 @@ static void overlap_with_walls(tahr__lab *lab)
     }
 }
 
-/* From d0 in front of a floor: straight down, down a slant, along, up a slant, up. */
+/* From d0 in front of a floor (n = up) or a wall: straight in, in on a slant, along, away on a slant, away. */
+static void rest_before(tahr__lab *lab, const double n[2], double d0)
+{
+    double p[2], way = max_of(0, d0 - lab->margin), tu = n[1], tv = -n[0];
+    vec3 normal = tahr__lab_toward(lab, n[0], n[1]);
+    if (!face(lab, n, d0, p)) {
+        return;
+    }
+    tahr_sweep in = tahr__lab_sweep(lab, p[0], p[1], -0.5 * n[0], -0.5 * n[1]);
+    tahr_sweep slant = tahr__lab_sweep(lab, p[0], p[1], 0.5 * (tu - n[0]), 0.5 * (tv - n[1]));
+    tahr_sweep along = tahr__lab_sweep(lab, p[0], p[1], 3 * tu, 3 * tv);
+    tahr_sweep rise = tahr__lab_sweep(lab, p[0], p[1], 0.5 * tu + 0.01 * n[0], 0.5 * tv + 0.01 * n[1]);
+    tahr_sweep still = tahr__lab_sweep(lab, p[0], p[1], 0, 0);
+    tahr_sweep out = tahr__lab_sweep(lab, p[0], p[1], 0.5 * n[0], 0.5 * n[1]);
+    tahr__lab_stops(lab, &in, way / 0.5, normal, "straight at a face from");
+    tahr__lab_stops(lab, &slant, way / 0.5, normal, "on a slant at a face from");
+    tahr__lab_free(lab, &along, "along at");
+    tahr__lab_free(lab, &rise, "away on a slant from");
+    tahr__lab_free(lab, &out, "away from");
+    tahr__lab_free(lab, &still, "no motion at");
+}
+
 static void rest_at(tahr__lab *lab, double d0)
 {
-    double p[2];
     for (uint32_t at = 0; tahr__lab_next(lab, &at, TAHR__LAB_USUAL);) {
         lab->number = d0;
-        if (!face(lab, faces[0], d0, p)) {
-            return;
-        }
-        double way = max_of(0, d0 - lab->margin);
-        tahr_sweep down = tahr__lab_sweep(lab, p[0], p[1], 0, -0.5),
-                   slant = tahr__lab_sweep(lab, p[0], p[1], 0.5, -0.5);
-        tahr_sweep along = tahr__lab_sweep(lab, p[0], p[1], 3, 0), rise = tahr__lab_sweep(lab, p[0], p[1], 0.5, 0.01);
-        tahr_sweep still = tahr__lab_sweep(lab, p[0], p[1], 0, 0), up = tahr__lab_sweep(lab, p[0], p[1], 0, 0.5);
-        tahr__lab_stops(lab, &down, way / 0.5, tahr__lab_up(lab), "down from");
-        tahr__lab_stops(lab, &slant, way / 0.5, tahr__lab_up(lab), "down a slant from");
-        tahr__lab_free(lab, &along, "along at");
-        tahr__lab_free(lab, &rise, "up a slant from");
-        tahr__lab_free(lab, &up, "up from");
-        tahr__lab_free(lab, &still, "no motion at");
+        rest_before(lab, faces[0], d0);
+        tahr__lab_clear(lab);
+        rest_before(lab, faces[3], d0);
     }
 }
 

@@ -9,7 +9,8 @@
 #define TAHR__LEAST_TIME 1e-6
 
 /* GetSimulationTimeStep: s of the next slice of the `left` s that a step still has: no more than max_substep, the last
- * two of equal length, and all that is left in the max_substeps-th. iteration counts from 1. EXACT: all that is left. */
+ * two of equal length, and all that is left in the max_substeps-th. iteration counts from 1. EXACT: all that is
+ * left. */
 double tahr__time_step(const tahr_config *config, double left, uint32_t iteration);
 
 /* Counts one more slice of the step. Returns its s, of the `left` s; 0 if the step has no slice left: then the rest is

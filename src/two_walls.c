@@ -22,7 +22,8 @@ static int is_on_ground(const tahr__step *step)
     return step->state.mode == TAHR_MODE_WALKING;
 }
 
-/* A margin away from a surface, rounding must not point into it: of a motion, lifted off by a ten-billionth as in slide.c. */
+/* A margin away from a surface, rounding must not point into it: of a motion, lifted off by a ten-billionth as in
+ * slide.c. */
 static double lift_of(const tahr__step *step, vec3 delta)
 {
     return step->config->separation == TAHR_SEPARATION_MARGIN ? 1e-10 * length(delta) : 0;

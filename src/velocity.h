@@ -29,8 +29,8 @@ tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t);
  * the way. */
 double tahr__law_time(const tahr__law *law, vec3 v, double duration, vec3 whole, double part);
 
-/* One round of a Newton that is held within [low, high], for a function that rises through zero: over is its value at t,
- * rate its slope there. Narrows the bracket and returns where to look next. */
+/* One round of a Newton that is held within [low, high], for a function that rises through zero: over is its value at
+ * t, rate its slope there. Narrows the bracket and returns where to look next. */
 static inline double newton_next(double t, double over, double rate, double *low, double *high)
 {
     *(over > 0 ? high : low) = t;

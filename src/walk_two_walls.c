@@ -201,8 +201,8 @@ static int follow_floor(tahr__step *step, walk *w)
     return check_fall(step, w, step->just_teleported || w->zero);
 }
 
-/* What was moved is what was fast: bumps brake, and a way that got longer up a face gives no speed. A closed form that was
- * not bumped knows its velocity at the end better. */
+/* What was moved is what was fast: bumps brake, and a way that got longer up a face gives no speed. A closed form that
+ * was not bumped knows its velocity at the end better. */
 static void take_velocity(tahr__step *step, const walk *w)
 {
     vec3 moved = add_scaled(sub(step->state.position, w->from), step->state.up, -w->settled);

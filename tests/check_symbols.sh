@@ -1,7 +1,8 @@
 #!/bin/sh
 # check_symbols.sh: what the built libraries export, need and keep. BUILD is the build folder.
 #   exports: exactly what a public header declares; nothing internal leaves the shared object
-#   needs:   libc, sqrt, floor, fabs of libm, dlopen of src/plugin.c, and what src/plugin_file.c looks at a plugin with; else no I/O, clock, randomness, threads or other mathematics (bits differ there)
+#   needs:   libc, sqrt, floor, fabs of libm, dlopen of src/plugin.c, and what src/plugin_file.c looks at a plugin with;
+#            else no I/O, clock, randomness, threads or other mathematics (bits differ there)
 #   keeps:   no mutable globals
 set -eu
 

@@ -69,8 +69,8 @@ static b2WorldId world_of(const tahr_box2d_desc *desc)
     return b2LoadWorldId(desc->world3);
 }
 
-/* Box2D takes its first world for valid before anybody created it, and crashes on what is asked of it; so it is, too, in
- * a second copy of Box2D, whose worlds are elsewhere. A world that was created has a limit of speed. */
+/* Box2D takes its first world for valid before anybody created it, and crashes on what is asked of it; so it is, too,
+ * in a second copy of Box2D, whose worlds are elsewhere. A world that was created has a limit of speed. */
 static int is_there(b2WorldId world)
 {
     return b2World_IsValid(world) && b2World_GetMaximumLinearSpeed(world) > 0;

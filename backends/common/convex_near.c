@@ -92,8 +92,8 @@ void tahr__convex_touch(const tahr__convex *a, const tahr__convex *b, double dep
 
 /* --- Nearest points --- */
 
-/* Which part of a triangle lies nearest. What faces the shape within the accuracy of directions is the face, wherever on
- * it the nearest point was found: of a flat base it is any. */
+/* Which part of a triangle lies nearest. What faces the shape within the accuracy of directions is the face, wherever
+ * on it the nearest point was found: of a flat base it is any. */
 static uint32_t part_of(const tahr__convex *triangle, const tahr__gap *gap)
 {
     tahr_vec3 n = tahr__convex_triangle_normal(triangle->points), tilt;

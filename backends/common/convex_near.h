@@ -9,8 +9,8 @@
 #include "core.h"
 #include "hull_planes.h"
 
-/* The distance is certain to 1e-12 of the size of shapes of about 1 m, and so a direction to its square root. Directions
- * closer than this are one, and so are places (m). */
+/* The distance is certain to 1e-12 of the size of shapes of about 1 m, and so a direction to its square root.
+ * Directions closer than this are one, and so are places (m). */
 #define TAHR__SAME_DIRECTION 3e-6
 #define TAHR__SAME_PLACE 1e-5
 
@@ -36,9 +36,9 @@ typedef struct tahr__convex_side {
 /* The winding's normal of a triangle. */
 tahr_vec3 tahr__convex_triangle_normal(const tahr_vec3 v[3]);
 
-/* The nearest points of a shape and a piece, whose triangles are three points around a centre at the origin. enough: NULL,
- * or what a motion need not know better (convex.h): then beyond its reach distance and normal are a plane between the
- * two that the motion does not cross before they say so, and the rest is not sure. */
+/* The nearest points of a shape and a piece, whose triangles are three points around a centre at the origin. enough:
+ * NULL, or what a motion need not know better (convex.h): then beyond its reach distance and normal are a plane between
+ * the two that the motion does not cross before they say so, and the rest is not sure. */
 void tahr__convex_measure(const tahr__convex_side *shape, const tahr__convex_side *piece, const tahr__clearance *enough,
                           tahr__near *near);
 

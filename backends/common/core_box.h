@@ -10,8 +10,8 @@ typedef struct tahr__box {
     const tahr__mat *turn;  /* its frame to that of middle; NULL: the same axes */
 } tahr__box;
 
-/* core (0 or 1 axes) at centre against the box. [out] point on the box; distance 0: they touch or overlap, and normal is
- * not set. Of a segment along a face the first of the nearest points is taken. */
+/* core (0 or 1 axes) at centre against the box. [out] point on the box; distance 0: they touch or overlap, and normal
+ * is not set. Of a segment along a face the first of the nearest points is taken. */
 void tahr__core_box(const tahr__core *core, tahr_vec3 centre, const tahr__box *box, tahr__witness *out);
 
 #endif

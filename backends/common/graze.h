@@ -7,8 +7,8 @@
 
 #include "hits.h"
 
-/* Slope against the surface up to which a second look is worth its cost. An edge at a distance of r is arrived at within
- * 1e-9 m at a slope of sqrt(2e-9 m / r): this one for 20 um. */
+/* Slope against the surface up to which a second look is worth its cost. An edge at a distance of r is arrived at
+ * within 1e-9 m at a slope of sqrt(2e-9 m / r): this one for 20 um. */
 #define TAHR__GRAZING 1e-2
 
 /* How far the distance is above the margin at a fraction of the motion, and by how much it falls per fraction. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * hull_planes.h: the outward normals of the faces of a convex hull, for who has its vertices and a support function, and
- * wants to know on which of its faces a point lies. */
+ * hull_planes.h: the outward normals of the faces of a convex hull, for who has its vertices and a support function,
+ * and wants to know on which of its faces a point lies. */
 #ifndef TAHR_COMMON_HULL_PLANES_H
 #define TAHR_COMMON_HULL_PLANES_H
 

@@ -30,8 +30,8 @@ typedef struct tahr__piece {
     uint32_t triangle; /* in leaf order of the mesh */
     uint32_t is_cell;  /* 1: a box that is a cell of a larger solid */
     tahr__facet facet;
-    /* Boxes: centre and half axes. Round bodies: centre, half the axis, radius. Half spaces: a point on the surface and,
-     * as axis[0], the unit normal. */
+    /* Boxes: centre and half axes. Round bodies: centre, half the axis, radius. Half spaces: a point on the surface
+     * and, as axis[0], the unit normal. */
     tahr__core solid;
     tahr_vec3 middle, half; /* half: of boxes */
     double radius;
@@ -115,8 +115,9 @@ typedef struct tahr__motion {
     uint32_t reserved;
 } tahr__motion;
 
-/* Nearest points at a fraction of a motion: within the margin; beyond it as well as a tangent needs: a plane between the
- * two that the motion does not cross before near->distance and near->normal say so. The rest of near is not sure there. */
+/* Nearest points at a fraction of a motion: within the margin; beyond it as well as a tangent needs: a plane between
+ * the two that the motion does not cross before near->distance and near->normal say so. The rest of near is not sure
+ * there. */
 void tahr__piece_measure_far(const tahr__motion *motion, const tahr__piece *piece, double fraction, tahr__near *near);
 
 /* The first fraction in [*fraction, limit] of a motion at which the distance falls to margin, by tangents of the convex

@@ -13,8 +13,8 @@ enum { MAX_WAITING = 64 };
 #define NEARER 1e-8
 
 /* A box is stopped at least at this distance (of the query's unit, or of the box if that is smaller), and goes the rest
- * straight: it has no radius, and where it touches, the direction to what it touches is rounding, so that neighbours of a
- * mesh could each take the other for nearer. Ten times the tolerance of arrivals (piece.c). */
+ * straight: it has no radius, and where it touches, the direction to what it touches is rounding, so that neighbours of
+ * a mesh could each take the other for nearer. Ten times the tolerance of arrivals (piece.c). */
 #define LEAST_MARGIN 1e-8
 
 /* A piece that may be hit, not before the fraction at which the tangent of its distance at the start says so. */

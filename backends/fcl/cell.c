@@ -39,8 +39,8 @@ static int32_t key_at(const tahr__fcl_part *cell, int i, double at, double half,
     return cell->key[i] + (steps < 0 ? 0 : steps > last ? last : steps);
 }
 
-/* Around the nearest point there are up to eight octants, in occupied cells or not. One is nearer if it leads from there
- * toward the shape: if the normal points into it along any axis. */
+/* Around the nearest point there are up to eight octants, in occupied cells or not. One is nearer if it leads from
+ * there toward the shape: if the normal points into it along any axis. */
 int tahr__fcl_cell_felt(const tahr__piece_query *q, const tahr__piece_found *found, const tahr__near *near)
 {
     const tahr__fcl_part *cell = tahr__fcl_query_part(q, found->name);

@@ -12,7 +12,8 @@ using namespace tahr_fcl;
 static const double SLACK = 1e-3;
 static const double RELATIVE_SLACK = 1e-9;
 
-/* A box as a volume of each kind, and which part of a node's volume is compared with it. AABB and KDOP grow by points. */
+/* A box as a volume of each kind, and which part of a node's volume is compared with it. AABB and KDOP grow by
+ * points. */
 template <class BV> struct Volume {
     BV bv;
     explicit Volume(const tahr_bounds &b) : bv(Vector(b.min.x, b.min.y, b.min.z))

@@ -7,8 +7,8 @@
 
 #include "../common/piece_query.h"
 
-/* Octrees and attached bodies follow those that the core described; it does not know them. Half spaces have their normal
- * in half_extents and their offset as radius, octrees their resolution as radius. */
+/* Octrees and attached bodies follow those that the core described; it does not know them. Half spaces have their
+ * normal in half_extents and their offset as radius, octrees their resolution as radius. */
 typedef struct tahr__fcl_scene {
     tahr__scene scene;
     tahr_fcl_desc desc;

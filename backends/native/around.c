@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * around.c: the triangles at an edge or corner where there are no rings: in fields of heights, from the grid, and among the
- * user's triangles, from all that have that corner. Apart from resolve.c, whose way must stay short. */
+ * around.c: the triangles at an edge or corner where there are no rings: in fields of heights, from the grid, and among
+ * the user's triangles, from all that have that corner. Apart from resolve.c, whose way must stay short. */
 #include "scene.h"
 
 enum { FAN = TAHR__FAN, NEAR = 2 * FAN };

@@ -48,8 +48,8 @@ static void put_face(builder *b, uint32_t p, uint32_t q, uint32_t r)
     f[2] = r;
 }
 
-/* Four points that are not in one plane: far apart as seen from the first, so that rounding rarely matters. 0: there are
- * none. */
+/* Four points that are not in one plane: far apart as seen from the first, so that rounding rarely matters. 0: there
+ * are none. */
 static int begin(builder *b, uint32_t count)
 {
     uint32_t q = 0, r = 0;

@@ -13,11 +13,11 @@ enum { ITERATIONS = 64, TARGETS = 5 };
 
 /* Below this distance (m) the direction between two points is rounding; the last one that was clear is used instead. */
 #define BLURRED 1e-9
-/* Of the sizes of two boxes: nearer than this they touch. Their faces leave what they touch to the inside, so the inside
- * must not call it outside by rounding. */
+/* Of the sizes of two boxes: nearer than this they touch. Their faces leave what they touch to the inside, so the
+ * inside must not call it outside by rounding. */
 #define TOUCHING 1e-12
-/* How much nearer than the margin (m) a motion may pass an edge: a float near by is off by up to 2.4e-7, and what is not
- * felt is never more than a micrometre. */
+/* How much nearer than the margin (m) a motion may pass an edge: a float near by is off by up to 2.4e-7, and what is
+ * not felt is never more than a micrometre. */
 #define GRAZE_FLOAT 1e-6
 #define GRAZE_DOUBLE 1e-9
 

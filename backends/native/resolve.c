@@ -5,12 +5,12 @@
 
 /* A one-sided face is met from the front if the contact normal is not more than this behind it (sine of the angle). */
 #define BEHIND 1e-6
-/* Slope at which a neighbour counts as nearer than the shared edge: two neighbours must never both give way to the other.
- * Of places whose distances differ by rounding alone any may be found nearest: directions to them are apart by the square
- * root of that, 2e-8 or a little more. */
+/* Slope at which a neighbour counts as nearer than the shared edge: two neighbours must never both give way to the
+ * other. Of places whose distances differ by rounding alone any may be found nearest: directions to them are apart by
+ * the square root of that, 2e-8 or a little more. */
 #define NEARER 1e-7
-/* What rounding makes of the difference of two places some metres away, and more: at less than 0.1 um it turns a normal by
- * more than NEARER. */
+/* What rounding makes of the difference of two places some metres away, and more: at less than 0.1 um it turns a normal
+ * by more than NEARER. */
 #define ROUNDING 1e-14
 /* Contact normals this close to a face's normal are that face's: below it lies what rounding corners to float (2.4e-7 m
  * over a few centimetres) or to double makes of a flat surface. Without it a walker would feel that it is made of

@@ -72,8 +72,8 @@ typedef struct tahr__map {
     uint32_t turned, round;
 } tahr__map;
 
-/* Which piece of a body a primitive is: a triangle (in leaf order), a round body, or the inside of a box or hull; or one
- * of the user's triangles, with its place in the cache. */
+/* Which piece of a body a primitive is: a triangle (in leaf order), a round body, or the inside of a box or hull; or
+ * one of the user's triangles, with its place in the cache. */
 #define TAHR__ITEM_SOLID 0x40000000u
 #define TAHR__ITEM_ROUND 0x20000000u
 #define TAHR__ITEM_LOOSE 0x10000000u

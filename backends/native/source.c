@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * source.c: the user's own triangles (tahr_native_desc.gather). Nothing of them is kept but in the caches of characters:
- * a search that no cache answers asks for the cells around it, and what is asked about an edge or corner is answered
- * by all triangles there, wherever they came from. So an answer does not depend on what was gathered. */
+ * source.c: the user's own triangles (tahr_native_desc.gather). Nothing of them is kept but in the caches of
+ * characters: a search that no cache answers asks for the cells around it, and what is asked about an edge or corner is
+ * answered by all triangles there, wherever they came from. So an answer does not depend on what was gathered. */
 #include "../common/options.h"
 #include "scene.h"
 

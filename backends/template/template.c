@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * template.c: a whole backend to copy: boxes, spheres and capsules, looked at one by one. README.md goes through it. Where
- * an engine of yours comes in, it finds the bodies (instead of next); what decides stays the core distance. */
+ * template.c: a whole backend to copy: boxes, spheres and capsules, looked at one by one. README.md goes through it.
+ * Where an engine of yours comes in, it finds the bodies (instead of next); what decides stays the core distance. */
 #include "../common/piece_query.h"
 #include "../common/room.h"
 

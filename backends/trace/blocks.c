@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * blocks.c: reading a trace block by block, and the records of queries in it. Nothing in a file is believed before it was
- * checked. */
+ * blocks.c: reading a trace block by block, and the records of queries in it. Nothing in a file is believed before it
+ * was checked. */
 #include "reader.h"
 
 #include <stdlib.h>

@@ -67,8 +67,8 @@ tahr_status tahr__trace_take_query(tahr_trace_reader *reader);
 tahr_status tahr__trace_read_begin(tahr_trace_reader *reader);
 /* Has everything been read? */
 int tahr__trace_is_over(tahr_trace_reader *reader);
-/* Memory with room for one more than count; grows with what is really there, not with what a file announces. NULL: there
- * is none, and the old one stays. */
+/* Memory with room for one more than count; grows with what is really there, not with what a file announces. NULL:
+ * there is none, and the old one stays. */
 void *tahr__trace_grow(void *memory, uint32_t count, uint32_t *room, size_t size);
 
 /* answers.c: fills in table and recorder. */

@@ -358,8 +358,8 @@ static double nearest_mover(const struct checker *checker, tahr_vec3 p, tahr_vec
     return best;
 }
 
-/* Distance of the outline of an upright rectangle in the plane to everything, or to movers alone; 0 if something crosses
- * it. */
+/* Distance of the outline of an upright rectangle in the plane to everything, or to movers alone; 0 if something
+ * crosses it. */
 static double outline_clearance(struct checker *checker, tahr_vec3 middle, double half_x, double half_y, int movers)
 {
     double best = CHECK_REACH;

@@ -30,8 +30,8 @@ int checker_sinks(struct checker *checker, const tahr_shape *before, tahr_vec3 f
                   tahr_vec3 to);
 
 /* Signed distance from a capsule or sphere to the nearest surface, at most CHECK_REACH. Negative: an overlap, and how
- * far the shape's axis would have to be moved away from that surface. Boxes are taken as their inner capsule; on levels of
- * two dimensions their outline is looked at too, and an overlap of its corners counts as CHECK_BOX_DEPTH if it is at
+ * far the shape's axis would have to be moved away from that surface. Boxes are taken as their inner capsule; on levels
+ * of two dimensions their outline is looked at too, and an overlap of its corners counts as CHECK_BOX_DEPTH if it is at
  * least that deep. */
 double checker_clearance(struct checker *checker, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 up);
 

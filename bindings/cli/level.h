@@ -78,7 +78,8 @@ int level_options(const struct level *level, const struct backend_choice *backen
                   const void **options);
 
 /* Reads a file: a map of voxels as above, anything else with Assimp: triangulates it, turns Y up to Z up if up_axis
- * is 'y', welds equal vertices. One two-sided mesh body, because the winding of level files cannot be relied on. 0, or -1 after a message that names the file. */
+ * is 'y', welds equal vertices. One two-sided mesh body, because the winding of level files cannot be relied on. 0, or
+ * -1 after a message that names the file. */
 int level_load(struct level *level, const char *path, char up_axis);
 
 /* The bundled level: about 60 x 54 m of everything that a character meets. */

@@ -29,7 +29,8 @@ struct route {
     tahr_vec3 before; /* where the character was when it was last asked */
 };
 
-/* Strict: every message names the file, the entry and the key. planar: of vectors z may be left out. 0, or -1 after a message. */
+/* Strict: every message names the file, the entry and the key. planar: of vectors z may be left out. 0, or -1 after a
+ * message. */
 int route_load(struct route *route, const char *path, int planar);
 
 /* The bundled route. */

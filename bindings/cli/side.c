@@ -180,8 +180,8 @@ tahr_vec3 side_start(const struct side *side, const tahr_config *config)
     return (tahr_vec3){side->start.x, side->start.y + config->shape.half_height + clearance, 0};
 }
 
-/* How often the closed outlines that this piece is of, or a part of, go round a place: the crossings of a line from there
- * to the right, upward less downward. */
+/* How often the closed outlines that this piece is of, or a part of, go round a place: the crossings of a line from
+ * there to the right, upward less downward. */
 static int turns_round(const struct side_piece *piece, double x, double y)
 {
     struct side_point corners[4];

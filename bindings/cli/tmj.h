@@ -112,8 +112,8 @@ void tmj_tilesets_free(struct tmj *tmj);
 const struct tmj_tileset *tmj_tileset_of(struct tmj *tmj, uint32_t number);
 /* In pixels: the tileset's, or of a collection of images the image's. */
 void tmj_tile_size(const struct tmj_tileset *set, uint32_t number, double *width, double *height);
-/* The shapes of a tile, or of a whole one where the traits make it something; a new list of *count, turned as the number
- * says, with (0, 0) its upper left corner. NULL: none. */
+/* The shapes of a tile, or of a whole one where the traits make it something; a new list of *count, turned as the
+ * number says, with (0, 0) its upper left corner. NULL: none. */
 struct tmj_shape *tmj_tile_shapes(const struct tmj_tileset *set, uint32_t number, const struct tmj_traits *layer,
                                   size_t *count);
 

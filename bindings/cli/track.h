@@ -5,7 +5,8 @@
 
 #include <tahr/tahr.h>
 
-/* One place of a foot on a path. mode is a TAHR_MODE_*; 0 ends a piece of the path (the character was put elsewhere). */
+/* One place of a foot on a path. mode is a TAHR_MODE_*; 0 ends a piece of the path (the character was put
+ * elsewhere). */
 struct track_point {
     float x, y, z, time;
     uint32_t mode;

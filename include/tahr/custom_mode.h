@@ -65,8 +65,8 @@ TAHR_API tahr_status tahr_step_slide(tahr_step *step, const tahr_vec3 *motion, t
  * nothing is in the way. One sweep; statuses as for tahr_step_slide. Since 0.1. */
 TAHR_API tahr_status tahr_step_sweep(tahr_step *step, const tahr_vec3 *motion, tahr_hit *hit);
 
-/* The first thing between origin and origin + motion. One ray; statuses as for tahr_step_slide, and TAHR_E_ARGUMENT for a
- * motion with a z in a TAHR_CAP_PLANAR world. Since 0.1. */
+/* The first thing between origin and origin + motion. One ray; statuses as for tahr_step_slide, and TAHR_E_ARGUMENT for
+ * a motion with a z in a TAHR_CAP_PLANAR world. Since 0.1. */
 TAHR_API tahr_status tahr_step_ray(tahr_step *step, const tahr_vec3 *origin, const tahr_vec3 *motion, tahr_hit *hit);
 
 /* How deep the character is in a fluid. One fluid query where there may be any. Returns TAHR_OK, TAHR_E_NULL,

@@ -45,14 +45,15 @@ typedef void (*tahr_fcl_cell_fn)(void *user, uint32_t octree, const tahr_bounds 
 
 /* Zero means default for every field but struct_size.
  *
- * Attaching: manager is a fcl::DynamicAABBTreeCollisionManager<double> with its objects registered and set up, borrowed:
- * it, its objects and their geometries must stay until the world is closed. Meshes are copied (FCL's tree is not); all
- * else is read where it is, by every query. The world then has no bodies of its own. While queries run nothing may change
- * the manager; before they do again: whoever moved an object has called its computeAABB and manager.update, and then
- * tahr_world_touch. Objects unregistered are gone at once (their memory must stay); objects registered later are not
- * seen, and geometries must not change, but octrees may. Held are BVHModels of triangles with volumes of every kind, Box,
- * Sphere, Capsule, Cylinder, Cone, Ellipsoid, Convex, TriangleP, Halfspace, Plane and OcTree, of 1e-6 to 1e6 m; what else
- * there is, or is not placed by a rotation and a finite place, is TAHR_E_UNSUPPORTED unless the callback leaves it out. */
+ * Attaching: manager is a fcl::DynamicAABBTreeCollisionManager<double> with its objects registered and set up,
+ * borrowed: it, its objects and their geometries must stay until the world is closed. Meshes are copied (FCL's tree is
+ * not); all else is read where it is, by every query. The world then has no bodies of its own. While queries run
+ * nothing may change the manager; before they do again: whoever moved an object has called its computeAABB and
+ * manager.update, and then tahr_world_touch. Objects unregistered are gone at once (their memory must stay); objects
+ * registered later are not seen, and geometries must not change, but octrees may. Held are BVHModels of triangles with
+ * volumes of every kind, Box, Sphere, Capsule, Cylinder, Cone, Ellipsoid, Convex, TriangleP, Halfspace, Plane and
+ * OcTree, of 1e-6 to 1e6 m; what else there is, or is not placed by a rotation and a finite place, is
+ * TAHR_E_UNSUPPORTED unless the callback leaves it out. */
 typedef struct tahr_fcl_desc {
     uint32_t struct_size;
     uint32_t volumes;     /* TAHR_FCL_AABB or _OBBRSS */
@@ -75,8 +76,8 @@ typedef struct tahr_fcl_desc {
  * characters: all but meshes. For tahr_world_open, whose desc.options is a tahr_fcl_desc or NULL. Queries may run on
  * several threads; they allocate where backends/fcl/README.md says so. Statuses of opening beside tahr_world_open's:
  * TAHR_E_NOT_FOUND (octree file), TAHR_E_GEOMETRY (octree file or points; a model that is no tree of triangles),
- * TAHR_E_ARGUMENT (a field out of range; bodies beside a manager; an id twice), TAHR_E_UNSUPPORTED (geometry that cannot
- * be held, or that FCL does not find where it is). Static memory. Since 0.1. */
+ * TAHR_E_ARGUMENT (a field out of range; bodies beside a manager; an id twice), TAHR_E_UNSUPPORTED (geometry that
+ * cannot be held, or that FCL does not find where it is). Static memory. Since 0.1. */
 TAHR_API const tahr_backend *tahr_backend_v1_fcl(void);
 
 #ifdef __cplusplus

@@ -17,12 +17,12 @@ typedef struct tahr_mover tahr_mover;
  * fluid deep enough, CUSTOM a function; else TAHR_REPORT_MODE_REFUSED.
  * DROP: fall through the one-way bodies that it stands on, one layer per press: it must be off for a step before it
  * counts again. A press on another floor, where that holds too, or in the air is spent; a jump pressed with it does not
- * start. A layer is one surface, of however many bodies: what it stands on, and whatever one-way it meets next that does
- * not lie under that (where both are: behind its plane, with that before the plane of the other, by more than a floor may
- * be away, 2 skins), and so on from face to face, until all of its foot is under it. So slope and flat, the sides of a
- * valley or of a crest and a row of tiles are one layer; platforms over each other, and the treads of a stair, are one
- * each. Down a slope it leaves along it; from a lift as from one at rest: it is a fall from the first moment, with
- * config.fall_gravity, even while the lift's speed carries it up. */
+ * start. A layer is one surface, of however many bodies: what it stands on, and whatever one-way it meets next that
+ * does not lie under that (where both are: behind its plane, with that before the plane of the other, by more than a
+ * floor may be away, 2 skins), and so on from face to face, until all of its foot is under it. So slope and flat, the
+ * sides of a valley or of a crest and a row of tiles are one layer; platforms over each other, and the treads of a
+ * stair, are one each. Down a slope it leaves along it; from a lift as from one at rest: it is a fall from the first
+ * moment, with config.fall_gravity, even while the lift's speed carries it up. */
 enum {
     TAHR_INPUT_GRAVITY = 1 << 0, /* input.gravity counts */
     TAHR_INPUT_FACING = 1 << 1,  /* input.facing counts */
@@ -81,8 +81,8 @@ TAHR_API void tahr_mover_destroy(tahr_mover *mover);
  * Returns TAHR_OK; TAHR_QUERY_CAP, TAHR_CRUSHED, TAHR_STUCK, TAHR_UNKNOWN, TAHR_TRUNCATED (the worst flag of the
  * report, in this order); on error state and report are untouched (not what events and decisions point to):
  * TAHR_E_NULL, TAHR_E_STRUCT_SIZE, TAHR_E_UNSUPPORTED (unknown tail of input not zero), TAHR_E_ARGUMENT (dt, input or
- * state not finite or out of range, or, in a TAHR_CAP_PLANAR world, up, a normal or base.velocity of the state with a z;
- * the log names the field), TAHR_E_BACKEND, TAHR_E_REENTRANT.
+ * state not finite or out of range, or, in a TAHR_CAP_PLANAR world, up, a normal or base.velocity of the state with a
+ * z; the log names the field), TAHR_E_BACKEND, TAHR_E_REENTRANT.
  * Allocates nothing. Pure: the result depends on world, config, input, dt and state only. Different movers may step on
  * different threads at once. Queries: at most TAHR_MAX_QUERIES_PER_STEP; on flat ground 2 sweeps moving, 1 standing, 0
  * standing on a cached floor or asleep; on a base that moves 1 more (3 where it tilts); for every body that moves near

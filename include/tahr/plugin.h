@@ -17,9 +17,10 @@ typedef struct tahr_plugin tahr_plugin;
  * its tahr_backend_v1 for the backend and checks it: struct_size, ABI, every slot that must be there.
  * [in] path; log may be NULL; [out] plugin, untouched on failure; unload it after every world on it is closed.
  * Returns TAHR_OK, TAHR_E_NULL (an argument, or a slot of the backend), TAHR_E_NOT_FOUND (no such file, not a shared
- * object or one that is cut off, a folder or a pipe, or none with that symbol), TAHR_E_STRUCT_SIZE, TAHR_E_ABI, TAHR_E_MEMORY, TAHR_E_UNSUPPORTED (this platform
- * loads nothing); the log says what was expected and what was there, and nothing stays loaded. Allocates by malloc; may
- * run on several threads. Runs the initialisers of the shared object: load only what you trust. Since 0.1. */
+ * object or one that is cut off, a folder or a pipe, or none with that symbol), TAHR_E_STRUCT_SIZE, TAHR_E_ABI,
+ * TAHR_E_MEMORY, TAHR_E_UNSUPPORTED (this platform loads nothing); the log says what was expected and what was there,
+ * and nothing stays loaded. Allocates by malloc; may run on several threads. Runs the initialisers of the shared
+ * object: load only what you trust. Since 0.1. */
 TAHR_API tahr_status tahr_plugin_load(const char *path, const tahr_log *log, tahr_plugin **plugin);
 
 /* What it brought, valid until tahr_plugin_unload. NULL for NULL. Since 0.1. */

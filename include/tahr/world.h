@@ -226,7 +226,8 @@ TAHR_API void tahr_world_close(tahr_world *world);
  * every pose is checked first. Needs exclusive access: no step may run meanwhile. Characters are not carried: what is
  * placed into one pushes it out in its next step. Use it to put a scene back for a rollback. Returns TAHR_OK,
  * TAHR_E_NULL, TAHR_E_NOT_FOUND (no such body), TAHR_E_ARGUMENT (not movable, not finite, not a unit quaternion, flags
- * not 0; in a TAHR_CAP_PLANAR world turned about anything but z), TAHR_E_UNSUPPORTED (a backend or callbacks that cannot place). Since 0.1. */
+ * not 0; in a TAHR_CAP_PLANAR world turned about anything but z), TAHR_E_UNSUPPORTED (a backend or callbacks that
+ * cannot place). Since 0.1. */
 TAHR_API tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint32_t count);
 
 /* Moves movable bodies to new poses within dt seconds (> 0, up to 10), and advances the revision. All or nothing. Needs
@@ -260,9 +261,9 @@ TAHR_API uint64_t tahr_world_memory(const tahr_world *world);
 /* The three questions, asked directly, with arguments and answers checked; the order of the answers is that of the
  * slots in backend.h. [out] *count of hits or contacts. Outputs untouched on error. Positions up to 2e7 m from the
  * origin, sweeps up to 1e6 m long, margins up to 1e4 m. Return TAHR_OK, TAHR_TRUNCATED, TAHR_UNKNOWN (sweep),
- * TAHR_E_NULL, TAHR_E_ARGUMENT (query not finite or out of range, bad shape, up, orientation or flags, up or motion with
- * a z in a TAHR_CAP_PLANAR world, a sweep with capacity 0), TAHR_E_UNSUPPORTED (shape), TAHR_E_BACKEND (invalid answer). At most 64 answers per call. Allocate
- * nothing; may run on several threads. Since 0.1. */
+ * TAHR_E_NULL, TAHR_E_ARGUMENT (query not finite or out of range, bad shape, up, orientation or flags, up or motion
+ * with a z in a TAHR_CAP_PLANAR world, a sweep with capacity 0), TAHR_E_UNSUPPORTED (shape), TAHR_E_BACKEND (invalid
+ * answer). At most 64 answers per call. Allocate nothing; may run on several threads. Since 0.1. */
 TAHR_API tahr_status tahr_world_sweep(tahr_world *world, const tahr_sweep *query, tahr_hit *hits, uint32_t capacity,
                                       uint32_t *count);
 TAHR_API tahr_status tahr_world_contacts(tahr_world *world, const tahr_contact_query *query, tahr_contact *contacts,

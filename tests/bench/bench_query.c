@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * bench_query.c: asks what wandering characters asked, one query at a time, and times and scores the answers.
  *
- * The score is the backward error: how far from its margin the shape is where the answer stops it. It is measured by the
- * contacts of the exact backend at that place, so no time of impact is compared, which a graze would make meaningless.
- * A one-way body counts there only if it is what stopped the sweep, or stops it in the exact answer. */
+ * A hit is right if the exact backend stops there too, with the margin asked for or one a micrometre off: fractions
+ * alone say nothing where a graze turns rounding into a long way. How right it is says the backward error: how far from
+ * its margin the shape is where the answer stops it, measured by the contacts of the exact backend at that place. A
+ * one-way body counts there only if it is what stopped the sweep. */
 #include "bench_query.h"
 
 #include <math.h>
@@ -15,8 +16,7 @@
 enum { WALKERS = 16, RECORDS = 320, MAX_TICKS = 4000, ROUNDS = 5, NEAR = 64 };
 
 static const double DT = 1.0 / 60;
-static const double TAU = 1e-6;    /* m: what is nearer to a hit than this is neither hit nor miss */
-static const double PASSED = 0.09; /* m of the way on or of the gap: no graze is that long */
+static const double TAU = 1e-6; /* m: what another margin of as much also says is neither a miss nor a false hit */
 
 static double processor_seconds(void)
 {
@@ -156,25 +156,41 @@ static double clearance(const bench_queries *b, const tahr_sweep *q, double frac
     return HUGE_VAL;
 }
 
-/* m of the way up to the hit of the exact answer, HUGE_VAL if it is free; *body is what it hits. */
-static double exact_way(const bench_queries *b, const tahr_sweep *q, uint32_t *body)
+/* Beyond the end of every sweep: there was no hit. */
+static const double NONE = 2;
+
+/* The exact answer with another margin: the fraction of its hit, NONE if there is none. */
+static double exact_fraction(const bench_queries *b, const tahr_sweep *q, double margin, tahr_hit *hit)
 {
-    tahr_hit hit;
+    tahr_sweep other = *q;
     uint32_t count = 0;
-    *body = TAHR_NO_BODY;
-    if (tahr_world_sweep(b->exact, q, &hit, 1, &count) < 0 || count == 0) {
-        return HUGE_VAL;
-    }
-    *body = hit.body;
-    return hit.fraction * sqrt(q->motion.x * q->motion.x + q->motion.y * q->motion.y + q->motion.z * q->motion.z);
+    other.margin = margin > 0 ? margin : 0;
+    memset(hit, 0, sizeof *hit);
+    hit->body = TAHR_NO_BODY;
+    return tahr_world_sweep(b->exact, &other, hit, 1, &count) < 0 || count == 0 ? NONE : hit->fraction;
 }
 
-/* Whether a one-way body stopped a sweep where the exact answer goes on. */
-static int is_passed(const bench_queries *b, const tahr_sweep *q, const tahr_hit *hit)
+/* What margins that differ by TAU make of the exact answer, and TAU of the way. Not every difference is in the order of
+ * the margins: a one-way body is there or not by the distance at the start. */
+typedef struct bracket {
+    tahr_hit hit;       /* with the margin that was asked for */
+    double first, last; /* fractions between which a hit is right within TAU, NONE: it may be free */
+} bracket;
+
+static bracket exact_answer(const bench_queries *b, const tahr_sweep *q)
 {
-    uint32_t body;
+    bracket answer;
+    tahr_hit hit;
     double way = sqrt(q->motion.x * q->motion.x + q->motion.y * q->motion.y + q->motion.z * q->motion.z);
-    return is_one_way(b, hit->body) && exact_way(b, q, &body) > hit->fraction * way + PASSED;
+    answer.first = answer.last = exact_fraction(b, q, q->margin, &answer.hit);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        double fraction = exact_fraction(b, q, q->margin + sign * TAU, &hit);
+        answer.first = fraction < answer.first ? fraction : answer.first;
+        answer.last = fraction > answer.last ? fraction : answer.last;
+    }
+    answer.first -= way > 0 ? TAU / way : 0;
+    answer.last += way > 0 ? TAU / way : 0;
+    return answer;
 }
 
 static int by_value(const void *a, const void *b)
@@ -183,34 +199,75 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* A sweep that starts closer than its margin has no place where it comes to it: such answers are not scored. */
-static int is_scored(const tahr_hit *hit, uint32_t count)
+/* Whether both say that it overlaps at the start, beyond TAU, and how deep. */
+static void score_overlap(const tahr_hit *hit, const tahr_hit *exact, bench_query_result *r)
 {
-    return count == 0 || (!hit->start_overlap && hit->fraction > 0);
+    double depth = hit->start_overlap ? hit->depth : 0, other = exact->start_overlap ? exact->depth : 0;
+    double off = fabs(depth - other);
+    r->overlaps += exact->start_overlap;
+    r->depth_max = off > r->depth_max ? off : r->depth_max;
+    r->misses += other > TAU && !hit->start_overlap;
+    r->false_hits += depth > TAU && !exact->start_overlap;
 }
 
+/* How far off its margin a sweep stops. What was nearer from the start may be as near as it was: not approached, it
+ * does not block, and another surface did. */
+static double stop_gap(const bench_queries *b, const tahr_sweep *q, const tahr_hit *hit)
+{
+    double stop = clearance(b, q, hit->fraction, hit->body), start = clearance(b, q, 0, hit->body);
+    double off = fabs(stop - q->margin);
+    return start < q->margin && fabs(stop - start) < off ? fabs(stop - start) : off;
+}
+
+/* Every sweep is scored. One that began within its margin and stops there has no gap to measure. */
 static void score(const bench_queries *b, const tahr_hit *hits, const uint32_t *counts, bench_query_result *r)
 {
     static double gaps[BENCH_MAX_QUERIES];
+    static const tahr_hit nothing;
+    uint32_t measured = 0;
     for (uint32_t i = 0; i < b->sweep_count; i++) {
         const tahr_sweep *q = &b->sweeps[i];
-        if (!is_scored(&hits[i], counts[i])) {
-            continue;
-        }
-        if (counts[i]) {
-            double gap = clearance(b, q, hits[i].fraction, hits[i].body) - q->margin;
-            gaps[r->hits++] = fabs(gap);
-            r->false_hits += gap > PASSED || is_passed(b, q, &hits[i]);
-        } else {
-            uint32_t body;
-            exact_way(b, q, &body);
-            r->misses += clearance(b, q, 1, body) < q->margin - TAU && clearance(b, q, 0, body) >= q->margin;
+        const tahr_hit *hit = counts[i] ? &hits[i] : &nothing;
+        double fraction = counts[i] ? hit->fraction : NONE;
+        bracket exact = exact_answer(b, q);
+        r->hits += fraction < NONE;
+        r->at_start += fraction <= 0;
+        r->misses += fraction > exact.last;
+        r->false_hits += fraction < exact.first;
+        double gap = fraction < NONE ? stop_gap(b, q, hit) : 0;
+        if (fraction < NONE && (fraction > 0 || gap > 0)) {
+            gaps[measured++] = gap;
         }
     }
-    qsort(gaps, r->hits, sizeof gaps[0], by_value);
-    r->gap_p50 = r->hits ? gaps[r->hits / 2] : 0;
-    r->gap_p99 = r->hits ? gaps[r->hits - 1 - r->hits / 100] : 0;
-    r->gap_max = r->hits ? gaps[r->hits - 1] : 0;
+    qsort(gaps, measured, sizeof gaps[0], by_value);
+    r->gap_p50 = measured ? gaps[measured / 2] : 0;
+    r->gap_p99 = measured ? gaps[measured - 1 - measured / 100] : 0;
+    r->gap_max = measured ? gaps[measured - 1] : 0;
+}
+
+/* Wanderers overlap nothing: where the exact answers stop, a margin and a half farther on, they would. */
+static tahr_status score_sunk(const bench_queries *b, tahr_world *world, bench_query_result *r)
+{
+    for (uint32_t i = 0; i < b->sweep_count; i++) {
+        tahr_sweep q = b->sweeps[i];
+        tahr_hit exact, hit = {0};
+        uint32_t count;
+        double fraction = exact_fraction(b, &q, q.margin, &exact), sunk = 1.5 * q.margin;
+        if (fraction >= NONE) {
+            continue;
+        }
+        q.position.x += q.motion.x * fraction - exact.normal.x * sunk;
+        q.position.y += q.motion.y * fraction - exact.normal.y * sunk;
+        q.position.z += q.motion.z * fraction - exact.normal.z * sunk;
+        q.motion = (tahr_vec3){0, 0, 0};
+        exact_fraction(b, &q, q.margin, &exact);
+        tahr_status status = tahr_world_sweep(world, &q, &hit, 1, &count);
+        if (status < 0) {
+            return status;
+        }
+        score_overlap(&hit, &exact, r);
+    }
+    return TAHR_OK;
 }
 
 /* The least of some rounds: on a machine shared with others the rest is their noise. */
@@ -263,11 +320,12 @@ tahr_status bench_queries_run(const bench_queries *b, const bench_world *world, 
     if (status >= 0) {
         status = time_contacts(b, opened, &result->contacts_ns);
     }
+    if (status >= 0) {
+        score(b, hits, counts, result);
+        status = score_sunk(b, opened, result);
+    }
     tahr_world_close(opened);
     result->sweeps = b->sweep_count;
     result->contact_queries = b->contact_count;
-    if (status >= 0) {
-        score(b, hits, counts, result);
-    }
     return status;
 }

@@ -20,7 +20,9 @@ typedef struct bench_queries {
 typedef struct bench_query_result {
     double sweep_ns, contacts_ns;      /* per query, by processor time; without a character's cache */
     double gap_p50, gap_p99, gap_max;  /* m: off the margin at the place where a sweep stops */
-    uint32_t hits, misses, false_hits; /* beyond 1e-6 m */
+    double depth_max;                  /* m: off the exact depth of what begins half a margin deep */
+    uint32_t hits, misses, false_hits; /* what margins of 1e-6 m more or less do not explain is a miss or a false hit */
+    uint32_t at_start, overlaps;       /* hits at fraction 0; places half a margin deep */
     uint32_t sweeps, contact_queries;
 } bench_query_result;
 

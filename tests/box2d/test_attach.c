@@ -478,7 +478,7 @@ static void a_world_that_was_never_created_is_refused(void **unused)
     }
 #else
     (void)s;
-    printf("SKIP: a_world_that_was_never_created_is_refused: needs Box2D 3\n");
+    printf("SKIP: box2d_attach: a_world_that_was_never_created_is_refused needs Box2D 3\n");
     skip();
 #endif
 }

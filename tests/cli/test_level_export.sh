@@ -18,6 +18,6 @@ if [ -x "$bullet" ]; then
     "$bullet" "$work/broken.obj" >"$work/out" 2>"$work/err" || code=$?
     expect 2 "no triangles"
 else
-    echo "    SKIP: the Bullet example on the playground: it was not built"
+    echo "SKIP: cli_level_export: the Bullet example was not built"
 fi
 finish

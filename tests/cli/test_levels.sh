@@ -27,7 +27,7 @@ for level in dungeon.obj nav_test.obj; do
     if [ -f "$levels/$level" ]; then
         walk "$level" --level "$levels/$level"
     else
-        echo "SKIP: $level is not in $levels"
+        echo "SKIP: cli_levels: $level is not in $levels"
     fi
 done
 finish

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_outline.c: outlines of random tiles against the tiles themselves: every side between a tile and air lies on exactly one
- * outline, no side between two tiles does, what is solid is on the left, and no corner is superfluous. */
+ * test_outline.c: outlines of random tiles against the tiles themselves: every side between a tile and air lies on
+ * exactly one outline, no side between two tiles does, what is solid is on the left, and no corner is superfluous. */
 #include "outline.h"
 
 #include "say.h"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# test_playground.sh: every route of the playground uses what it is named after: modes, events and places in the table of
-# its steps. What the numbers come from is the level's geometry (bindings/cli/rides.c).
+# test_playground.sh: every route of the playground uses what it is named after: modes, events and places in the table
+# of its steps. What the numbers come from is the level's geometry (bindings/cli/rides.c).
 . "$(dirname "$0")/support.sh"
 routes="$here/../scenes/routes"
 
@@ -38,7 +38,8 @@ never() {
         "$work/csv" || fail "$route: in some step $1"
 }
 
-# The table's 12 digits and the clearance of 10 to 15 mm: a foot at height h stands at h + 0.9 + 0.009 to h + 0.9 + 0.016.
+# The table's 12 digits and the clearance of 10 to 15 mm: a foot at height h stands at h + 0.9 + 0.009 to h + 0.9 +
+# 0.016.
 go lift
 modes walking
 events left_ground 0

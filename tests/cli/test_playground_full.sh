@@ -1,6 +1,6 @@
 #!/bin/sh
-# test_playground_full.sh: 64 characters wander 100 000 steps through the playground, at other rates and with the other preset
-# too: nobody tunnels, sinks in, is stuck for good, or crushed by what does not move. TAHR: the program.
+# test_playground_full.sh: 64 characters wander 100 000 steps through the playground, at other rates and with the other
+# preset too: nobody tunnels, sinks in, is stuck for good, or crushed by what does not move. TAHR: the program.
 set -eu
 failed=0
 while read -r arguments; do

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# test_side.sh: the bundled side-scroller is toured on every backend at 30, 60 and 144 Hz: every watched place is come to,
-# and what has to be done on the way is done as often as the level asks for it.
+# test_side.sh: the bundled side-scroller is toured on every backend at 30, 60 and 144 Hz: every watched place is come
+# to, and what has to be done on the way is done as often as the level asks for it.
 . "$(dirname "$0")/support.sh"
 
 # place NAME: when it was first come to

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_side_check.c: the checker on levels of two dimensions against closed forms: walls, slopes, boxes with their corners, and
- * who sinks through what blocks from above only. */
+ * test_side_check.c: the checker on levels of two dimensions against closed forms: walls, slopes, boxes with their
+ * corners, and who sinks through what blocks from above only. */
 #include "check.h"
 #include "side.h"
 
@@ -24,8 +24,8 @@ static void add(struct side *side, enum side_kind kind, enum side_form form, siz
     side_add(side, &(struct side_piece){.kind = kind, .form = form, .points = points, .count = count, .both = 1});
 }
 
-/* A floor at 0 with a wall at x = 10, a slope of 45 degrees from (-2, 0) up to the left, a plank from 2 to 4 at 2 m, and
- * one that leans from (5, 1) up to (7, 2). */
+/* A floor at 0 with a wall at x = 10, a slope of 45 degrees from (-2, 0) up to the left, a plank from 2 to 4 at 2 m,
+ * and one that leans from (5, 1) up to (7, 2). */
 static struct checker *open_level(struct level *level)
 {
     const double ground[] = {-4, 2, -2, 0, 10, 0, 10, 8}, plank[] = {2, 1.8, 4, 2}, leaning[] = {7, 2, 5, 1};

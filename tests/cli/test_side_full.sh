@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# test_side_full.sh: more than 100 000 steps of wanderers on the bundled side-scroller, with every backend, with round and with
-# flat feet, over outlines and over separate tiles: nobody tunnels, sinks through a platform, overlaps anything or is
-# stuck for good, and nobody hangs in the air.
+# test_side_full.sh: more than 100 000 steps of wanderers on the bundled side-scroller, with every backend, with round
+# and with flat feet, over outlines and over separate tiles: nobody tunnels, sinks through a platform, overlaps anything
+# or is stuck for good, and nobody hangs in the air.
 . "$(dirname "$0")/support.sh"
 
 backends all >"$work/backends"

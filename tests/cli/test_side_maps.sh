@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# test_side_maps.sh: what Tiled can write is read alike: lists, base64, packed base64, chunks, tilesets in files of their
-# own, flipped tiles, groups, objects; and a row of 1000 separate tiles is run over at full speed.
+# test_side_maps.sh: what Tiled can write is read alike: lists, base64, packed base64, chunks, tilesets in files of
+# their own, flipped tiles, groups, objects; and a row of 1000 separate tiles is run over at full speed.
 . "$(dirname "$0")/support.sh"
 . "$(dirname "$0")/side_map.sh"
 
@@ -60,13 +60,13 @@ print(base64.b64encode((zlib if sys.argv[1] == 'zlib' else gzip).compress(data))
         tahr run --2d --level "$work/packed.tmj" --seconds 0.1 --characters 1
         if [ "$code" = 2 ]; then
             expect 2 "without zlib"
-            echo "SKIP: packed layers: this shell was built without zlib"
+            echo "SKIP: cli_side_maps: packed layers: this shell was built without zlib"
         else
             same "$work/packed.tmj"
         fi
     done
 else
-    echo "SKIP: packed layers: python3 is not there to pack one"
+    echo "SKIP: cli_side_maps: packed layers: python3 is not there to pack one"
 fi
 printf '{"type": "tileset", %s' "${tileset#\{\"firstgid\": 1, }" >"$work/set.tsj"
 map 8 4 "$(tiles 8 4 "$(floor 8)"), $start" '{"firstgid": 1, "source": "set.tsj"}' >"$work/external.tmj"
@@ -111,8 +111,8 @@ map 8 4 "{\"type\": \"objectgroup\", \"objects\": [{\"gid\": 1, \"x\": 0, \"y\":
     {\"type\": \"enemy\", \"x\": 40, \"y\": 40, \"width\": 8, \"height\": 16, \"capsule\": true}]}, $start" \
     "{\"objectalignment\": \"topleft\", ${tileset#\{}" >"$work/objects.tmj"
 same "$work/objects.tmj"
-# A ramp of 45 degrees: walked up as it is, and flipped along its diagonal (bit 29), which leaves it as it is; a wall where
-# it is flipped left to right (bit 31).
+# A ramp of 45 degrees: walked up as it is, and flipped along its diagonal (bit 29), which leaves it as it is; a wall
+# where it is flipped left to right (bit 31).
 for flip in 0 2147483648 536870912; do
     map 8 4 "$(tiles 8 4 "[0,0,0,0,0,0,0,0, 0,0,0,0,0,0,0,0, 0,0,0,$((flip + 2)),0,0,0,0, 1,1,1,1,1,1,1,1]"), $start" \
         >"$work/flip.tmj"

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# test_side_wrong.sh: a broken map of Tiled ends with code 2 and a message that names the file, the place in it and what was
-# expected.
+# test_side_wrong.sh: a broken map of Tiled ends with code 2 and a message that names the file, the place in it and what
+# was expected.
 . "$(dirname "$0")/support.sh"
 . "$(dirname "$0")/side_map.sh"
 

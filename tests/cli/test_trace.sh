@@ -1,13 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# test_trace.sh: a run recorded on one backend is repeated from its file alone; files that are no longer what they were are
-# told apart; backends are taken from shared objects.
+# test_trace.sh: a run recorded on one backend is repeated from its file alone; files that are no longer what they were
+# are told apart; backends are taken from shared objects.
 . "$(dirname "$0")/support.sh"
 plugins=$(dirname "$TAHR")/../lib
 
 "$TAHR" info >"$work/info"
-# recorded BACKEND OPTIONS... : a run is the same while it is recorded, and its file repeats it from anywhere. Leaves what
-# the replay says in $work/out and the file in $work/BACKEND.trace.
+# recorded BACKEND OPTIONS... : a run is the same while it is recorded, and its file repeats it from anywhere. Leaves
+# what the replay says in $work/out and the file in $work/BACKEND.trace.
 recorded() {
     backend=$1
     shift

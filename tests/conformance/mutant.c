@@ -252,6 +252,8 @@ static int change_hit(mutant *m, const tahr_query_context *context, const tahr_s
     case FREE_AT_THE_MARGIN: return h->fraction > 0 || h->start_overlap;
     case FREE_JUST_OUTSIDE_THE_MARGIN: return h->fraction * approach > 2e-6 || h->fraction == 0;
     case FREE_A_MILLIMETRE_OUTSIDE: return h->fraction * approach > 0.002 || h->fraction == 0;
+    case LEVEL_MOTIONS_ENTER_THE_MARGIN: return h->fraction > 0 || h->start_overlap || q->motion.z != 0;
+    case LEVEL_MOTIONS_MISS_WHAT_IS_NEAR: return h->fraction == 0 || h->fraction >= 1e-3 || q->motion.z != 0;
     case FREE_WHEN_TOUCHING: return fabs(h->distance) > 1e-9;
     case GRAZES_MISSED: return approach > 0.01 * way;
     case SEES_BEYOND_THE_MOTION: h->fraction *= way > 0 ? (way + 0.001) / way : 1; break;
@@ -374,6 +376,8 @@ static void change_contact(mutant *m, tahr_contact *c)
     switch (m->which) {
     case CONTACT_DISTANCE_UNSIGNED: c->distance = fabs(c->distance); break;
     case CONTACT_NORMAL_FLIPPED: c->normal = scaled(c->normal, -1); break;
+    case CONTACTS_WITHOUT_FEATURES: c->feature = 0; break;
+    case CONTACTS_NAME_ANOTHER_TRIANGLE: c->feature ^= 1; break;
     case CONTACTS_FORGET_WHO_IS_A_SENSOR: c->sensor = 0; break;
     default: break;
     }
@@ -413,6 +417,8 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
     tahr_status status = native()->ray(m->inner, context, &q, hit, count);
     if (m->which == RAYS_LOSE_PLACED_BODIES && m->placed) *count = 0;
     if (m->which == NAN_GIVES_NINE_RAYS && isnan(q.origin.x)) *count = 9;
+    if (m->which == RAYS_WITHOUT_FEATURES) hit->feature = 0;
+    if (m->which == RAYS_NAME_ANOTHER_TRIANGLE) hit->feature ^= 1;
     if (m->which == RAYS_A_MILLIMETRE_LATE && *count) hit->fraction += 0.001 / length(q.motion);
     return status;
 }

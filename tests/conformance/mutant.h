@@ -22,6 +22,8 @@
     X(FREE_AT_THE_MARGIN, "rest_at_margin_minus_one_ulp")            \
     X(FREE_JUST_OUTSIDE_THE_MARGIN, "rest_1e-6_around_margin")       \
     X(FREE_A_MILLIMETRE_OUTSIDE, "rest_1e-3_around_margin")          \
+    X(LEVEL_MOTIONS_ENTER_THE_MARGIN, "rest_at_margin")              \
+    X(LEVEL_MOTIONS_MISS_WHAT_IS_NEAR, "rest_1e-6_around_margin")    \
     X(FREE_WHEN_TOUCHING, "touch")                                   \
     X(MARGIN_IGNORED, "stops_at_margin")                             \
     X(MARGIN_ALONG_THE_MOTION, "grazing_1_degree")                   \
@@ -60,6 +62,8 @@
     X(CONTACT_DISTANCE_UNSIGNED, "contact_distance")                 \
     X(CONTACT_NORMAL_FLIPPED, "contact_distance")                    \
     X(CONTACT_MARGIN_DOUBLED, "contact_margin")                      \
+    X(CONTACTS_WITHOUT_FEATURES, "contact_distance")                 \
+    X(CONTACTS_NAME_ANOTHER_TRIANGLE, "tie_by_feature")              \
     X(CONTACTS_IN_WRONG_ORDER, "contact_order_and_capacity")         \
     X(TRUNCATION_NOT_SAID, "contact_order_and_capacity")             \
     X(WRITES_BEYOND_CAPACITY, "contact_order_and_capacity")          \
@@ -67,6 +71,8 @@
     X(HIGHEST_BODY_OF_A_TIE, "tie_by_body")                          \
     X(HIGHEST_FEATURE_OF_A_TIE, "tie_by_feature")                    \
     X(RAYS_A_MILLIMETRE_LATE, "ray")                                 \
+    X(RAYS_WITHOUT_FEATURES, "ray")                                  \
+    X(RAYS_NAME_ANOTHER_TRIANGLE, "tie_by_feature")                  \
     X(RAYS_IGNORE_MASKS, "mask_of_rays")                             \
     X(EMPTY_WORLD_HAS_A_FLOOR, "empty_world")                        \
     X(ANSWERS_ALTERNATE, "same_question_same_bits")                  \

@@ -115,7 +115,7 @@ static void box2d_keeps_its_promises(uint32_t engine, const char *name)
     tally t = {.who = name};
     tahr_selftest_desc desc = {.options = &options};
     if (box2d_opens(engine) < 0) {
-        print_message("SKIP: %s_keeps_its_promises: this engine is not built\n", name);
+        print_message("SKIP: conformance_selftest: %s_keeps_its_promises: this engine is not built\n", name);
         skip();
     }
     expect_all(&t, tahr_backend_v1_box2d(), &desc, 60);

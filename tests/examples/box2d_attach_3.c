@@ -2,8 +2,9 @@
  * box2d_attach_3.c: a character in your own Box2D 3 world: chain ground, crates that Box2D moves, a lift, a one-way
  * platform, a gate that only feels. The twin of box2d_attach.cpp.
  *
- * By hand, with Tahr installed, PKG_CONFIG_PATH pointing to its lib/pkgconfig and BOX2D to the sources of Box2D 3 that it
- * was built with: program and backend share one Box2D, so the archives are linked (-lbox2d -lstdc++: if 2.4 was there):
+ * By hand, with Tahr installed, PKG_CONFIG_PATH pointing to its lib/pkgconfig and BOX2D to the sources of Box2D 3 that
+ * it was built with: program and backend share one Box2D, so the archives are linked (-lbox2d -lstdc++: if 2.4 was
+ * there):
  *     cc -std=c11 -I$BOX2D/include box2d_attach_3.c $(pkg-config --cflags --libs-only-L tahr_box2d) \
  *         -Wl,-Bstatic -ltahr_box2d -ltahr -ltahr_box2d_3 -Wl,-Bdynamic -lbox2d -lstdc++ -lm -o box2d_attach_3 */
 #include <math.h>

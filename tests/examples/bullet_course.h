@@ -15,8 +15,8 @@ struct waypoint {
     const char *name;
 };
 
-/* Over the stairs and the ramp, round to the wall, and against it: its face is at y = -9.99, the radius 0.35 m, the skin
- * 1 cm, and what lies behind it is never reached. */
+/* Over the stairs and the ramp, round to the wall, and against it: its face is at y = -9.99, the radius 0.35 m, the
+ * skin 1 cm, and what lies behind it is never reached. */
 const waypoint COURSE[] = {{-24, 14.75, 2.4, 4, "top of the stairs"}, {-19, 14.75, 0, 4, "foot of the stairs"},
                            {-13.5, 11.05, 0, 4, "before the ramp"},   {-8, 11.05, 2, 4, "top of the ramp"},
                            {-2, 11.05, 0, 4, "behind the ramp"},      {0.5, 7.5, 0, 3, "beside the rough ground"},

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * bullet_playground.cpp: Tahr over a Bullet world, an engine that Tahr has no backend for, in two ways: through Bullet's
- * convex sweeps (tahr_callbacks), and through the triangles that Bullet finds in a box (tahr_native_desc.gather). Both
- * walk the same course: bullet_course.h. The game that they walk in, as a user would have it: bullet_game.h.
+ * bullet_playground.cpp: Tahr over a Bullet world, an engine that Tahr has no backend for, in two ways: through
+ * Bullet's convex sweeps (tahr_callbacks), and through the triangles that Bullet finds in a box
+ * (tahr_native_desc.gather). Both walk the same course: bullet_course.h. The game that they walk in, as a user would
+ * have it: bullet_game.h.
  *
  * By hand, with Tahr installed and PKG_CONFIG_PATH pointing to its lib/pkgconfig:
  *     c++ -std=c++17 bullet_playground.cpp $(pkg-config --cflags --libs tahr bullet) -o bullet_playground
@@ -63,8 +64,8 @@ tahr_status bullet_sweep(void *user, const tahr_sweep *q, tahr_hit *hit)
     if (q->shape.type == TAHR_SHAPE_CAPSULE) shape = &capsule;
     btVector3 from = to_bullet(q->position), way = to_bullet(q->motion);
 
-    /* Where it stands: with TAHR_CALLBACKS_NO_MARGIN a capsule that has come larger by the skin is often in the floor by
-     * a fraction of a millimetre. */
+    /* Where it stands: with TAHR_CALLBACKS_NO_MARGIN a capsule that has come larger by the skin is often in the floor
+     * by a fraction of a millimetre. */
     deepest overlap = game->overlap(*shape, upright_at(from));
     if (overlap.distance < 0 && (opposed(way, overlap.normal) || !(q->flags & TAHR_SWEEP_LEAVE_OVERLAP))) {
         hit->start_overlap = 1;

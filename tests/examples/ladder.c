@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * ladder.c: a ladder as a mode of your own. The ladder is a body with a surface id; who walks into it climbs: forward
- * is up, back is down, a jump lets go, and over the top there is a platform. */
+ * is up, back is down, a jump lets go, and over the top there is a platform.
+ * By hand, with Tahr installed and PKG_CONFIG_PATH pointing to its lib/pkgconfig:
+ *     cc -std=c11 ladder.c $(pkg-config --cflags --libs tahr) -o ladder */
 #include <stdio.h>
 
 #include <tahr/native.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * golden_hash.c: characters of all shapes, presets and skills wander through a small playground whose bodies move; prints
- * one hash of every state and event.
+ * golden_hash.c: characters of all shapes, presets and skills wander through a small playground whose bodies move;
+ * prints one hash of every state and event.
  *
  * The same line must come from every compiler, optimisation level and machine, with SIMD or its scalar twin (--scalar),
  * and with or without the gather cache (--no-cache). Only public headers; the scene is made of + - * / and integers. */
@@ -181,8 +181,8 @@ static void give_skills(tahr_config *config)
     config->imparted_half_life = 0.5;
 }
 
-/* Every third character is a box, every third a sphere; one in eight is far-sighted about ledges. Every second moves like
- * Unreal's, half of them have skills, one stays in a plane, and one mixes the methods. */
+/* Every third character is a box, every third a sphere; one in eight is far-sighted about ledges. Every second moves
+ * like Unreal's, half of them have skills, one stays in a plane, and one mixes the methods. */
 static void configure(tahr_config *config, int id)
 {
     tahr_config_init(config, sizeof *config, id % 2 ? TAHR_PRESET_UNREAL : TAHR_PRESET_PRECISE);
@@ -266,7 +266,8 @@ static double swing(int step, int period)
     return 2.0 * (at < period - at ? at : period - at) / period;
 }
 
-/* 1/60 s of the lift and of the turntable, which turns by the angle whose half has the tangent 1/128 (about 54 degrees/s). */
+/* 1/60 s of the lift and of the turntable, which turns by the angle whose half has the tangent 1/128 (about 54
+ * degrees/s). */
 static int move_bodies(tahr_world *world, int step, tahr_quat *turn)
 {
     const double d = 128.0 * 128 + 1, sine = 2 * 128.0 / d, cosine = (128.0 * 128 - 1) / d;

@@ -1,6 +1,6 @@
 #!/bin/sh
-# subproject.sh: the sources inside somebody else's CMake build (add_subdirectory, FetchContent): the library and nothing
-# more, with the stranger's own output folders and compiler flags left alone.
+# subproject.sh: the sources inside somebody else's CMake build (add_subdirectory, FetchContent): the library and
+# nothing more, with the stranger's own output folders and compiler flags left alone.
 set -eu
 root=$PWD
 folder=$(mktemp -d)

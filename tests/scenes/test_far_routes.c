@@ -106,7 +106,7 @@ int main(void)
         scene_mesh mesh = {0};
         char why[256];
         if (!scene_level_make(SCENE_LEVEL_NAMES[level], &mesh, why)) {
-            printf("SKIP: %s %s\n", SCENE_LEVEL_NAMES[level], why);
+            printf("SKIP: scenes_far_routes: %s %s\n", SCENE_LEVEL_NAMES[level], why);
         } else {
             runs++;
             failures += run(level, &mesh, TAHR_NATIVE_FLOAT) + run(level, &mesh, TAHR_NATIVE_DOUBLE);

@@ -18,8 +18,8 @@ typedef struct tally {
     int runs, failures;
 } tally;
 
-/* Above 100 Hz the slower backends run one variant of each file, above 500 Hz native double too, unless the rate is asked
- * for by name. */
+/* Above 100 Hz the slower backends run one variant of each file, above 500 Hz native double too, unless the rate is
+ * asked for by name. */
 static int left_out(const scene_backend *backend, double rate, int variant, const filter *only)
 {
     int quick = backend->native && backend->precision == TAHR_NATIVE_FLOAT;

@@ -232,7 +232,7 @@ int wandering_run(int native_steps, int other_steps, int argc, char **argv)
             continue;
         }
         if (!scene_level_make(SCENE_LEVEL_NAMES[i], &mesh, why)) {
-            printf("SKIP: %s %s\n", SCENE_LEVEL_NAMES[i], why);
+            printf("SKIP: scenes_wandering: %s %s\n", SCENE_LEVEL_NAMES[i], why);
             scene_mesh_free(&mesh);
             continue;
         }

@@ -1,5 +1,5 @@
-# Prints the first ```c block of a Markdown file; with -v block=2 the second one; with -v want=output the first line that the
-# README shows as the first block's output: a line of a later block that begins like what the program prints.
+# Prints the first ```c block of a Markdown file; with -v block=2 the second one; with -v want=output the first line
+# that the README shows as the first block's output: a line of a later block that begins like what the program prints.
 BEGIN { if (!block) block = 1 }
 /^```/ {
     if (inside) inside = 0

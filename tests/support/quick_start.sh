@@ -1,6 +1,6 @@
 #!/bin/sh
-# quick_start.sh: the C blocks of the README: the quick start, compiled as it stands and run against the library just built,
-# and the level geometry, within the few declarations that it leaves to the reader.
+# quick_start.sh: the C blocks of the README: the quick start, compiled as it stands and run against the library just
+# built, and the level geometry, within the few declarations that it leaves to the reader.
 set -eu
 if ! grep -q '^```c$' README.md 2>/dev/null; then
     echo "SKIP: house_quick_start: README.md has no C block"

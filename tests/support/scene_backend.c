@@ -12,9 +12,9 @@
 #endif
 
 /* All keep skin - 1e-5 m and rest to the bit. Double sweeps of native are within 1e-9 m, float ones within 2e-6 m;
- * those of ccd and fcl are within 1e-4 m, exact onto a level floor, and they may enter 5 mm where native may enter 1 mm.
- * Their slides are judged at 1e-2 of their way (2 mm for the 0.2 m or so into a gutter), who pushes into a corner at
- * 1e-6 m. */
+ * those of ccd and fcl are within 1e-4 m, exact onto a level floor, and they may enter 5 mm where native may enter 1
+ * mm. Their slides are judged at 1e-2 of their way (2 mm for the 0.2 m or so into a gutter), who pushes into a corner
+ * at 1e-6 m. */
 const scene_backend SCENE_BACKENDS[] = {
     {"native", tahr_backend_v1_native, 1, TAHR_NATIVE_FLOAT, 1.0, 1e-5, 2e-6, 2e-6, 1e-3, 0, 0, 0},
     {"native-double", tahr_backend_v1_native, 1, TAHR_NATIVE_DOUBLE, 1.0, 1e-5, 1e-9, 0, 1e-3, 0, 0, 0},

@@ -16,8 +16,8 @@ typedef struct scene_wanderer {
 
 tahr_bounds scene_mesh_bounds(const scene_mesh *mesh);
 
-/* Places a character in free air just above walkable ground of the world, somewhere inside bounds. Up is +z, or +y where
- * config.plane is set: then in the plane z = 0. Returns 0 if no such place was found. */
+/* Places a character in free air just above walkable ground of the world, somewhere inside bounds. Up is +z, or +y
+ * where config.plane is set: then in the plane z = 0. Returns 0 if no such place was found. */
 int scene_wander_spawn(tahr_world *world, const tahr_config *config, const tahr_bounds *bounds, uint64_t *seed,
                        tahr_state *state);
 

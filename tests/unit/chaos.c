@@ -350,7 +350,8 @@ tahr_vec3 chaos_flat(tahr_vec3 v)
     return (tahr_vec3){v.x, v.z, 0};
 }
 
-/* The part of a turn that is about z; of capsules after the quarter turn about x that lays their axis into the plane. */
+/* The part of a turn that is about z; of capsules after the quarter turn about x that lays their axis into the
+ * plane. */
 static tahr_quat flat_turn(tahr_quat q, int capsule)
 {
     static const double QUARTER = 0.70710678118654752440;

@@ -30,7 +30,7 @@ case $language in c++*) standard=c++ ;; esac
     $headers tests/unit/layout.c -o "$folder/layout"
 "$folder/layout" >"$folder/text" || {
     status=$?
-    grep '^SKIP' "$folder/text" || true
+    sed -n "s/^SKIP: house_layout:/SKIP: house_layout_$language:/p" "$folder/text"
     exit $status
 }
 if [ "${2:-}" = --write ]; then

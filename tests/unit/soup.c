@@ -215,7 +215,7 @@ void soup_compare_level(const char *name, uint32_t queries)
     scene_mesh mesh = {0};
     char why[256];
     if (!scene_level_make(name, &mesh, why)) {
-        print_message("    SKIP: %s: %s\n", name, why);
+        print_message("SKIP: unit_native_gather: %s %s\n", name, why);
         scene_mesh_free(&mesh);
         return;
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * backends.c: asks every backend that it is linked with, and every plugin whose path it is given, how far a ray goes, and
- * prints name and answer. HAVE_* says what is linked; the headers are there for all of them. */
+ * backends.c: asks every backend that it is linked with, and every plugin whose path it is given, how far a ray goes,
+ * and prints name and answer. HAVE_* says what is linked; the headers are there for all of them. */
 #include <stdio.h>
 
 #include <tahr/box2d.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * level.c: what the README's level geometry leaves to the reader: a square of two triangles, and the proof that it can be
- * walked on. README_LEVEL is the file with the README's lines. */
+ * level.c: what the README's level geometry leaves to the reader: a square of two triangles, and the proof that it can
+ * be walked on. README_LEVEL is the file with the README's lines. */
 #include <stdio.h>
 #include <tahr/native.h>
 #include <tahr/tahr.h>

@@ -255,7 +255,7 @@ static void no_step_of_any_backend_touches_the_heap(void **unused)
     };
     (void)unused;
     if (!watch_heap()) {
-        print_message("SKIP: unit_allocation: no way to count this C library's allocations\n");
+        print_message("SKIP: unit_api_allocation: no way to count this C library's allocations\n");
         skip();
     }
     uint64_t before = heap_calls;
@@ -331,7 +331,7 @@ static void no_step_in_a_plane_touches_the_heap(void **unused)
     static scene_tiles tiles;
     (void)unused;
     if (!watch_heap()) {
-        print_message("SKIP: unit_allocation: no way to count this C library's allocations\n");
+        print_message("SKIP: unit_api_allocation: no way to count this C library's allocations\n");
         skip();
     }
     scene_tiles_make(&tiles);
@@ -401,7 +401,7 @@ static void no_query_of_any_convex_shape_touches_the_heap(void **unused)
     const tahr_ccd_desc by_mpr = {sizeof by_mpr, TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_MPR, 0, {0}};
     (void)unused;
     if (!watch_heap()) {
-        print_message("SKIP: unit_allocation: no way to count this C library's allocations\n");
+        print_message("SKIP: unit_api_allocation: no way to count this C library's allocations\n");
         skip();
     }
     assert_int_equal(heap_calls_of_solids(NULL), 0);
@@ -462,7 +462,7 @@ static void no_step_of_any_feature_touches_the_heap(void **unused)
     long modes[TAHR_MODE_CUSTOM + 1] = {0};
     (void)unused;
     if (!watch_heap()) {
-        print_message("SKIP: unit_allocation: no way to count this C library's allocations\n");
+        print_message("SKIP: unit_api_allocation: no way to count this C library's allocations\n");
         skip();
     }
     for (uint64_t seed = 1; seed <= 40; seed++) {

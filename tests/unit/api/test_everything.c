@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * test_everything.c: random characters with random input among random bodies, every feature at once: no step fails, every
- * state is one that a step accepts, reports say nothing that cannot be, and nothing but the arguments of a step decides it.
- * Arguments: a factor of the number of rounds and a first seed, to look longer. */
+ * test_everything.c: random characters with random input among random bodies, every feature at once: no step fails,
+ * every state is one that a step accepts, reports say nothing that cannot be, and nothing but the arguments of a step
+ * decides it. Arguments: a factor of the number of rounds and a first seed, to look longer. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -481,7 +481,7 @@ static void ccd_keeps_every_promise(void **unused)
 #ifdef TAHR_HAVE_CCD
     run_kind(ON_CCD, 3);
 #else
-    print_message("SKIP: unit_everything: ccd was not built\n");
+    print_message("SKIP: unit_api_everything: ccd was not built\n");
     skip();
 #endif
 }
@@ -492,7 +492,7 @@ static void fcl_keeps_every_promise(void **unused)
 #ifdef TAHR_HAVE_FCL
     run_kind(ON_FCL, 5);
 #else
-    print_message("SKIP: unit_everything: fcl was not built\n");
+    print_message("SKIP: unit_api_everything: fcl was not built\n");
     skip();
 #endif
 }
@@ -506,7 +506,7 @@ static void box2d_keeps_every_promise(void **unused)
     run_kind(ON_BOX2D_2, 30);
 #endif
 #else
-    print_message("SKIP: unit_everything: box2d was not built\n");
+    print_message("SKIP: unit_api_everything: box2d was not built\n");
     skip();
 #endif
 }

@@ -235,7 +235,7 @@ static void nothing_of_a_refused_plugin_stays_loaded(void **unused)
     assert_int_equal(tahr_plugin_load(path, NULL, &plugin), TAHR_E_ABI);
     FILE *maps = fopen("/proc/self/maps", "r");
     if (!maps) {
-        printf("SKIP: unit_plugin: /proc/self/maps is not there\n");
+        printf("SKIP: unit_api_plugin: /proc/self/maps is not there\n");
         skip();
     }
     while (fgets(line, sizeof line, maps)) {
@@ -277,7 +277,7 @@ int main(void)
 #else
 int main(void)
 {
-    printf("SKIP: unit_plugin: no shared libraries were built\n");
+    printf("SKIP: unit_api_plugin: no shared libraries were built\n");
     return 77;
 }
 #endif

@@ -58,7 +58,8 @@ static void walking_on_flat_ground_asks_two_standing_one_cached_none(void **unus
     }
 }
 
-/* The same whole steps over a box of the native backend, whose nearest face is not told by a closed form; in the air 1. */
+/* The same whole steps over a box of the native backend, whose nearest face is not told by a closed form; in the air
+ * 1. */
 static void bodies_are_asked_as_often_as_closed_forms(void **unused)
 {
     tahr_body_desc ground = native_box(fake_vec(0, 0, -1), fake_vec(50, 50, 1));

@@ -144,7 +144,7 @@ static void characters_of_one_world_step_on_threads_as_if_alone(void **unused)
 static void characters_of_one_world_step_on_threads_as_if_alone(void **unused)
 {
     (void)unused;
-    print_message("SKIP: characters_of_one_world_step_on_threads_as_if_alone: no POSIX threads\n");
+    print_message("SKIP: unit_api_threads: no POSIX threads\n");
     skip();
 }
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * test_wrong_step.c: settings and states that are none are refused by name, whatever is written into a state; what a step
- * returns is always one that a step takes. (Wrong answers of callbacks: test_query_answers.c, test_world_move.c,
- * test_water_line.c, test_sensor_queries.c, test_custom_mode.c; wrong requests: test_launch.c, test_stance.c, test_gravity.c;
- * wrong motions of bodies: test_world_move.c.) */
+ * test_wrong_step.c: settings and states that are none are refused by name, whatever is written into a state; what a
+ * step returns is always one that a step takes. (Wrong answers of callbacks: test_query_answers.c, test_world_move.c,
+ * test_water_line.c, test_sensor_queries.c, test_custom_mode.c; wrong requests: test_launch.c, test_stance.c,
+ * test_gravity.c; wrong motions of bodies: test_world_move.c.) */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -220,7 +220,7 @@ static void sensors_change_no_bit_of_the_way_on_ccd(void **unused)
 {
     (void)unused;
     if (sensor_backends() <= ON_CCD) {
-        print_message("SKIP: unit_overlap_fuzz: ccd was not built\n");
+        print_message("SKIP: unit_bodies_overlap_fuzz: ccd was not built\n");
         skip();
     }
     wander(ON_CCD, TAHR_SHAPE_CAPSULE);

@@ -16,7 +16,7 @@
 #ifndef TAHR_HAVE_BOX2D
 int main(void)
 {
-    puts("SKIP: test_box2d: built without Box2D");
+    puts("SKIP: unit_engines_box2d: built without Box2D");
     return 77;
 }
 #else

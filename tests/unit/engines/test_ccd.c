@@ -136,9 +136,9 @@ static void sweep_feels_no_internal_edges_of_a_flat_floor(void **state)
     tahr_world_close(world);
 }
 
-/* A floor at x < 0 and a ramp of 15 degrees from x = 0. A ball of 0.3 m begins 4 mm above the floor and 0.1 m before the
- * ramp: nearest of the ramp is its foot, 2 cm away and hidden by the floor. It leaves the floor, flatter than the ramp:
- * the ramp holds it, within the margin of 5 cm and no nearer than the floor was. */
+/* A floor at x < 0 and a ramp of 15 degrees from x = 0. A ball of 0.3 m begins 4 mm above the floor and 0.1 m before
+ * the ramp: nearest of the ramp is its foot, 2 cm away and hidden by the floor. It leaves the floor, flatter than the
+ * ramp: the ramp holds it, within the margin of 5 cm and no nearer than the floor was. */
 static void a_ramp_is_met_whose_foot_a_floor_hides(void **state)
 {
     static const double corners[] = {

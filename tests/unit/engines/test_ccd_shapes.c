@@ -16,7 +16,7 @@
 #if !defined(TAHR_HAVE_CCD) && !defined(TAHR_HAVE_FCL)
 int main(void)
 {
-    puts("SKIP: unit_ccd_shapes: built without libccd and without FCL");
+    puts("SKIP: unit_engines_ccd_shapes: built without libccd and without FCL");
     return 77;
 }
 #else

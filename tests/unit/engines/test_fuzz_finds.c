@@ -86,8 +86,8 @@ static void expect_wall_above(const tahr_hit *hit, double height)
     assert_true(hit->depth == 0 && isfinite(hit->distance) && hit->walkable_angle == 0);
 }
 
-/* fuzz_liar, found_undecided_sensors_without_a_normal: of several undecided hits only the last was made a wall, and of a
- * ray none; the others had the backend's normals, which were no numbers. */
+/* fuzz_liar, found_undecided_sensors_without_a_normal: of several undecided hits only the last was made a wall, and of
+ * a ray none; the others had the backend's normals, which were no numbers. */
 static void every_undecided_hit_is_handed_on_as_a_wall(void **state)
 {
     fake_backend b;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_template.c: the backend to copy answers like the native one, which shares nothing with it but the core distance. */
+ * test_template.c: the backend to copy answers like the native one, which shares nothing with it but the core
+ * distance. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -60,8 +60,8 @@ static void head_goes_past_a_corner_by_the_least_way_aside(void **unused)
     }
 }
 
-/* Pushed toward the corner its velocity would take it back under the head's rounding for good: it goes up beside what is
- * there. Slides of TWO_WALLS take off a part of the rise at any wall. */
+/* Pushed toward the corner its velocity would take it back under the head's rounding for good: it goes up beside what
+ * is there. Slides of TWO_WALLS take off a part of the rise at any wall. */
 static void head_that_is_pushed_toward_the_corner_goes_past_it_too(void **unused)
 {
     (void)unused;
@@ -82,8 +82,8 @@ static void head_that_is_pushed_toward_the_corner_goes_past_it_too(void **unused
         r.input.move = turned ? fake_vec(0, 0.2, 0) : fake_vec(0.2, 0, 0);
         player_press(&p, 0.42); /* just before its apex */
         double beside = turned ? r.state.position.y : r.state.position.x;
-        /* 0.22 m of the round head, skin included, are above the ceiling's face (of TWO_WALLS, 0.19): its widest part is
-         * 0.14 (0.17) m below and leaves 0.36 - sqrt(0.36^2 - 0.14^2) beside the corner. */
+        /* 0.22 m of the round head, skin included, are above the ceiling's face (of TWO_WALLS, 0.19): its widest part
+         * is 0.14 (0.17) m below and leaves 0.36 - sqrt(0.36^2 - 0.14^2) beside the corner. */
         double room = i & 1 ? 1e-5 : exact ? 0.0285 : 0.0427;
         assert_true(beside > 0.545 - 0.36 - 1e-5 && beside < 0.545 - 0.36 + room);
         assert_true(r.report.time_lost == 0);

@@ -30,8 +30,8 @@ static tahr_config config_of(uint32_t bits)
     return c;
 }
 
-/* Ground and turned blocks, half of them about as high as a step, a quarter tilted; with an override the low ones can be
- * walked on up to 75 degrees. Some overlap each other. */
+/* Ground and turned blocks, half of them about as high as a step, a quarter tilted; with an override the low ones can
+ * be walked on up to 75 degrees. Some overlap each other. */
 static void make_yard(tahr_body_desc *bodies, oracle_random *random, int override)
 {
     for (int i = 0; i < BLOCKS; i++) {

@@ -232,7 +232,7 @@ static void so_do_those_of_the_other_backend(void **unused)
     assert_true(w.deepest < 1e-5 && w.seen[TAHR_MODE_FALLING][TAHR_MODE_SWIMMING] > 0);
     close_wander(&w);
 #else
-    print_message("SKIP: unit_modes_wander: ccd was not built\n");
+    print_message("SKIP: unit_modes_modes_wander: ccd was not built\n");
     skip();
 #endif
 }

@@ -199,8 +199,8 @@ static void nobody_leaves_the_plane(void **unused)
     }
 }
 
-/* Facing the other way is at once, and a box keeps the width that it has in the plane: 0.4 m, in a shaft of 0.5 m. Gravity
- * upside down too. */
+/* Facing the other way is at once, and a box keeps the width that it has in the plane: 0.4 m, in a shaft of 0.5 m.
+ * Gravity upside down too. */
 static void a_box_never_turns_through_the_third_dimension(void **unused)
 {
     (void)unused;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * test_planar_wrong.c: what leaves the plane of a world of two dimensions is named before anything is asked, or does not
- * count; positions along z never do. The backend is native over deep boxes, told to say that it is planar, and counts. */
+ * test_planar_wrong.c: what leaves the plane of a world of two dimensions is named before anything is asked, or does
+ * not count; positions along z never do. The backend is native over deep boxes, told to say that it is planar, and
+ * counts. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -358,7 +359,7 @@ static void bodies_far_away_along_z_push_and_carry(void **unused)
     assert_true(r.state.position.z == 0);
     rig_close(&r);
 #else
-    printf("SKIP: bodies_far_away_along_z_push_and_carry: needs the box2d backend\n");
+    printf("SKIP: unit_motion_planar_wrong: bodies_far_away_along_z_push_and_carry needs the box2d backend\n");
     skip();
 #endif
 }

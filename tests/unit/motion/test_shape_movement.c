@@ -15,7 +15,7 @@
 #ifndef TAHR_HAVE_CCD
 int main(void)
 {
-    puts("SKIP: unit_shape_movement: built without libccd");
+    puts("SKIP: unit_motion_shape_movement: built without libccd");
     return 77;
 }
 #else

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_touch.c: who touches a floor as nearly as rounding allows overlaps it by less than a ten millionth of a metre. */
+ * test_touch.c: who touches a floor as nearly as rounding allows overlaps it by less than a ten millionth of a
+ * metre. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -379,8 +379,8 @@ static void who_starts_in_the_floor_gets_out(void **unused)
     }
 }
 
-/* Slantwise up a slope of 20 degrees along a wall, pushing 30 degrees into it: the floor is in the way of the slide along the
- * wall, and is gone up. The part of the wish along the wall speeds it up until it is as fast as asked for. */
+/* Slantwise up a slope of 20 degrees along a wall, pushing 30 degrees into it: the floor is in the way of the slide
+ * along the wall, and is gone up. The part of the wish along the wall speeds it up until it is as fast as asked for. */
 static void walls_on_a_slope_are_walked_along_with_a_margin(void **unused)
 {
     const double tilt = acos(-1.0) / 9, into = acos(-1.0) / 6;

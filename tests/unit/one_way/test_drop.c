@@ -167,7 +167,8 @@ static void a_drop_takes_the_jump_of_the_same_press(void **unused)
     rig_close(&r);
 }
 
-/* A row of lifts side by side, rising or sinking or shuttling; drops onto the ground while standing on the seam of two. */
+/* A row of lifts side by side, rising or sinking or shuttling; drops onto the ground while standing on the seam of
+ * two. */
 static void one_drops_through_platforms_that_move(void **unused)
 {
     (void)unused;

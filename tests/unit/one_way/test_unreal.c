@@ -247,9 +247,9 @@ static void a_box_stands_on_the_crest_of_a_slope(void **unused)
     }
 }
 
-/* The probe begins above the foot, where the straight part of a capsule is 1.08 m long by 5.4 cm, where it touches at the
- * rim by half a metre; a ray begins at the axis. The ends of low platforms are a floor for the round of a foot, up to
- * where it leans by 60 degrees (17 cm): there it begins inside. */
+/* The probe begins above the foot, where the straight part of a capsule is 1.08 m long by 5.4 cm, where it touches at
+ * the rim by half a metre; a ray begins at the axis. The ends of low platforms are a floor for the round of a foot, up
+ * to where it leans by 60 degrees (17 cm): there it begins inside. */
 static void what_is_above_the_foot_is_no_floor(void **unused)
 {
     (void)unused;

@@ -64,8 +64,8 @@ static void deferred_row(parity_table *t)
     }
 }
 
-/* One step along a block that is no higher than a step but not to be stood on, under a sensor that only the try to step up
- * reaches. */
+/* One step along a block that is no higher than a step but not to be stood on, under a sensor that only the try to step
+ * up reaches. */
 static void walk_into_block(int backend, uint32_t flags, sensor_rig *s)
 {
     const tahr_config c = parity_config();

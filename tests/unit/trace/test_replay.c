@@ -31,8 +31,8 @@ static void expect_repeated(recording *file, uint64_t steps, uint64_t hash)
 
 enum { ROOM_STEPS = 900 };
 
-/* Everything at once: a lift, a belt, water, sensors, crates, launches, crouching, modes; from `first` on it is watched.
- * Returns the hash of all states. */
+/* Everything at once: a lift, a belt, water, sensors, crates, launches, crouching, modes; from `first` on it is
+ * watched. Returns the hash of all states. */
 static uint64_t play_room(uint32_t preset, int first, recording *file, uint64_t *last)
 {
     rig r;
