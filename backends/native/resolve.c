@@ -28,10 +28,10 @@ typedef struct work {
     tahr_vec3 centre, motion;
     tahr__contact_normals *out;
     tahr_vec3 flat; /* the normal, or that of a face which it is but for rounding */
-    double snap;    /* what rounding makes of a normal */
+    double tilt2;   /* square of how far the normal is off it, at most */
     double slope;   /* at which a neighbour counts as nearer */
     double best;    /* of motion . face so far */
-    uint32_t best_feature;
+    uint32_t best_feature, flat_feature;
     int measure, nearer;
 } work;
 
@@ -71,11 +71,15 @@ static int meets(const work *w, uint32_t two_sided, tahr_vec3 *face)
 }
 
 /* Is the contact's normal that of this face? Then a motion along the face does not approach, whichever face at the edge
- * opposes it most. */
-static void flatten(work *w, tahr_vec3 face)
+ * opposes it most. Of several the one that it is nearest to, of those the lowest name. */
+static void flatten(work *w, tahr_vec3 face, uint32_t feature)
 {
     tahr_vec3 d = v_sub(w->out->normal, face);
-    if (v_dot(d, d) < w->snap * w->snap) w->flat = face;
+    double tilt2 = v_dot(d, d);
+    if (tilt2 > w->tilt2 || (tilt2 == w->tilt2 && feature >= w->flat_feature)) return;
+    w->tilt2 = tilt2;
+    w->flat_feature = feature;
+    w->flat = face;
 }
 
 /* A neighbour at the touched edge or corner: is it nearer than that feature, does its face oppose the motion more? 1:
@@ -90,7 +94,7 @@ static int weigh(work *w, tahr_vec3 face, const tahr_vec3 v[3], uint32_t at, uin
         tahr__core_distance(&w->query->core, w->centre, v, &other);
         w->out->closer = d_min(w->out->closer, other.distance);
     }
-    flatten(w, face);
+    flatten(w, face, feature);
     double along = v_dot(w->motion, face);
     if (along < w->best || (along == w->best && feature < w->best_feature)) {
         w->best = along;
@@ -194,6 +198,7 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
         if (fabs(facing) > 0.999) out->normal = own;
         return TAHR__ACCEPTED;
     }
+    double snap = snap_at(query, witness->distance);
     work w;
     w.query = query;
     w.prim = prim;
@@ -210,11 +215,12 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
     w.measure = (int)out->measure;
     w.nearer = 0;
     w.flat = out->normal;
-    w.snap = snap_at(query, witness->distance);
-    flatten(&w, own);
+    w.flat_feature = 0;
+    w.tilt2 = snap * snap;
+    flatten(&w, own, 0);
     look_around(&w, witness);
     if (w.nearer) return TAHR__NEIGHBOUR;
-    flatten(&w, out->face);
-    out->normal = w.flat;
+    tahr_vec3 d = v_sub(out->normal, out->face);
+    out->normal = v_dot(d, d) < snap * snap ? out->face : w.flat;
     return TAHR__ACCEPTED;
 }
