@@ -2,6 +2,13 @@
  * core_distance.c: nearest points between a triangle and a point, a segment or a box. */
 #include "core.h"
 
+/* Of the sizes of box and triangle: nearer than this, or less deep, they touch. A thousand times what rounding makes. */
+#define TOUCHING 1e-12
+/* Pairs of edges with a squared sine below this are parallel: what is across them is rounding. */
+#define NEARLY_PARALLEL 1e-20
+/* From as far away (m) as this the nearest points are clear. */
+#define CLEAR 1e-6
+
 static void witness_at(tahr__witness *out, tahr_vec3 q, tahr_vec3 p, uint32_t feature)
 {
     tahr_vec3 d = v_sub(q, p);
@@ -185,14 +192,22 @@ static void corner_to_box(const tahr__core *core, tahr_vec3 centre, tahr_vec3 p,
     keep_nearer(out, &w);
 }
 
-/* Is there an axis that separates the box from the triangle? (Face normals and edge pairs: complete for two
- * polyhedra.) */
+/* Face normals and edge pairs: complete for two polyhedra. */
+enum { AXES = 13 };
+
+/* An axis that may separate the box from the triangle with the edges e. */
+static inline tahr_vec3 axis_between(const tahr__core *core, const tahr_vec3 e[3], int k)
+{
+    if (k >= 4) return v_cross(core->axis[(k - 4) / 3], e[(k - 4) % 3]);
+    return k == 0 ? v_cross(e[0], e[1]) : core->axis[(k - 1) % 3];
+}
+
+/* Is there an axis that does? */
 static int separated(const tahr__core *core, const tahr_vec3 r[3])
 {
     tahr_vec3 e[3] = {v_sub(r[1], r[0]), v_sub(r[2], r[1]), v_sub(r[0], r[2])};
-    for (int k = 0; k < 13; k++) {
-        tahr_vec3 n = k == 0 ? v_cross(e[0], e[1]) : core->axis[(k - 1) % 3];
-        if (k >= 4) n = v_cross(core->axis[(k - 4) / 3], e[(k - 4) % 3]);
+    for (int k = 0; k < AXES; k++) {
+        tahr_vec3 n = axis_between(core, e, k);
         double a = v_dot(n, r[0]), b = v_dot(n, r[1]), c = v_dot(n, r[2]), x = tahr__core_extent(core, n);
         if (d_min(a, d_min(b, c)) > x || d_max(a, d_max(b, c)) < -x) return 1;
     }
@@ -226,6 +241,35 @@ static void box_facet(const tahr__core *core, tahr_vec3 centre, const tahr__face
             if (!(i & bit)) against_edges(corner[i], corner[i | bit], v, out);
         }
     }
+}
+
+int tahr__box_touches(const tahr__core *box, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
+{
+    tahr_vec3 r[3] = {v_sub(f->v[0], centre), v_sub(f->v[1], centre), v_sub(f->v[2], centre)};
+    tahr_vec3 e[3] = {v_sub(r[1], r[0]), v_sub(r[2], r[1]), v_sub(r[0], r[2])}, normal = v_make(0, 0, 0);
+    double size = 0, edges = 0, best = -1e300;
+    for (int i = 0; i < 3; i++) {
+        size += v_length(box->axis[i]) + v_length(r[i]);
+        edges = d_max(edges, v_dot(e[i], e[i]));
+    }
+    double rounding = TOUCHING * size;
+    for (int k = 0; k < AXES; k++) {
+        tahr_vec3 n = axis_between(box, e, k);
+        double of_box = k < 4 ? 1 : v_dot(box->axis[(k - 4) / 3], box->axis[(k - 4) / 3]), n2 = v_dot(n, n);
+        double of_edge = k < 1 ? edges * edges : k < 4 ? 0 : v_dot(e[(k - 4) % 3], e[(k - 4) % 3]);
+        if (!(n2 > NEARLY_PARALLEL * of_box * of_edge)) continue;
+        n = v_scale(n, 1 / sqrt(n2));
+        double a = v_dot(n, r[0]), b = v_dot(n, r[1]), c = v_dot(n, r[2]), extent = tahr__core_extent(box, n);
+        double above = d_min(a, d_min(b, c)) - extent, below = -d_max(a, d_max(b, c)) - extent;
+        /* One after the other: of those that separate alike the first counts, so the triangle's own. */
+        if (d_max(above, below) <= best + (best < -rounding ? 0 : rounding)) continue;
+        best = d_max(above, below);
+        normal = above > below ? v_scale(n, -1) : n;
+    }
+    if (best < -rounding) return 0;
+    box_facet(box, v_mad(centre, normal, CLEAR), f, out);
+    out->normal = normal;
+    return 1;
 }
 
 void tahr__facet_distance(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)

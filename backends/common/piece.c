@@ -175,6 +175,16 @@ static double triangle_depth(const tahr__core *core, tahr_vec3 centre, const tah
     return tahr__core_leave_triangle(core, centre, piece->facet.v, ways_out(piece), normal);
 }
 
+/* Is there no way to leave, for a box that does not cross the triangle? */
+static int only_touches(const tahr__core *core, tahr_vec3 centre, const tahr__piece *piece, tahr__witness *w)
+{
+    double distance = w->distance;
+
+    if (core->axis_count < 3 || !tahr__box_touches(core, centre, &piece->facet, w)) return 0;
+    w->distance = distance;
+    return 1;
+}
+
 static void measure_half_space(const tahr__shape *shape, tahr_vec3 centre, const tahr__piece *piece, tahr__near *near)
 {
     tahr_vec3 n = piece->solid.axis[0];
@@ -253,7 +263,7 @@ static void measure_core(const tahr__shape *shape, tahr_vec3 centre, const tahr_
         tahr__facet_distance(core, centre, &piece->facet, &w);
     if (piece->kind != TAHR__TRIANGLE)
         depth = solid_depth(core, centre, piece, w.distance, &way_out);
-    else if (w.distance <= TOUCHING)
+    else if (w.distance <= TOUCHING && !only_touches(core, centre, piece, &w))
         depth = triangle_depth(core, centre, piece, &way_out);
     near->point = w.point;
     near->part = depth >= 0 ? TAHR__FACE : w.feature;

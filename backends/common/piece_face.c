@@ -10,6 +10,7 @@
 #define NEARER 1e-7
 /* Contact normals this close to the face's are the face's: what is left of rounding at an edge of a flat surface. */
 #define SNAP 1e-7
+#define SNAP_MOST 1e-2 /* however near; what leans more is no face's */
 /* How far beside a face (m) its points may lie by rounding, and how far a normal may lean off it. */
 #define ON_FACE 1e-9
 
@@ -49,8 +50,25 @@ uint32_t tahr__piece_feature(const tahr__piece *piece, tahr_vec3 normal)
     return piece->kind == TAHR__BOX ? box_face(piece, normal, &n) : 0;
 }
 
+/* What rounding makes of the normal of a contact. */
+static double snap_of(const tahr__near *near)
+{
+    return near->rough ? TAHR__SAME_DIRECTION : d_min(SNAP_MOST, d_max(SNAP, near->lean));
+}
+
+/* Is the contact's normal that of this face? Then a motion along the face does not approach, whichever face at the edge
+ * opposes it most. */
+static void flatten(const tahr__near *near, tahr_vec3 face, tahr_vec3 *flat)
+{
+    tahr_vec3 tilt = v_sub(near->normal, face);
+    double snap = snap_of(near);
+
+    if (v_dot(tilt, tilt) < snap * snap) *flat = face;
+}
+
 /* Of the faces of a box that hold the nearest point, the one along direction. */
-static void box_surface(const tahr__piece *piece, const tahr__near *near, tahr_vec3 direction, tahr_vec3 *face)
+static void box_surface(const tahr__piece *piece, const tahr__near *near, tahr_vec3 direction, tahr_vec3 *face,
+                        tahr_vec3 *flat)
 {
     tahr_vec3 at = v_sub(near->point, piece->middle);
     double most = -2, beside = near->rough ? TAHR__SAME_PLACE : ON_FACE;
@@ -60,6 +78,7 @@ static void box_surface(const tahr__piece *piece, const tahr__near *near, tahr_v
     for (int i = 0; i < 6; i++) {
         double half = v_length(piece->solid.axis[i / 2]);
         tahr_vec3 outward = v_scale(piece->solid.axis[i / 2], (i & 1 ? 1 : -1) / half);
+        if (!near->rough && v_dot(at, outward) >= half - beside) flatten(near, outward, flat);
         if (v_dot(at, outward) < half - beside || v_dot(outward, near->normal) <= lean ||
             v_dot(outward, direction) <= most)
             continue;
@@ -104,7 +123,7 @@ typedef struct fan {
     uint32_t a, b; /* vertices of the edge; equal at a corner */
     tahr_vec3 direction;
     double most;
-    tahr_vec3 *face;
+    tahr_vec3 *face, *flat;
 } fan;
 
 /* Looks at one neighbour; 0 if it is nearer. */
@@ -119,6 +138,7 @@ static int look_at(fan *f, uint32_t triangle)
     tahr_vec3 normal = facing_normal(&other.facet, f->piece->two_sided, f->near->normal);
     if (v_dot(normal, f->near->normal) < BEHIND) return 1;
     if (is_nearer(&other.facet, from, to, f->near)) return 0;
+    flatten(f->near, normal, f->flat);
     if (v_dot(normal, f->direction) > f->most) {
         f->most = v_dot(normal, f->direction);
         *f->face = normal;
@@ -157,7 +177,8 @@ static int corner_surface(fan *f)
     return 1;
 }
 
-static int mesh_surface(const tahr__piece *piece, const tahr__near *near, tahr_vec3 direction, tahr_vec3 *face)
+static int mesh_surface(const tahr__piece *piece, const tahr__near *near, tahr_vec3 direction, tahr_vec3 *face,
+                        tahr_vec3 *flat)
 {
     const tahr__triangle *t = &piece->mesh->triangles[piece->triangle];
     int is_corner = near->part >= TAHR__CORNER;
@@ -165,27 +186,30 @@ static int mesh_surface(const tahr__piece *piece, const tahr__near *near, tahr_v
     fan f = {piece,        near,
              t->vertex[i], is_corner ? t->vertex[i] : t->vertex[(i + 1) % 3],
              direction,    v_dot(*face, direction),
-             face};
+             face,         flat};
 
     return is_corner ? corner_surface(&f) : edge_surface(&f, i);
 }
 
 int tahr__piece_face(const tahr__piece *piece, tahr_vec3 direction, tahr__near *near, tahr_vec3 *face)
 {
-    double snap = near->rough ? TAHR__SAME_DIRECTION : SNAP;
-    tahr_vec3 tilt;
+    tahr_vec3 flat = near->normal;
 
     *face = near->normal;
-    if (piece->kind == TAHR__BOX) box_surface(piece, near, direction, face);
+    if (piece->kind == TAHR__BOX) box_surface(piece, near, direction, face, &flat);
     if (piece->kind == TAHR__CONVEX) tahr__convex_face(&piece->convex, near, direction, face);
-    if (piece->kind != TAHR__TRIANGLE && !near->rough) return 1;
+    if (piece->kind != TAHR__TRIANGLE && !near->rough) {
+        near->normal = flat;
+        return 1;
+    }
     if (piece->kind == TAHR__TRIANGLE) {
         *face = facing_normal(&piece->facet, piece->two_sided, near->normal);
-        if (near->part != TAHR__FACE && !mesh_surface(piece, near, direction, face)) return 0;
+        flatten(near, *face, &flat);
+        if (near->part != TAHR__FACE && !mesh_surface(piece, near, direction, face, &flat)) return 0;
     }
     /* By iteration the way out of an overlap is as long as it is for its own normal. */
     if (near->rough && near->distance < 0) return 1;
-    tilt = v_sub(near->normal, *face);
-    if (v_dot(tilt, tilt) < snap * snap) near->normal = *face;
+    flatten(near, *face, &flat);
+    near->normal = flat;
     return 1;
 }

@@ -146,8 +146,14 @@ static int probe_start(const tahr__query *query, const tahr__prim *prim, tahr__p
     if (prim->item & TAHR__ITEM_SOLID) return probe_solid(query, prim, out);
     out->witness.normal = v_make(0, 0, 0);
     measure(query, prim, centre, &out->witness);
-    double touch = query->radius + prim->radius;
-    out->gap = out->witness.distance - touch;
+    double touch = query->radius + prim->radius, distance = out->witness.distance;
+    out->gap = distance - touch;
+    int crosses_box = distance <= 0 && (prim->kind & TAHR__OF_BOX); /* its inside answers */
+    if (core->axis_count == 3 && distance < BLURRED && !(prim->item & TAHR__ITEM_ROUND) && !crosses_box &&
+        tahr__box_touches(core, centre, &prim->facet, &out->witness)) {
+        out->witness.distance = distance;
+        return 1;
+    }
     if (out->witness.distance > 0 || (core->axis_count == 0 && out->witness.feature == TAHR__FACE)) return 1;
     double depth;
     if (prim->item & TAHR__ITEM_ROUND) {

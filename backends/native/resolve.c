@@ -17,6 +17,8 @@
  * triangles. */
 #define SNAP_FLOAT 3e-5
 #define SNAP_DOUBLE 1e-7
+/* However near, where rounding turns a normal more: what leans by more is no face's. */
+#define SNAP_MOST 1e-2
 enum { FAN = TAHR__FAN };
 
 typedef struct work {
@@ -26,9 +28,11 @@ typedef struct work {
     tahr__map map;
     tahr_vec3 centre, motion;
     tahr__contact_normals *out;
-    double slope; /* at which a neighbour counts as nearer */
-    double best;  /* of motion . face so far */
-    uint32_t best_feature;
+    tahr_vec3 flat; /* the normal, or that of a face which it is but for rounding */
+    double tilt2;   /* square of how far the normal is off it, at most */
+    double slope;   /* at which a neighbour counts as nearer */
+    double best;    /* of motion . face so far */
+    uint32_t best_feature, flat_feature;
     int measure, nearer;
 } work;
 
@@ -67,6 +71,18 @@ static int meets(const work *w, uint32_t two_sided, tahr_vec3 *face)
     return two_sided != 0;
 }
 
+/* Is the contact's normal that of this face? Then a motion along the face does not approach, whichever face at the edge
+ * opposes it most. Of several the one that it is nearest to, of those the lowest name. */
+static void flatten(work *w, tahr_vec3 face, uint32_t feature)
+{
+    tahr_vec3 d = v_sub(w->out->normal, face);
+    double tilt2 = v_dot(d, d);
+    if (tilt2 > w->tilt2 || (tilt2 == w->tilt2 && feature >= w->flat_feature)) return;
+    w->tilt2 = tilt2;
+    w->flat_feature = feature;
+    w->flat = face;
+}
+
 /* A neighbour at the touched edge or corner: is it nearer than that feature, does its face oppose the motion more? 1:
  * no need to look at others. Of faces that oppose it alike the lowest name counts, whatever the order they are found
  * in. */
@@ -79,6 +95,7 @@ static int weigh(work *w, tahr_vec3 face, const tahr_vec3 v[3], uint32_t at, uin
         tahr__core_distance(&w->query->core, w->centre, v, &other);
         w->out->closer = d_min(w->out->closer, other.distance);
     }
+    flatten(w, face, feature);
     double along = v_dot(w->motion, face);
     if (along < w->best || (along == w->best && feature < w->best_feature)) {
         w->best = along;
@@ -157,6 +174,13 @@ static void look_around(work *w, const tahr__witness *witness)
         around_corner(w, w->prim->item, which);
 }
 
+/* What rounding makes of a normal. */
+static double snap_at(const tahr__query *query, double distance)
+{
+    if (query->frame->round) return SNAP_FLOAT;
+    return ROUNDING < SNAP_MOST * distance ? d_max(SNAP_DOUBLE, ROUNDING / distance) : SNAP_MOST;
+}
+
 int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
                   tahr_vec3 motion, tahr__contact_normals *out)
 {
@@ -175,6 +199,7 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
         if (fabs(facing) > 0.999) out->normal = own;
         return TAHR__ACCEPTED;
     }
+    double snap = snap_at(query, witness->distance);
     work w;
     w.query = query;
     w.prim = prim;
@@ -190,10 +215,13 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
     w.best_feature = 0;
     w.measure = (int)out->measure;
     w.nearer = 0;
+    w.flat = out->normal;
+    w.flat_feature = 0;
+    w.tilt2 = snap * snap;
+    flatten(&w, own, 0);
     look_around(&w, witness);
     if (w.nearer) return TAHR__NEIGHBOUR;
-    double snap = query->frame->round ? SNAP_FLOAT : SNAP_DOUBLE;
     tahr_vec3 d = v_sub(out->normal, out->face);
-    if (v_dot(d, d) < snap * snap) out->normal = out->face;
+    out->normal = v_dot(d, d) < snap * snap ? out->face : w.flat;
     return TAHR__ACCEPTED;
 }

@@ -169,6 +169,31 @@ static void way_out_of_a_box_is_its_nearest_face(void **state)
     assert_true(tahr__core_leave_solid(&rod, v_make(0, 0, -3.75), &box, v_make(0, 0, 0), &n) < 0);
 }
 
+/* Its side in the plane of the triangle's end, exactly and but for rounding: only the side keeps them apart. */
+static void what_a_box_only_touches_is_met_by_what_keeps_them_apart(void **state)
+{
+    (void)state;
+    tahr__core box = {3, {{0.35, 0, 0}, {0, 0.35, 0}, {0, 0, 0.9}}};
+    tahr__facet f = {.v = {{0, -1, 0}, {0, 1, 0}, {-2, 0, 0}}};
+    tahr__witness w = {0};
+    tahr__facet_finish(&f);
+    for (int k = -2; k <= 2; k++) {
+        for (int i = -4; i <= 4; i++) {
+            tahr_vec3 centre = v_make(0.35 + k * 5.6e-17, 0.01 * i, 0.2 * i);
+            assert_int_equal(tahr__box_touches(&box, centre, &f, &w), 1);
+            assert_true(w.normal.x == 1 && w.normal.y == 0 && w.normal.z == 0);
+            assert_int_equal(w.feature, TAHR__EDGE);
+            assert_true(fabs(w.point.x) < 1e-12 && fabs(w.point.z) < 1e-12);
+            assert_true(fabs(w.point.y - centre.y) < 0.35 + 1e-12);
+        }
+        /* On its top as well: that comes first. */
+        assert_int_equal(tahr__box_touches(&box, v_make(0.35 + k * 5.6e-17, 0, 0.9), &f, &w), 1);
+        assert_true(w.normal.x == 0 && w.normal.y == 0 && w.normal.z == 1);
+    }
+    assert_int_equal(tahr__box_touches(&box, v_make(0.35 - 1e-10, 0, 0.2), &f, &w), 0);
+    assert_int_equal(tahr__box_touches(&box, v_make(0.1, 0, -0.2), &f, &w), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -176,6 +201,7 @@ int main(void)
         cmocka_unit_test(distance_to_slivers_is_exact),
         cmocka_unit_test(way_out_of_a_triangle_is_out_and_shortest),
         cmocka_unit_test(way_out_of_a_box_is_its_nearest_face),
+        cmocka_unit_test(what_a_box_only_touches_is_met_by_what_keeps_them_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

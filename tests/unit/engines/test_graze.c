@@ -165,9 +165,56 @@ static void a_ceiling_a_skin_above_the_head_slows_nobody_down(void **unused)
     }
 }
 
+/* Beside a block whose corner is the origin, `gap` from its wall x = 0, the lowest point of what is straight `low`
+ * above its top. How far a motion goes, in parts of it; or 2. */
+static double beside(tahr_world *world, int i, double gap, double low, tahr_vec3 motion)
+{
+    tahr_shape shape = shape_of(i);
+    double straight = i == 2 ? shape.half_height : shape.half_height - shape.radius;
+    tahr_hit hit;
+    uint32_t count = 9;
+    tahr_sweep q = {.shape = shape,
+                    .position = {(i == 2 ? shape.half_x : shape.radius) + gap, low + straight, 0},
+                    .up = {0, 1, 0},
+                    .orientation = {-0.70710678118654757, 0, 0, 0.70710678118654757},
+                    .motion = motion,
+                    .margin = 0.01,
+                    .mask = 0xFFFFFFFFu,
+                    .ignore_body = TAHR_NO_BODY};
+    assert_int_equal(tahr_world_sweep(world, &q, &hit, 1, &count), TAHR_OK);
+    return count > 0 ? hit.fraction : 2;
+}
+
+/* Deep inside the margin rounding turns the normal of an edge, by 1e-7 at 1e-9 m. */
+static void a_motion_along_a_wall_is_free_however_near_its_edge(void **state)
+{
+    (void)state;
+    static const double GAPS[] = {1e-9, 3e-9, 1e-8, 1e-7, 1e-6}, LOWS[] = {0, 1e-15, -1e-15, -0.1, -0.3};
+    static const tahr_vec3 ALONG[] = {{0, -0.05, 0}, {0, 0.05, 0}, {0, 0, 0.05}, {0, 0.03, -0.04}};
+    for (int engine = 0; engine < 3; engine++) {
+        tahr_world *world;
+        tahr_body_desc block = box(-5, 0, -5, 0);
+        open_world(engine, &block, 1, &world);
+        for (int k = 0; world && k < SHAPES * 25; k++) {
+            double gap = GAPS[k / SHAPES % 5], low = LOWS[k / SHAPES / 5];
+            for (int m = 0; m < 4; m++) {
+                double way = beside(world, k % SHAPES, gap, low, ALONG[m]);
+                if (way < 2) {
+                    fail_msg("engine %d shape %d gap %g low %g motion %d: %g", engine, k % SHAPES, gap, low, m, way);
+                }
+            }
+            /* And into it not. */
+            tahr_vec3 into = {-0.05, -0.001, 0};
+            assert_true(beside(world, k % SHAPES, gap, low, into) == 0);
+        }
+        tahr_world_close(world);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_motion_along_a_wall_is_free_however_near_its_edge),
         cmocka_unit_test(an_edge_at_the_margin_is_passed_and_one_below_it_is_not),
         cmocka_unit_test(a_ceiling_a_skin_above_the_head_slows_nobody_down),
     };

@@ -81,6 +81,10 @@ static void drop_everywhere(const joint *j, int world, int more, double speed)
         for (int i = -3; i <= 3; i++) { /* in 0.17 m: with a foot of 0.7 m on one side, on both, on the other */
             drop_once(&l, j, &c, 0.17 * i + 0.013 * (more % 7), speed * SPEEDS[k / 2 % 5], 1 / RATES[k / 10]);
         }
+        if (k % 2) { /* a side of the box in the plane of the ends */
+            drop_once(&l, j, &c, 0.35, speed * SPEEDS[k / 2 % 5], 1 / RATES[k / 10]);
+            drop_once(&l, j, &c, -0.35, speed * SPEEDS[k / 2 % 5], 1 / RATES[k / 10]);
+        }
     }
 }
 
