@@ -76,7 +76,8 @@ int progress_watch(struct progress *progress, tahr_world *world, const tahr_conf
 int progress_hangs(struct progress *progress, const tahr_state *state, double time)
 {
     tahr_vec3 gone = vec_sub(state->position, progress->held);
-    int falls = state->mode == TAHR_MODE_FALLING && vec_dot(gone, gone) < FALLEN * FALLEN;
+    int falls = state->mode == TAHR_MODE_FALLING && !(state->flags & TAHR_STATE_CRUSHED) &&
+                vec_dot(gone, gone) < FALLEN * FALLEN;
     if (falls && time - progress->held_since < HANG - 1e-9) { /* the rounding of a sum of steps */
         return 0;
     }

@@ -26,7 +26,7 @@ int progress_watch(struct progress *progress, tahr_world *world, const tahr_conf
                    const tahr_input *input, int heading_is_new, double time);
 
 /* After every step. 1: hangs in the air, and looked at anew from here: falling for 0.5 s without getting 1 cm away. Who
- * falls freely has fallen 0.3 m by then, even around an apex. */
+ * falls freely has fallen 0.3 m by then, even around an apex; who is crushed is held by what crushes him. */
 int progress_hangs(struct progress *progress, const tahr_state *state, double time);
 
 #endif
