@@ -25,8 +25,8 @@ tahr__frame tahr__frame_make(const tahr__native *world, tahr_vec3 position, tahr
 int tahr__frame_holds(const tahr__frame *frame, tahr_vec3 position, tahr_vec3 up)
 {
     const tahr_vec3 *o = &frame->origin;
-    return position.x >= o->x && position.x < o->x + CELL && position.y >= o->y && position.y < o->y + CELL &&
-           position.z >= o->z && position.z < o->z + CELL && memcmp(&frame->up, &up, sizeof up) == 0;
+    int x = (position.x >= o->x) & (position.x < o->x + CELL), y = (position.y >= o->y) & (position.y < o->y + CELL);
+    return x & y & (position.z >= o->z) & (position.z < o->z + CELL) & tahr__same_vec(&frame->up, &up);
 }
 
 tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body)

@@ -63,8 +63,19 @@ static double leave_hull(const tahr__query *query, const tahr__body *body, tahr_
     return tahr__hull_leave(&query->core, centre, &body->mesh, &map, normal);
 }
 
+/* Is the core certainly outside of a box that is not turned? Most often it is. */
+static int beside_box(const tahr__query *query, const tahr__body *body, tahr_vec3 centre)
+{
+    const tahr_vec3 half = body->half_extents, e = query->extent, o = query->frame->origin;
+    const double more = 1 + 2 * TOUCHING;
+    if (query->frame->turned || body->turned) return 0;
+    tahr_vec3 off = v_abs(v_sub(centre, v_sub(body->position, o)));
+    return (off.x > (half.x + e.x) * more) | (off.y > (half.y + e.y) * more) | (off.z > (half.z + e.z) * more);
+}
+
 static double leave_box(const tahr__query *query, const tahr__body *body, tahr_vec3 centre, tahr_vec3 *normal)
 {
+    if (beside_box(query, body, centre)) return -1;
     tahr__map map = tahr__map_make(query->frame, body);
     tahr__core solid;
     solid.axis_count = 3;

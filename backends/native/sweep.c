@@ -52,7 +52,7 @@ void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query
     tahr__cache *cache = context->cache;
     query->world = world;
     query->context = context;
-    if (cache && cache->announced && memcmp(&cache->frame.up, &up, sizeof up) == 0) {
+    if (cache && cache->announced && tahr__same_vec(&cache->frame.up, &up)) {
         query->cache = cache;
         query->frame = &cache->frame;
     } else {
