@@ -20,6 +20,8 @@ typedef struct method_level {
     const uint32_t *indices; /* 3 each */
     uint32_t vertex_count, triangle_count;
     int planar;
+    const double
+        *box; /* low corner, high corner of a solid box with the same ground, for who likes that better; NULL */
 } method_level;
 
 /* What moves: an upright capsule. SI units, radians. */
