@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "method_outline.h"
+
 typedef struct crowd {
     tahr_world *world;
     tahr_config config;
@@ -76,59 +78,57 @@ static void describe_box(const double box[6], tahr_body_desc *body)
     body->half_extents = (tahr_vec3){0.5 * (box[3] - box[0]), 0.5 * (box[4] - box[1]), 0.5 * (box[5] - box[2])};
 }
 
-/* Of a backend of the plane: the outline is where the drawn-out triangles end in front, at z = 1; one chain a side. */
-static uint32_t describe_chains(const method_level *level, tahr_body_desc *bodies, double *ends)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < level->triangle_count; i++) {
-        for (int k = 0; k < 3; k++) {
-            const double *a = level->vertices + 3 * (size_t)level->indices[3 * (size_t)i + (size_t)k];
-            const double *b = level->vertices + 3 * (size_t)level->indices[3 * (size_t)i + (size_t)((k + 1) % 3)];
-            /* a quad has one edge there, and a cap all of its edges: those are not outlines */
-            const double *c = level->vertices + 3 * (size_t)level->indices[3 * (size_t)i + (size_t)((k + 2) % 3)];
-            if (a[2] == 1 && b[2] == 1 && c[2] != 1) {
-                double *end = ends + 6 * (size_t)count;
-                memcpy(end, a, 3 * sizeof *end);
-                memcpy(end + 3, b, 3 * sizeof *end);
-                end[2] = end[5] = 0;
-                tahr_body_desc_init(&bodies[count], sizeof bodies[count], TAHR_BODY_CHAIN);
-                bodies[count].vertices = end;
-                bodies[count].vertex_count = 2;
-                bodies[count++].flags = TAHR_BODY_TWO_SIDED;
-            }
-        }
-    }
-    return count;
-}
-
-static tahr_status open_world(crowd *c, const method_tahr *knobs, const method_level *level)
+static tahr_status open_bodies(crowd *c, const method_tahr *knobs, const tahr_body_desc *bodies, uint32_t count)
 {
     tahr_log log = {c, complain};
     tahr_world_desc desc;
     tahr_world_desc_init(&desc, sizeof desc);
-    const tahr_backend *backend = knobs->backend();
-    int chains = (backend->capabilities & TAHR_CAP_PLANAR) != 0;
-    size_t most = chains ? 3 * (size_t)level->triangle_count : 1;
-    tahr_body_desc *bodies = malloc(sizeof *bodies * most);
-    double *ends = malloc(sizeof *ends * 6 * most);
+    desc.bodies = bodies;
+    desc.body_count = count;
+    desc.log = &log;
+    desc.options = knobs->options;
+    return tahr_world_open(knobs->backend(), &desc, &c->world);
+}
+
+/* On a backend of the plane: the lines of the outline. */
+static tahr_status open_outline(crowd *c, const method_tahr *knobs, const method_level *level)
+{
+    method_outline outline;
     tahr_status status = TAHR_E_MEMORY;
-    if (bodies && ends) {
-        desc.body_count = 1;
-        if (chains) {
-            desc.body_count = describe_chains(level, bodies, ends);
-        } else if (knobs->box && level->box) {
-            describe_box(level->box, bodies);
-        } else {
-            describe_mesh(level, bodies);
+    int made = method_outline_make(&outline, level);
+    double *vertices = calloc(3 * (size_t)outline.point_count + 1, sizeof *vertices);
+    tahr_body_desc *bodies = calloc((size_t)outline.line_count + 1, sizeof *bodies);
+    if (made && vertices && bodies) {
+        for (uint32_t i = 0; i < outline.point_count; i++) {
+            memcpy(vertices + 3 * (size_t)i, outline.points + 2 * (size_t)i, 2 * sizeof *vertices);
         }
-        desc.bodies = bodies;
-        desc.log = &log;
-        desc.options = knobs->options;
-        status = tahr_world_open(backend, &desc, &c->world);
+        for (uint32_t i = 0; i < outline.line_count; i++) {
+            const method_line *line = &outline.lines[i];
+            tahr_body_desc_init(&bodies[i], sizeof bodies[i], TAHR_BODY_CHAIN);
+            bodies[i].vertices = vertices + 3 * (size_t)line->first;
+            bodies[i].vertex_count = line->count;
+            bodies[i].flags = TAHR_BODY_TWO_SIDED | (line->loop ? (uint32_t)TAHR_BODY_LOOP : 0u);
+        }
+        status = open_bodies(c, knobs, bodies, outline.line_count);
     }
+    free(vertices);
     free(bodies);
-    free(ends);
+    method_outline_free(&outline);
     return status;
+}
+
+static tahr_status open_world(crowd *c, const method_tahr *knobs, const method_level *level)
+{
+    tahr_body_desc body;
+    if (level->planar && (knobs->backend()->capabilities & TAHR_CAP_PLANAR)) {
+        return open_outline(c, knobs, level);
+    }
+    if (knobs->box && level->box) {
+        describe_box(level->box, &body);
+    } else {
+        describe_mesh(level, &body);
+    }
+    return open_bodies(c, knobs, &body, 1);
 }
 
 static void close_crowd(void *self)
