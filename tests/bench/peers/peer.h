@@ -4,7 +4,7 @@
 #ifndef TAHR_BENCH_PEER_H
 #define TAHR_BENCH_PEER_H
 
-#include "../method.h"
+#include "method.h"
 
 #if defined __cplusplus
 #define PEER_EXPORT extern "C" __attribute__((visibility("default")))
