@@ -28,7 +28,7 @@ struct course_run {
     course_wish *wishes;
     uint32_t *times; /* ns, of timed ticks */
     uint32_t done, timed_ticks, spawned;
-    double cpu_all, cpu_timed, open_seconds; /* s */
+    double cpu_timed, open_seconds; /* s */
 };
 
 static inline course_place *course_place_at(const course_run *run, uint32_t tick, uint32_t i)

@@ -7,30 +7,30 @@
 
 typedef struct course_plan {
     uint32_t characters, ticks;
-    double seconds; /* of processor time in steps, after which a run ends before its last tick; 0: never */
+    double seconds; /* of processor time in timed steps, after which a run ends before its last tick; 0: never */
 } course_plan;
 
 /* left: of the levels, dungeon and nav_test have borders to walk off; elsewhere who left went through something. A
  * failure is a step that tunnelled, that ended embedded, or invalid. */
 typedef struct course_result {
     uint32_t characters;
-    uint32_t bad_characters;                      /* with any failure */
-    uint64_t steps, timed;                        /* all were judged; warm-up is not timed */
-    double ns_median, ns_p99, ns_worst;           /* single steps, by the monotonic clock less its own cost */
-    double ns_cpu;                                /* mean, by the processor time of the thread, likewise */
-    double open_seconds;                          /* processor time of the method's open */
-    double queries, queries_p99;                  /* per step, 0 if the method does not tell */
-    uint64_t tunnelled;                           /* steps whose way, centre to centre, leads through a triangle */
-    uint64_t embedded;                            /* steps that end more than 1 mm deep */
-    uint64_t invalid;                             /* steps that end at no number; put back at a start */
-    uint64_t left;                                /* times that somebody fell out of the level; put back too */
-    uint64_t stuck;                               /* stretches of 5 s of wishes that end within 5 cm of their start */
-    double deepest;                               /* m; with the core line through a triangle: the radius */
-    double clearance;                             /* m, least gap to a triangle, negative in it; at most 0.05 */
-    double progress;                              /* level way along the wish / way wished */
-    double flips;                                 /* changes of what the method calls grounded, per second */
-    double grounded;                              /* share of the steps */
-    double first_bad[3];                          /* where the first failure ended */
+    uint32_t bad_characters;            /* with any failure */
+    uint64_t steps, timed;              /* all were judged; warm-up is not timed */
+    double ns_median, ns_p99, ns_worst; /* single steps, by the monotonic clock less its own cost and interruptions */
+    double ns_cpu;                      /* mean, by the processor time of the thread, likewise */
+    double open_seconds;                /* processor time of the method's open */
+    double queries, queries_p99;        /* per step, 0 if the method does not tell */
+    uint64_t tunnelled;                 /* steps whose way, centre to centre, leads through a triangle */
+    uint64_t embedded;                  /* steps that end more than 1 mm deep */
+    uint64_t invalid;                   /* steps that end at no number; put back at a start */
+    uint64_t left;                      /* times that somebody fell out of the level; put back too */
+    uint64_t stuck;                     /* stretches of 5 s of wishes that end within 5 cm of their start */
+    double deepest;                     /* m; with the core line through a triangle: the radius */
+    double clearance;                   /* m, least gap to a triangle, negative in it; at most 0.05 */
+    double progress;                    /* level way along the wish / way wished */
+    double flips;                       /* changes of what the method calls grounded, per second */
+    double grounded;                    /* share of the steps */
+    double first_bad[3];                /* where the first failure ended */
     uint32_t first_bad_character, first_bad_tick; /* UINT32_MAX: none */
 } course_result;
 

@@ -163,6 +163,10 @@ static void *open_crowd(const method *m, const method_level *level, const method
                         char *error)
 {
     const method_tahr *knobs = m->data;
+    if ((knobs->backend()->capabilities & TAHR_CAP_PLANAR) && !level->planar) {
+        snprintf(error, METHOD_ERROR, "two dimensions only");
+        return NULL;
+    }
     crowd *c = calloc(1, sizeof *c);
     if (!c) {
         snprintf(error, METHOD_ERROR, "out of memory");

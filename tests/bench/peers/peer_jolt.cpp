@@ -81,7 +81,7 @@ struct crowd {
     JPH::PhysicsSystem system;
     JPH::CharacterVirtual::ExtendedUpdateSettings update;
     std::vector<JPH::Ref<JPH::CharacterVirtual>> characters;
-    float dt, jump_speed, to_centre; /* from the foot */
+    float dt, jump_speed, to_centre; /* to_centre: from what Jolt calls the character's position, with the padding */
 };
 
 JPH::Vec3 to_jolt(const double v[3])
@@ -145,10 +145,10 @@ void populate(crowd *c, const method_character *who, uint32_t count)
 {
     JPH::CharacterVirtualSettings settings;
     float radius = float(who->radius), core = float(who->half_height - who->radius);
-    c->to_centre = float(who->half_height);
+    c->to_centre = float(who->half_height) + settings.mCharacterPadding;
     c->jump_speed = float(who->jump_speed);
     c->dt = float(who->dt);
-    settings.mShape = JPH::RotatedTranslatedShapeSettings(JPH::Vec3(0, c->to_centre, 0), JPH::Quat::sIdentity(),
+    settings.mShape = JPH::RotatedTranslatedShapeSettings(JPH::Vec3(0, float(who->half_height), 0), JPH::Quat::sIdentity(),
                                                           new JPH::CapsuleShape(core, radius))
                           .Create()
                           .Get();
@@ -217,9 +217,8 @@ void step(void *self, uint32_t i, const double wish[3], int jump)
 
 void look(void *self, uint32_t i, method_place *out)
 {
-    crowd *c = static_cast<crowd *>(self);
-    const JPH::CharacterVirtual *character = c->characters[i];
-    from_jolt(JPH::Vec3(character->GetPosition()) + JPH::Vec3(0, c->to_centre, 0), out->position);
+    const JPH::CharacterVirtual *character = static_cast<crowd *>(self)->characters[i];
+    from_jolt(JPH::Vec3(character->GetCenterOfMassTransform().GetTranslation()), out->position);
     from_jolt(character->GetLinearVelocity(), out->velocity);
     out->grounded = character->GetGroundState() == JPH::CharacterBase::EGroundState::OnGround;
     out->queries = 0;

@@ -98,7 +98,7 @@ static int read_options(options *o, int argc, char **argv)
         if (strcmp(argv[i], "--quick") == 0) {
             o->characters = 64;
             o->ticks = 150;
-            o->seconds = 0.4;
+            o->seconds = 0.2;
         } else if (i + 1 >= argc || !read_value(o, argv[i], argv[i + 1])) {
             return 1 + usage(argv[i]);
         } else {

@@ -32,6 +32,10 @@ fn vector(v: [f64; 3]) -> Vector {
 }
 
 fn collider(level: &Level) -> Result<Collider, String> {
+    if let Some(b) = level.solid_box() {
+        let ground = ColliderBuilder::new(SharedShape::halfspace(Vector::Z));
+        return Ok(ground.translation(Vector::Z * b[5] as f32).build());
+    }
     let vertices = (0..level.vertex_count).map(|i| vector(level.vertex(i))).collect();
     let triangles = level.triangles().chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
     let builder = ColliderBuilder::trimesh(vertices, triangles).map_err(|e| e.to_string())?;
@@ -122,8 +126,7 @@ static RAPIER: Method = method_of::<Rapier>(
     "rapier\0",
     "0.36.1\0",
     "KinematicCharacterController: offset 0.01 of the height, snap to ground 0.2 of it (both its defaults), autostep \
-     on (its default is off: no steps), minimum width 0.5; single precision, AVX2; all levels as triangle mesh (on its \
-     largest boxes it sinks)\0",
+     on (its default is off: no steps), minimum width 0.5; single precision, AVX2; plane as a half space\0",
 );
 
 #[no_mangle]
