@@ -34,3 +34,16 @@ double bench_clock_cost(void)
     bench_sort(samples, CLOCK_SAMPLES);
     return samples[CLOCK_SAMPLES / 2];
 }
+
+double bench_cpu_clock_cost(void)
+{
+    uint32_t samples[CLOCK_SAMPLES];
+    for (int i = 0; i < CLOCK_SAMPLES; i++) {
+        uint64_t before = bench_nanoseconds(CLOCK_THREAD_CPUTIME_ID);
+        bench_nanoseconds(CLOCK_MONOTONIC);
+        bench_nanoseconds(CLOCK_THREAD_CPUTIME_ID);
+        samples[i] = (uint32_t)(bench_nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before);
+    }
+    bench_sort(samples, CLOCK_SAMPLES);
+    return samples[CLOCK_SAMPLES / 2];
+}

@@ -12,6 +12,9 @@ uint64_t bench_nanoseconds(clockid_t clock);
 /* ns that reading the monotonic clock twice adds to what is measured. */
 double bench_clock_cost(void);
 
+/* ns of processor time that go by between two readings of the thread's clock with one of either clock in between. */
+double bench_cpu_clock_cost(void);
+
 /* Ascending. */
 void bench_sort(uint32_t *times, size_t count);
 

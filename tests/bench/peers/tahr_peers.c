@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <tahr/native.h>
 #ifdef TAHR_HAVE_BOX2D
@@ -216,13 +217,18 @@ static void print_row(FILE *csv, const course *c, const method *m, const course_
 }
 
 /* A batch of everybody in turn until all are done. */
-static void run_in_turn(course_run **runs, const entrant *const *entrants, int count)
+static void run_in_turn(course_run **runs, const entrant *const *entrants, int count, const course_plan *plan)
 {
-    for (int more = 1; more;) {
+    uint32_t tick = 0;
+    int more = 1;
+    for (; more; tick += BATCH) {
         more = 0;
         for (int i = 0; i < count; i++) {
-            fprintf(stderr, "  %-12s\r", entrants[i]->name);
-            more = (runs[i] && course_advance(runs[i], BATCH) == BATCH) || more;
+            if (isatty(STDERR_FILENO)) {
+                fprintf(stderr, "  tick %u of %u: %-12s\r", tick < plan->ticks ? tick : plan->ticks, plan->ticks,
+                        entrants[i]->name);
+            }
+            more = course_advance(runs[i], BATCH) == BATCH || more;
         }
     }
 }
@@ -250,7 +256,7 @@ static int measure(FILE *csv, const course *c, const field *f, const options *o)
             print_left_out(csv, c->name, e->method->name, error);
         }
     }
-    run_in_turn(runs, open, count);
+    run_in_turn(runs, open, count, &plan);
     for (int i = 0; i < count; i++) {
         course_result r;
         if (course_judge(runs[i], &r)) {
