@@ -44,7 +44,7 @@ static uint64_t without_pause(pause *p, uint64_t time)
     return away < time ? time - away : time; /* longer: then it was not in this step */
 }
 
-static void step(course_run *run, uint32_t tick, uint32_t *times)
+static void step_all(course_run *run, uint32_t tick, uint32_t *times)
 {
     const method *m = run->method;
     pause p = {bench_nanoseconds(CLOCK_MONOTONIC), bench_nanoseconds(CLOCK_THREAD_CPUTIME_ID)};
@@ -105,7 +105,7 @@ uint32_t course_advance(course_run *run, uint32_t ticks)
         uint32_t *times = run->times + (size_t)run->timed_ticks * run->plan.characters;
         wish(run, run->done);
         uint64_t before = bench_nanoseconds(CLOCK_THREAD_CPUTIME_ID);
-        step(run, run->done, times);
+        step_all(run, run->done, times);
         double cpu = 1e-9 * (double)(bench_nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before);
         look(run, run->done++);
         if (done >= BATCH_WARM_UP && run->done > warm) {

@@ -193,7 +193,7 @@ PEER_EXPORT const method *method_box2d(void)
     static char version[32];
     b2Version v = b2GetVersion();
     snprintf(version, sizeof version, "%d.%d.%d", v.major, v.minor, v.revision);
-    static method m = {.name = "box2d-mover",
+    static method m = {.name = "box2d",
                        .version = version,
                        .settings = "the sample's loop (collide, solve planes, cast, at most 5 rounds, tolerance "
                                    "0.01) without its spring; outline as chains; steps up by roundness only",

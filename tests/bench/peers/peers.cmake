@@ -9,9 +9,8 @@ function(tahr_peer name source)
     add_library(peer_${name} MODULE EXCLUDE_FROM_ALL ${peers}/${source})
     set_target_properties(peer_${name} PROPERTIES PREFIX "" C_STANDARD 17 CXX_STANDARD 17
         C_VISIBILITY_PRESET hidden CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
-    target_compile_options(peer_${name} PRIVATE -Wall -Wextra $<$<BOOL:${TAHR_WERROR}>:-Werror>)
     target_include_directories(peer_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/bench)
-    target_link_libraries(peer_${name} PRIVATE ${ARGN})
+    target_link_libraries(peer_${name} PRIVATE tahr_flags ${ARGN})
 endfunction()
 
 if(TAHR_JOLT_DIR AND with_cxx)

@@ -159,9 +159,7 @@ impl Controller for Physx {
         }
         walker.rise -= self.gravity * dt;
         let way = PxVec3 { x: dt * wish[0] as f32, y: dt * wish[1] as f32, z: dt * walker.rise };
-        let flags = unsafe {
-            PxController_move_mut(walker.controller, &way, MIN_DISTANCE, dt, &self.filters, null())
-        };
+        let flags = unsafe { PxController_move_mut(walker.controller, &way, MIN_DISTANCE, dt, &self.filters, null()) };
         walker.grounded = flags.contains(PxControllerCollisionFlags::CollisionDown);
         if flags.contains(PxControllerCollisionFlags::CollisionUp) {
             walker.rise = walker.rise.min(0.0);
