@@ -270,6 +270,19 @@ static int measure(FILE *csv, const course *c, const field *f, const options *o)
     return ok;
 }
 
+static int knows(const field *f, const char *name)
+{
+    for (int i = 0; name && i < f->count; i++) {
+        if (strcmp(name, f->entrants[i].name) == 0) {
+            return 1;
+        }
+    }
+    if (name) {
+        fprintf(stderr, "tahr_peers: no such method: '%s'\n", name);
+    }
+    return name == NULL;
+}
+
 static int measure_all(FILE *csv, const field *f, const options *o)
 {
     static course c;
@@ -302,12 +315,15 @@ int main(int argc, char **argv)
     if (stop) {
         return stop - 1;
     }
+    enter_all(&f, &o);
+    if (!knows(&f, o.method)) {
+        return 2;
+    }
     FILE *csv = fopen(o.csv, "w");
     if (!csv) {
         fprintf(stderr, "tahr_peers: '%s' cannot be written\n", o.csv);
         return 1;
     }
-    enter_all(&f, &o);
     for (int i = 0; i < f.count; i++) {
         const entrant *e = &f.entrants[i];
         printf("%-12s %s: %s\n", e->name, e->method ? e->method->version : "left out",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //! tests/bench/method.h, as Rust sees it. The two are changed together.
 use std::ffi::{c_char, c_int, c_void};
+use std::panic::{catch_unwind, AssertUnwindSafe};
 
 pub const METHOD_ERROR: usize = 256;
 
@@ -79,6 +80,12 @@ impl Level {
     }
 }
 
+/// Whoever panics in a step stands at no number from then on, until it is placed anew: the judge counts that.
+struct Guarded<T> {
+    controller: T,
+    failed: Vec<bool>,
+}
+
 unsafe extern "C" fn open<T: Controller>(
     _: *const Method,
     level: *const Level,
@@ -86,9 +93,12 @@ unsafe extern "C" fn open<T: Controller>(
     count: u32,
     error: *mut c_char,
 ) -> *mut c_void {
-    let made = unsafe { T::open(&*level, &*who, count) };
-    match made {
-        Ok(controller) => Box::into_raw(Box::new(controller)).cast(),
+    let made = catch_unwind(|| unsafe { T::open(&*level, &*who, count) });
+    match made.unwrap_or_else(|_| Err("it panics while it is opened".into())) {
+        Ok(controller) => {
+            let failed = vec![false; count as usize];
+            Box::into_raw(Box::new(Guarded { controller, failed })).cast()
+        }
         Err(why) => {
             let text = &why.as_bytes()[..why.len().min(METHOD_ERROR - 1)];
             unsafe {
@@ -101,19 +111,30 @@ unsafe extern "C" fn open<T: Controller>(
 }
 
 unsafe extern "C" fn close<T: Controller>(this: *mut c_void) {
-    drop(unsafe { Box::from_raw(this.cast::<T>()) });
+    drop(unsafe { Box::from_raw(this.cast::<Guarded<T>>()) });
 }
 
 unsafe extern "C" fn place<T: Controller>(this: *mut c_void, i: u32, position: *const f64) {
-    unsafe { (*this.cast::<T>()).place(i as usize, *position.cast()) }
+    let this = unsafe { &mut *this.cast::<Guarded<T>>() };
+    this.failed[i as usize] = false;
+    this.controller.place(i as usize, unsafe { *position.cast() });
 }
 
 unsafe extern "C" fn step<T: Controller>(this: *mut c_void, i: u32, wish: *const f64, jump: c_int) {
-    unsafe { (*this.cast::<T>()).step(i as usize, *wish.cast(), jump != 0) }
+    let this = unsafe { &mut *this.cast::<Guarded<T>>() };
+    let (controller, wish) = (&mut this.controller, unsafe { *wish.cast() });
+    if catch_unwind(AssertUnwindSafe(|| controller.step(i as usize, wish, jump != 0))).is_err() {
+        this.failed[i as usize] = true;
+    }
 }
 
 unsafe extern "C" fn look<T: Controller>(this: *mut c_void, i: u32, out: *mut Place) {
-    unsafe { *out = (*this.cast::<T>()).look(i as usize) }
+    let this = unsafe { &*this.cast::<Guarded<T>>() };
+    let mut place = this.controller.look(i as usize);
+    if this.failed[i as usize] {
+        place.position = [f64::NAN; 3];
+    }
+    unsafe { *out = place };
 }
 
 /// The three texts end in a zero byte.
