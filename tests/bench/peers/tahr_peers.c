@@ -270,28 +270,30 @@ static int measure(FILE *csv, const course *c, const field *f, const options *o)
     return ok;
 }
 
-static int knows(const field *f, const char *name)
+/* Whether what was asked for is there. */
+static int knows(const field *f, const options *o)
 {
-    for (int i = 0; name && i < f->count; i++) {
-        if (strcmp(name, f->entrants[i].name) == 0) {
-            return 1;
-        }
+    int chosen = o->method == NULL, there = o->course == NULL;
+    for (int i = 0; i < f->count; i++) {
+        chosen = chosen || strcmp(o->method, f->entrants[i].name) == 0;
     }
-    if (name) {
-        fprintf(stderr, "tahr_peers: no such method: '%s'\n", name);
+    for (int i = 0; i < COURSES; i++) {
+        there = there || strcmp(o->course, course_name(i)) == 0;
     }
-    return name == NULL;
+    if (!chosen || !there) {
+        fprintf(stderr, "tahr_peers: no such %s: '%s'\n", chosen ? "course" : "method", chosen ? o->course : o->method);
+    }
+    return chosen && there;
 }
 
 static int measure_all(FILE *csv, const field *f, const options *o)
 {
     static course c;
-    int ok = 1, found = 0;
+    int ok = 1;
     for (int i = 0; i < COURSES; i++) {
         if (o->course && strcmp(o->course, course_name(i)) != 0) {
             continue;
         }
-        found = 1;
         fprintf(stderr, "%s (%d of %d) ...\n", course_name(i), i + 1, (int)COURSES);
         course_make(&c, i);
         if (c.missing[0]) {
@@ -301,10 +303,7 @@ static int measure_all(FILE *csv, const field *f, const options *o)
         }
         course_free(&c);
     }
-    if (!found) {
-        fprintf(stderr, "tahr_peers: no such course: '%s'\n", o->course);
-    }
-    return ok && found;
+    return ok;
 }
 
 int main(int argc, char **argv)
@@ -316,7 +315,7 @@ int main(int argc, char **argv)
         return stop - 1;
     }
     enter_all(&f, &o);
-    if (!knows(&f, o.method)) {
+    if (!knows(&f, &o)) {
         return 2;
     }
     FILE *csv = fopen(o.csv, "w");
