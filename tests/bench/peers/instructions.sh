@@ -5,7 +5,7 @@
 set -eu
 folder=${1:?usage: tests/bench/peers/instructions.sh FOLDER COURSE...}
 shift
-characters=32 ticks=200
+characters=${CHARACTERS:-32} ticks=${TICKS:-200}
 command -v valgrind >/dev/null 2>&1 || {
     echo "instructions: valgrind is missing"
     exit 1
