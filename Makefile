@@ -13,7 +13,7 @@ ARGS ?=
 WERROR ?=
 CMAKE_ARGS ?=
 
-.PHONY: build setup setup-run run run-2d test test-full asan fuzz bench install clean format help
+.PHONY: build setup setup-run run run-2d test test-full asan fuzz bench peers install clean format help
 
 # Ninja if it is there and the folder is not configured yet; a configured folder keeps its generator.
 # Of its talk only what is left out and why is shown, unless it fails.
@@ -86,6 +86,11 @@ bench: setup-run
 	@$(call compile,$(BUILD)) --target tahr_bench
 	$(BUILD)/bin/tahr_bench --csv $(BUILD)/bench.csv $(ARGS)
 
+# Tahr beside the controllers of other engines; what cannot be built here is left out and says why.
+peers: setup
+	@JOBS=$(JOBS) sh tests/bench/peers/build.sh $(BUILD)/peers $(box2d_3) $(CMAKE_ARGS)
+	$(BUILD)/peers/tahr_peers --peers $(BUILD)/peers/lib --csv $(BUILD)/peers.csv $(if $(QUICK),--quick) $(ARGS)
+
 install: build
 	cmake --install $(BUILD) --prefix "$(abspath $(PREFIX))"
 
@@ -107,6 +112,7 @@ help:
 	@echo "make asan         all tests under AddressSanitizer and UBSan, in $(BUILD)/asan"
 	@echo "make fuzz         every fuzzer for TIME=60 seconds each (clang), what they find in $(BUILD)/fuzz/found"
 	@echo "make bench        the benchmark; ARGS='options'"
+	@echo "make peers        Tahr beside other engines' controllers on the same courses; QUICK=1  ARGS='options'"
 	@echo "make install      PREFIX=/usr/local"
 	@echo "make setup        install what is missing through apt-get (run, test and the others do it too)"
 	@echo "make format       clang-format over all sources"

@@ -3,8 +3,8 @@
 #   include/     a few libc headers and itself
 #   src/         include/ and src/, libc; plugin_file.c also <sys/stat.h> and <link.h>
 #   backends/X/  include/, backends/common/ and X's own third party; never src/, never another backend
-#   bindings/, fuzz/, tests/: include/, their own folder and tests/support/; tests/unit also src/ and backends/, tests/cli
-#   and fuzz also bindings/cli/
+#   bindings/, fuzz/, tests/: include/, their own folder and tests/support/; tests/unit also src/, backends/ and
+#   tests/bench/, tests/cli and fuzz also bindings/cli/
 set -eu
 
 libc='assert|ctype|dlfcn|errno|fenv|float|inttypes|limits|math|stdalign|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|string'
@@ -79,6 +79,8 @@ for folder in tests/*/; do
     name=$(basename "$folder")
     case $name in
     examples) pattern='"[a-z0-9_]+\.h"|<bt[A-Za-z]+\.h>' ;; # programs of users of other engines
+    bench) # peers/ are users of other engines
+        pattern='"((\.\./)?support/)?[a-z0-9_]+\.h"|<(bt[A-Z]|Bullet|Jolt/)[A-Za-z/]*\.h>' ;;
     unit) pattern='"[a-z0-9_/.]+\.(h|inc)"' ;;
     fcl) pattern='<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>|"[a-z0-9_]+\.h"' ;;
     cli) pattern='"((\.\./)?support/|\.\./\.\./bindings/cli/)?[a-z0-9_]+\.h"' ;;
@@ -93,7 +95,8 @@ unresolved=$(
     for folder in bindings/*/; do resolve "${folder%/}"; done
     for folder in tests/*/; do
         case $folder in
-        tests/unit/) resolve tests/unit tests/unit tests/support src backends backends/common | grep -v '"layout.inc"' || true ;;
+        tests/unit/) resolve tests/unit tests/unit tests/support tests/bench src backends backends/common | grep -v '"layout.inc"' || true ;;
+        tests/bench/) resolve tests/bench tests/bench tests/support ;;
         tests/cli/) resolve tests/cli tests tests/support bindings/cli ;;
         *) resolve "${folder%/}" tests tests/support ;;
         esac

@@ -9,9 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-enum { WARM_UP_TICKS = 30, CLOCK_SAMPLES = 2001 };
+#include "bench_clock.h"
+
+enum { WARM_UP_TICKS = 30 };
 
 static const double DT = 1.0 / 60;
 
@@ -23,30 +24,6 @@ typedef struct crowd {
     uint64_t seed;
     tahr_config config;
 } crowd;
-
-static uint64_t nanoseconds(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return (x > y) - (x < y);
-}
-
-double bench_clock_cost(void)
-{
-    uint32_t samples[CLOCK_SAMPLES];
-    for (int i = 0; i < CLOCK_SAMPLES; i++) {
-        uint64_t before = nanoseconds(CLOCK_MONOTONIC);
-        samples[i] = (uint32_t)(nanoseconds(CLOCK_MONOTONIC) - before);
-    }
-    qsort(samples, CLOCK_SAMPLES, sizeof samples[0], by_value);
-    return samples[CLOCK_SAMPLES / 2];
-}
 
 static void *count_alloc(void *user, size_t size, size_t alignment)
 {
@@ -85,9 +62,9 @@ tahr_status bench_open(bench_opened *opened, const bench_world *world, const sce
     desc.allocator = &allocator;
     desc.log = &log;
     desc.options = scene_backend_options(backend, &options);
-    uint64_t before = nanoseconds(CLOCK_THREAD_CPUTIME_ID);
+    uint64_t before = bench_nanoseconds(CLOCK_THREAD_CPUTIME_ID);
     tahr_status status = tahr_world_open(backend->get(), &desc, &opened->world);
-    opened->build_seconds = 1e-9 * (double)(nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before);
+    opened->build_seconds = 1e-9 * (double)(bench_nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before);
     opened->bytes = tahr_world_memory(opened->world);
     return status;
 }
@@ -149,9 +126,9 @@ static int tick(crowd *c, const bench_opened *opened, const bench_world *world, 
     for (uint32_t i = 0; i < c->count; i++) {
         tahr_report report = {.struct_size = sizeof report};
         const tahr_input *input = bench_world_wish(world, &c->wanderers[i], DT);
-        uint64_t before = nanoseconds(CLOCK_MONOTONIC);
+        uint64_t before = bench_nanoseconds(CLOCK_MONOTONIC);
         tahr_status status = tahr_mover_step(c->movers[i], input, DT, &c->states[i], &report);
-        uint64_t after = nanoseconds(CLOCK_MONOTONIC);
+        uint64_t after = bench_nanoseconds(CLOCK_MONOTONIC);
         if (status < 0) {
             return 0;
         }
@@ -175,7 +152,7 @@ static void summarize(bench_result *r, uint32_t *times, double cpu)
     double *sums[8] = {&r->sweeps,     &r->contact_queries, &r->rays,    &r->triangle_tests,
                        &r->iterations, &r->gathers,         &r->escapes, &r->walking};
     double cost = bench_clock_cost(), n = (double)r->steps;
-    qsort(times, r->steps, sizeof times[0], by_value);
+    bench_sort(times, r->steps);
     r->ns_median = (double)times[r->steps / 2] - cost;
     r->ns_p99 = (double)times[r->steps - 1 - r->steps / 100] - cost;
     r->ns_cpu = cpu / n - 2 * cost;
@@ -197,11 +174,11 @@ int bench_run(bench_opened *opened, const bench_world *world, uint32_t character
     for (uint32_t t = 0; ok && t < WARM_UP_TICKS; t++) {
         ok = tick(&c, opened, world, result, NULL);
     }
-    uint64_t before = nanoseconds(CLOCK_THREAD_CPUTIME_ID);
+    uint64_t before = bench_nanoseconds(CLOCK_THREAD_CPUTIME_ID);
     for (uint32_t t = 0; ok && t < ticks; t++) {
         ok = tick(&c, opened, world, result, times + (size_t)t * characters);
     }
-    uint64_t cpu = nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before;
+    uint64_t cpu = bench_nanoseconds(CLOCK_THREAD_CPUTIME_ID) - before;
     if (ok) {
         summarize(result, times, (double)cpu);
     } else if (!error[0]) {

@@ -31,7 +31,4 @@ void bench_close(bench_opened *opened);
 int bench_run(bench_opened *opened, const bench_world *world, uint32_t characters, uint32_t ticks, bench_result *result,
               char *error);
 
-/* ns that reading the clock twice adds to what is measured. */
-double bench_clock_cost(void);
-
 #endif

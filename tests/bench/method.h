@@ -20,6 +20,8 @@ typedef struct method_level {
     const uint32_t *indices; /* 3 each */
     uint32_t vertex_count, triangle_count;
     int planar;
+    const double
+        *box; /* low corner, high corner of a solid box with the same ground, for who likes that better; NULL */
 } method_level;
 
 /* What moves: an upright capsule. SI units, radians. */
@@ -38,7 +40,7 @@ typedef struct method_place {
 } method_place;
 
 /* One method. Characters do not feel each other. open returns NULL and an explanation (capacity METHOD_ERROR) where it
- * cannot. step is what is timed: nothing but the controller's own work for one character; it allocates nothing of its
+ * cannot; one with "dimensions only" in it means that the level is not of its kind. step is what is timed: nothing but the controller's own work for one character; it allocates nothing of its
  * own accord and reads no clock. */
 typedef struct method {
     const char *name;     /* "jolt" */

@@ -203,12 +203,18 @@ static double distance(const triangle *t, tahr_vec3 a, tahr_vec3 b)
     return best;
 }
 
-/* Most triangles of a column are far above or below. */
-static int apart(const triangle *t, double low, double high)
+static int outside(double a, double b, double c, double low, double high)
 {
-    double bottom = fmin(fmin(t->corner[0].z, t->corner[1].z), t->corner[2].z);
-    double top = fmax(fmax(t->corner[0].z, t->corner[1].z), t->corner[2].z);
-    return top < low || bottom > high;
+    return fmax(fmax(a, b), c) < low || fmin(fmin(a, b), c) > high;
+}
+
+/* Most triangles of the columns are farther than limit from the segment: above it, below it, or beside it. */
+static int apart(const triangle *t, tahr_vec3 a, tahr_vec3 b, double limit)
+{
+    const tahr_vec3 *c = t->corner;
+    return outside(c[0].z, c[1].z, c[2].z, fmin(a.z, b.z) - limit, fmax(a.z, b.z) + limit) ||
+           outside(c[0].x, c[1].x, c[2].x, fmin(a.x, b.x) - limit, fmax(a.x, b.x) + limit) ||
+           outside(c[0].y, c[1].y, c[2].y, fmin(a.y, b.y) - limit, fmax(a.y, b.y) + limit);
 }
 
 double scene_solid_distance(const scene_solid *s, tahr_vec3 a, tahr_vec3 b, double limit, uint32_t *index)
@@ -221,7 +227,7 @@ double scene_solid_distance(const scene_solid *s, tahr_vec3 a, tahr_vec3 b, doub
         for (uint32_t i = row[r.low[0]]; i < row[r.high[0] + 1]; i++) {
             triangle t = get(s->mesh, s->items[i]);
             int faces = s->two_sided || dot(t.normal, minus(middle, t.corner[0])) > 0;
-            if (!faces || apart(&t, fmin(a.z, b.z) - limit, fmax(a.z, b.z) + limit)) {
+            if (!faces || apart(&t, a, b, limit)) {
                 continue;
             }
             double d = distance(&t, a, b);
