@@ -94,6 +94,7 @@ nearest score__nearest(const score_scene *scene, const tahr_sweep *query, long d
             nearest found = core_triangle(&k, &t);
             if (best.squared < 0 || found.squared < best.squared) {
                 best = found;
+                reach = fmin(reach, (double)sqrtl(best.squared));
             }
         }
         if ((body->flags & SCORE_SOLID) && score__inside(body, query, fraction)) {
