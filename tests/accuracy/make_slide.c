@@ -224,17 +224,10 @@ static void solve(slide_scene *s, FILE *out, double margin)
     put_path(out, s, differ);
 }
 
-static FILE *open_file(const char *folder)
+static draft open_file(const char *folder)
 {
-    char path[1024];
-    FILE *out;
+    draft d = open_draft(folder, "slides");
 
-    snprintf(path, sizeof path, "%s/slides.txt", folder);
-    out = fopen(path, "w");
-    if (!out) {
-        perror(path);
-        exit(1);
-    }
     fputs("# Slides in quad precision. Made by tests/accuracy/make_slide.c:\n"
           "#   gcc -std=gnu11 -O2 -ffp-contract=off tests/accuracy/make_slide.c -lm -o make_slide; ./make_slide "
           "tests/accuracy/truth\n"
@@ -243,8 +236,8 @@ static FILE *open_file(const char *folder)
           "#    everything, duration, 1 if a part of it is curved, m by which the two methods differ, m by which the\n"
           "#    catching-up scheme with steps of 1/64 s is off at most\n"
           "# k: time, position, velocity: knots of it, a cubic between two of them; two of one time where it bends\n",
-          out);
-    return out;
+          d.file);
+    return d;
 }
 
 static void make(FILE *out, slide_scene *s)
@@ -286,7 +279,8 @@ int main(int count, char **arguments)
     static void (*const scenes[])(slide_scene *, int) = {plane, crease, gutter, three_planes, acute,
                                                          seams, edge,   step,   corner_point, stair};
     static const double angles[] = {8, 12, 30, 90};
-    FILE *out = open_file(count > 1 ? arguments[1] : ".");
+    draft d = open_file(count > 1 ? arguments[1] : ".");
+    FILE *out = d.file;
 
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         for (int kind = SPHERE; kind <= BOX; kind++) {
@@ -304,6 +298,6 @@ int main(int count, char **arguments)
         }
     }
     make_random(out);
-    fclose(out);
+    close_draft(&d);
     return 0;
 }

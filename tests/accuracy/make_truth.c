@@ -198,19 +198,13 @@ static int solve(const query *q, const mesh *m, answer *out)
     return 1;
 }
 
-static FILE *open_file(const char *folder, const char *name)
+static draft open_file(const char *folder, const char *name)
 {
-    char path[1024];
-    FILE *out;
+    draft d = open_draft(folder, name);
+    FILE *out = d.file;
 
     family_name = name;
     case_number = 0;
-    snprintf(path, sizeof path, "%s/%s.txt", folder, name);
-    out = fopen(path, "w");
-    if (!out) {
-        perror(path);
-        exit(1);
-    }
     fprintf(
         out,
         "# Truth in quad precision, family \"%s\". Made by tests/accuracy/make_truth.c:\n"
@@ -225,7 +219,7 @@ static FILE *open_file(const char *folder, const char *name)
         "#    smallest distance along the whole motion minus margin (upper bound if nothing is in reach), normal at "
         "the hit\n",
         name);
-    return out;
+    return d;
 }
 
 static void put(FILE *out, dvec v)
@@ -282,7 +276,8 @@ static void shift(mesh *m, query *q, double offset)
 
 static int make_family(const char *folder, const family *f)
 {
-    FILE *out = open_file(folder, f->name);
+    draft d = open_file(folder, f->name);
+    FILE *out = d.file;
     int cases = 0;
 
     for (int kind = 0; kind < KINDS; kind++) {
@@ -304,14 +299,15 @@ static int make_family(const char *folder, const family *f)
             cases++, i++;
         }
     }
-    fclose(out);
+    close_draft(&d);
     return cases;
 }
 
 static int make_mesh_family(const char *folder, const char *name, void (*build)(mesh *), int per_kind)
 {
     static const family aimed = {"", 0, MIXED, DYADIC, 2, 2, 0, 0, 2};
-    FILE *out = open_file(folder, name);
+    draft d = open_file(folder, name);
+    FILE *out = d.file;
     mesh m = {.vertex_count = 0};
     int cases = 0;
 
@@ -338,7 +334,7 @@ static int make_mesh_family(const char *folder, const char *name, void (*build)(
             cases++, i++;
         }
     }
-    fclose(out);
+    close_draft(&d);
     return cases;
 }
 
@@ -359,7 +355,8 @@ static const struct solids {
 static int make_solid_family(const char *folder, const struct solids *s)
 {
     const family *f = &s->family;
-    FILE *out = open_file(folder, f->name);
+    draft d = open_file(folder, f->name);
+    FILE *out = d.file;
     int cases = 0;
 
     for (int kind = 0; kind < KINDS; kind++) {
@@ -380,14 +377,15 @@ static int make_solid_family(const char *folder, const struct solids *s)
             cases++, i++, tries = 0;
         }
     }
-    fclose(out);
+    close_draft(&d);
     return cases;
 }
 
 /* Three cases on each outline. */
 static int make_plane_family(const char *folder, const char *name, int solid, int per_kind)
 {
-    FILE *out = open_file(folder, name);
+    draft d = open_file(folder, name);
+    FILE *out = d.file;
     int cases = 0;
 
     for (int kind = 0; kind < KINDS; kind++) {
@@ -409,7 +407,7 @@ static int make_plane_family(const char *folder, const char *name, int solid, in
             cases++, i++, tries = 0;
         }
     }
-    fclose(out);
+    close_draft(&d);
     return cases;
 }
 

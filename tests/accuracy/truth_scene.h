@@ -4,6 +4,8 @@
 #define TAHR_TRUTH_SCENE_H
 
 #include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "quad_distance.h"
@@ -33,6 +35,39 @@ typedef struct {
     double radius, half_height, half_x, half_y, margin, quat[4];
     dvec position, up, motion;
 } query;
+
+/* A file of truth in the making: it gets its name when all of it is done, so that one that failed is not mistaken for
+ * truth. */
+typedef struct {
+    FILE *file;
+    char path[1024];
+} draft;
+
+static draft open_draft(const char *folder, const char *name)
+{
+    draft d;
+    char part[1040];
+
+    snprintf(d.path, sizeof d.path, "%s/%s.txt", folder, name);
+    snprintf(part, sizeof part, "%s.part", d.path);
+    d.file = fopen(part, "w");
+    if (!d.file) {
+        perror(part);
+        exit(1);
+    }
+    return d;
+}
+
+static void close_draft(draft *d)
+{
+    char part[1040];
+
+    snprintf(part, sizeof part, "%s.part", d->path);
+    if (fclose(d->file) != 0 || rename(part, d->path) != 0) {
+        perror(d->path);
+        exit(1);
+    }
+}
 
 static uint64_t seed;
 
