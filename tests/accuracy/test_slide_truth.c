@@ -26,6 +26,7 @@
 #include <tahr/box2d.h>
 #endif
 
+#include "forms.h"
 #include "truth_file.h"
 
 enum { MAX_COMPLAINTS = 12 };
@@ -350,6 +351,36 @@ static void stored_paths_touch_and_keep_their_distance(void **state)
     assert_true(truth_each_slide(keep_distance, &paths) == paths && paths > 50);
 }
 
+/* A third witness of the paths over a step: once on the floor, the foot goes as high as the closed form says. */
+static void climb_by_the_form(void *user, const truth_slide *slide)
+{
+    static const double rise = 0.1875;
+    double r = slide->shape.radius + slide->margin, foot = slide->shape.half_height - slide->shape.radius;
+    int *paths = user, touched = 0;
+
+    if (strncmp(slide->name, "step_", 5)) {
+        return;
+    }
+    for (int i = 0; i <= 1000; i++) {
+        tahr_vec3 p = score_reference_at(&slide->path, slide->duration * i / 1000);
+        double over = p.z - foot - (double)form_step_height(r, rise, p.x);
+        assert_true(over > -1e-9);
+        touched |= over < 1e-9;
+        assert_true(!touched || over < 1e-9);
+    }
+    assert_true(touched && score_reference_at(&slide->path, slide->duration).x > 0);
+    ++*paths;
+}
+
+static void stored_steps_are_climbed_along_the_closed_form(void **state)
+{
+    int paths = 0;
+    (void)state;
+
+    truth_each_slide(climb_by_the_form, &paths);
+    assert_int_equal(paths, 4); /* sphere and capsule, touching and with a skin */
+}
+
 int main(void)
 {
     static const tahr_native_desc in_float = {.struct_size = sizeof in_float, .precision = TAHR_NATIVE_FLOAT};
@@ -368,6 +399,7 @@ int main(void)
 #endif
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(stored_paths_touch_and_keep_their_distance),
+        cmocka_unit_test(stored_steps_are_climbed_along_the_closed_form),
         OF("native_double", native_double),
         OF("native_float", native_float),
 #ifdef TAHR_HAVE_CCD
