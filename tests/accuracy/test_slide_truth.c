@@ -94,7 +94,9 @@ static tahr_world *open_world(const trial *t, const truth_slide *slide, const ta
     tahr_world_desc desc;
     tahr_world *world = NULL;
 
-    memcpy(bodies, slide->descs, slide->scene.body_count * sizeof *bodies);
+    for (uint32_t i = 0; i < slide->scene.body_count; i++) {
+        bodies[i] = slide->descs[i];
+    }
     assert_int_equal(tahr_world_desc_init(&desc, sizeof desc), TAHR_OK);
     desc.bodies = bodies;
     desc.body_count = slide->scene.body_count;
