@@ -177,8 +177,36 @@ static void keep_direction(vec *directions, int *count, vec gap)
             return;
         }
     }
-    if (*count < MAX_DIRECTIONS) {
-        directions[(*count)++] = d;
+    directions[(*count)++] = d;
+}
+
+/* What may be closest, in one pass: all that is within slack of the least so far. */
+typedef struct closest {
+    nearest found[MAX_DIRECTIONS];
+    int count;
+    real least; /* m; < 0: nothing yet */
+} closest;
+
+static void drop_farther(closest *c, real reach)
+{
+    int kept = 0;
+
+    for (int i = 0; i < c->count; i++) {
+        if (c->found[i].squared <= reach * reach) {
+            c->found[kept++] = c->found[i];
+        }
+    }
+    c->count = kept;
+}
+
+static void keep_closest(closest *c, const nearest *found, double slack)
+{
+    if (c->least < 0 || found->squared < c->least * c->least) {
+        c->least = sqrtl(found->squared);
+        drop_farther(c, c->least + slack);
+    }
+    if (found->squared <= (c->least + slack) * (c->least + slack) && c->count < MAX_DIRECTIONS) {
+        c->found[c->count++] = *found;
     }
 }
 
@@ -186,25 +214,24 @@ double score_normal_error(const score_scene *scene, const tahr_sweep *query, dou
                           tahr_vec3 normal)
 {
     core k = score__core(query, fraction);
-    nearest least = score__nearest(scene, query, fraction, INFINITY);
     double way = sqrt((double)vdot(k.centre, k.centre));
+    closest c = {.count = 0, .least = -1};
     vec directions[MAX_DIRECTIONS];
     int count = 0;
 
-    if (least.squared < 0) {
-        return 180;
-    }
-    long double reach = sqrtl(least.squared) + slack;
     for (uint32_t b = 0; b < scene->body_count; b++) {
         for (uint32_t i = 0; i < scene->bodies[b].triangle_count; i++) {
             triangle t = score__triangle(&scene->bodies[b], query, i);
-            if (score__beyond(query, &t, way, (double)reach)) {
+            if (c.least >= 0 && score__beyond(query, &t, way, (double)c.least + slack)) {
                 continue;
             }
             nearest found = core_triangle(&k, &t);
-            if (found.squared > 0 && found.squared <= reach * reach) {
-                keep_direction(directions, &count, found.gap);
-            }
+            keep_closest(&c, &found, slack);
+        }
+    }
+    for (int i = 0; i < c.count; i++) {
+        if (c.found[i].squared > 0) {
+            keep_direction(directions, &count, c.found[i].gap);
         }
     }
     return (double)to_cone(directions, count, (vec){normal.x, normal.y, normal.z});
