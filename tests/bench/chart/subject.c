@@ -38,14 +38,18 @@ static void add_native(void)
 {
     static const struct {
         const char *curve, *setting, *role;
-        uint32_t precision, no_simd;
-    } table[] = {{"native float", "native float", CHART_DEFAULT, TAHR_NATIVE_FLOAT, 0},
-                 {"native float", "native float; no_simd", CHART_OFF, TAHR_NATIVE_FLOAT, 1},
-                 {"native double", "native double", CHART_KNOB, TAHR_NATIVE_DOUBLE, 0},
-                 {"native double", "native double; no_simd", CHART_OFF, TAHR_NATIVE_DOUBLE, 1}};
+        uint32_t precision, no_simd, no_cache;
+    } table[] = {{"native float", "native float", CHART_DEFAULT, TAHR_NATIVE_FLOAT, 0, 0},
+                 {"native float", "native float; no_simd", CHART_OFF, TAHR_NATIVE_FLOAT, 1, 0},
+                 {"native float", "native float; no_cache", CHART_OFF, TAHR_NATIVE_FLOAT, 0, 1},
+                 {"native double", "native double", CHART_KNOB, TAHR_NATIVE_DOUBLE, 0, 0},
+                 {"native double", "native double; no_simd", CHART_OFF, TAHR_NATIVE_DOUBLE, 1, 0},
+                 {"native double", "native double; no_cache", CHART_OFF, TAHR_NATIVE_DOUBLE, 0, 1}};
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
-        tahr_native_desc desc = {
-            .struct_size = sizeof desc, .precision = table[i].precision, .no_simd = table[i].no_simd};
+        tahr_native_desc desc = {.struct_size = sizeof desc,
+                                 .precision = table[i].precision,
+                                 .no_simd = table[i].no_simd,
+                                 .no_cache = table[i].no_cache};
         set_options(add(table[i].curve, table[i].setting, table[i].role, tahr_backend_v1_native), &desc, sizeof desc);
     }
 }
@@ -160,4 +164,17 @@ tahr_status chart_subject_open(const chart_subject *s, const tahr_body_desc *bod
     desc.body_count = count;
     desc.options = chart_subject_options(s);
     return s->get()->open(&host, &desc, self);
+}
+
+int chart_subject_cache(const chart_subject *s, void *self, tahr_query_context *context)
+{
+    const tahr_backend *backend = s->get();
+    size_t size = backend->cache_size ? backend->cache_size(self) : 0;
+    context->cache = NULL;
+    if (size == 0) return 1;
+    size = (size + 63) / 64 * 64;
+    context->cache = aligned_alloc(64, size);
+    if (!context->cache) return 0;
+    memset(context->cache, 0, size);
+    return 1;
 }

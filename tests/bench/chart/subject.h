@@ -33,4 +33,7 @@ const void *chart_subject_options(const chart_subject *subject);
 /* Opens bodies, which must be complete (tahr_body_desc_init), on the backend itself. Returns a status. */
 tahr_status chart_subject_open(const chart_subject *subject, const tahr_body_desc *bodies, uint32_t count, void **self);
 
+/* Gives a context of this open backend its cache, which the caller frees. Returns 0 if memory is out. */
+int chart_subject_cache(const chart_subject *subject, void *self, tahr_query_context *context);
+
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * sweeps.c: every backend and setting asked the sweeps of the stored truth, one at a time and without a cache.
+ * sweeps.c: every backend and setting asked the sweeps of the stored truth, one at a time, after the announcement that
+ * a step would make (where a backend has a use for it).
  *
  * The time of a sweep is the least of some rounds of a few askings each: on a machine shared with others the rest is
  * their noise. Every answer is judged; failures are counted, and no error of theirs is averaged in. */
@@ -19,6 +20,18 @@ typedef struct tally {
     tahr_query_context context;
 } tally;
 
+/* Everything within the sweep and its margin; nothing turns within a sweep. */
+static tahr_prepare announcement(const tahr_sweep *q)
+{
+    const tahr_shape *s = &q->shape;
+    double reach = s->half_height + s->half_x + s->half_y + q->margin + 0.01;
+    tahr_vec3 a = q->position, b = {a.x + q->motion.x, a.y + q->motion.y, a.z + q->motion.z};
+    tahr_prepare p = {.position = a, .up = q->up, .mask = q->mask};
+    p.bounds.min = (tahr_vec3){fmin(a.x, b.x) - reach, fmin(a.y, b.y) - reach, fmin(a.z, b.z) - reach};
+    p.bounds.max = (tahr_vec3){fmax(a.x, b.x) + reach, fmax(a.y, b.y) + reach, fmax(a.z, b.z) + reach};
+    return p;
+}
+
 /* One case: asked once for its answer and its counts, and again for its time. */
 static void ask(const chart_run *run, const tahr_backend *backend, void *self, const chart_truth_set *set, uint32_t i,
                 tally *t)
@@ -26,6 +39,8 @@ static void ask(const chart_run *run, const tahr_backend *backend, void *self, c
     const tahr_sweep *q = chart_truth_sweep(set, i);
     tahr_hit hit = {0};
     uint32_t count = 0;
+    tahr_prepare prepare = announcement(q);
+    if (backend->prepare) backend->prepare(self, &t->context, &prepare);
     tahr_status status = backend->sweep(self, &t->context, q, &hit, 1, &count);
     chart_verdict verdict = chart_truth_judge(set, i, status, &hit, count, &t->errors[t->error_count]);
     t->error_count += verdict == CHART_HIT;
@@ -33,7 +48,7 @@ static void ask(const chart_run *run, const tahr_backend *backend, void *self, c
     t->false_hits += verdict == CHART_FALSE_HIT;
     t->turned += verdict == CHART_WRONG_NORMAL;
     t->gave_up += verdict == CHART_GAVE_UP;
-    tahr_query_context unused = {NULL, 0, 0, 0, 0};
+    tahr_query_context unused = {t->context.cache, 0, 0, 0, 0};
     for (uint32_t round = 0; round < run->budget->sweep_rounds; round++) {
         double before = chart_monotonic();
         for (int k = 0; k < ASKINGS; k++) {
@@ -55,7 +70,10 @@ static int ask_all(const chart_run *run, const chart_subject *subject, const cha
         if (!same) {
             if (self) backend->close(self);
             self = NULL;
+            free(t->context.cache);
+            t->context.cache = NULL;
             if (chart_subject_open(subject, &body, 1, &self) < 0) return 0;
+            if (!chart_subject_cache(subject, self, &t->context)) return 0;
         }
         ask(run, backend, self, set, i, t);
     }
@@ -105,11 +123,12 @@ static void measure(chart_run *run, const chart_subject *subject, const char *sc
     if (!t.errors || !t.times) {
         chart_run_fail(run, subject->setting, "out of memory");
     } else if (!ask_all(run, subject, set, &t)) {
-        chart_run_fail(run, subject->setting, "a mesh of the truth cannot be opened");
+        chart_run_fail(run, subject->setting, "a mesh of the truth cannot be opened, or no memory is left");
     } else {
         fill(&row, subject, &t, count);
         chart_run_write(run, &row);
     }
+    free(t.context.cache);
     free(t.errors);
     free(t.times);
 }
