@@ -22,7 +22,7 @@ typedef struct chart_row {
     const char *setting; /* the point's name */
     const char *role;
     const char *reference; /* what errors are measured against */
-    char why[80];          /* what the failures were */
+    char why[128];         /* what the failures were */
     double value;          /* of the knob: the order along the curve */
     uint64_t samples, failed;
     double error_p50, error_p99, error_max; /* m */

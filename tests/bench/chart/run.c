@@ -79,6 +79,11 @@ void chart_run_write(chart_run *run, const chart_row *row)
 
 void chart_run_fail(chart_run *run, const char *what, const char *why)
 {
-    fprintf(stderr, "%stahr_chart: %s: %s: %s\n", run->bar ? "\n" : "", run->family, what, why);
+    fprintf(stderr, "%stahr_chart: %s: %s: %s\n", run->bar && !run->lines ? "\n" : "", run->family, what, why);
     run->failed = 1;
+}
+
+void chart_run_skip(chart_run *run, const char *what, const char *why)
+{
+    fprintf(stderr, "%sSKIP: %s: %s: %s\n", run->bar && !run->lines ? "\n" : "", run->family, what, why);
 }

@@ -41,6 +41,9 @@ void chart_run_write(chart_run *run, const chart_row *row);
 /* Says on stderr what could not be measured, and why. */
 void chart_run_fail(chart_run *run, const char *what, const char *why);
 
+/* Says that something is not there to be measured, which is no failure. */
+void chart_run_skip(chart_run *run, const char *what, const char *why);
+
 /* s, of the processor time of this thread, and of the monotonic clock; ns that reading the latter twice adds. */
 double chart_processor(void);
 double chart_monotonic(void);

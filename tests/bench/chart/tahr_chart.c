@@ -14,6 +14,7 @@ typedef struct family {
 
 static const family FAMILIES[] = {
     {"sweeps", chart_sweeps},
+    {"movement", chart_movement},
 };
 enum { FAMILY_COUNT = sizeof FAMILIES / sizeof FAMILIES[0] };
 

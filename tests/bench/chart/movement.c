@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT
+ * movement.c: whole movement with every setting: errors by windows, costs by wanderers on the same level. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "run.h"
+#include "walk.h"
+#include "window.h"
+
+static const char *const LEVELS[] = {"playground", "dungeon", "tiles_2d"};
+enum { LEVEL_COUNT = sizeof LEVELS / sizeof LEVELS[0] };
+
+/* What all settings of a level share. */
+typedef struct place {
+    bench_world level;
+    chart_windows *windows;
+    scene_solid *solid;
+} place;
+
+static int place_make(place *p, const char *name, uint32_t windows, char *why)
+{
+    memset(p, 0, sizeof *p);
+    for (int i = 0; i < BENCH_WORLDS; i++) {
+        if (strcmp(bench_world_name(i), name) == 0) bench_world_make(&p->level, i);
+    }
+    if (p->level.missing[0]) {
+        snprintf(why, 256, "%s", p->level.missing);
+        return 0;
+    }
+    int two_sided = (p->level.one.flags & TAHR_BODY_TWO_SIDED) != 0;
+    if (p->level.mesh.triangle_count) p->solid = scene_solid_open(&p->level.mesh, two_sided);
+    if (p->level.mesh.triangle_count && !p->solid) {
+        snprintf(why, 256, "out of memory");
+        return 0;
+    }
+    p->windows = chart_windows_make(&p->level, windows, why);
+    return p->windows != NULL;
+}
+
+static void place_free(place *p)
+{
+    chart_windows_free(p->windows);
+    scene_solid_close(p->solid);
+    bench_world_free(&p->level);
+}
+
+static void measure(chart_run *run, const place *p, const chart_setting *setting)
+{
+    char why[256] = "";
+    chart_pace pace;
+    chart_row row;
+    chart_walk walk = {.level = &p->level,
+                       .setting = setting,
+                       .solid = p->solid,
+                       .walkers = run->budget->walkers,
+                       .seconds = run->budget->walk_seconds * (setting->slow ? run->budget->slow : 1)};
+    chart_row_clear(&row);
+    row.scene = p->level.name;
+    row.curve = setting->curve;
+    row.setting = setting->name;
+    row.role = setting->role;
+    row.value = setting->value;
+    if (!chart_walk_run(&walk, &pace, why) || !chart_windows_score(p->windows, setting, &row, why)) {
+        chart_run_fail(run, setting->name, why);
+        return;
+    }
+    chart_walk_fill(&row, &pace, setting->rate);
+    chart_run_write(run, &row);
+}
+
+/* How far the reference itself is to be trusted. */
+static void measure_doubt(chart_run *run, const place *p)
+{
+    char why[256] = "";
+    chart_setting setting;
+    chart_row row;
+    chart_row_clear(&row);
+    chart_setting_default(&p->level, &setting);
+    row.scene = p->level.name;
+    row.curve = row.setting = "reference at 960 Hz";
+    row.role = "reference";
+    row.reference = "exact methods at 1920 Hz";
+    if (chart_windows_doubt(p->windows, &setting, &row, why)) {
+        chart_run_write(run, &row);
+    } else {
+        chart_run_fail(run, row.setting, why);
+    }
+}
+
+/* The names of settings do not depend on the level's geometry: counting needs none. */
+static void measure_level(chart_run *run, const char *name)
+{
+    char why[256] = "";
+    place p = {.level = {.planar = strcmp(name, "tiles_2d") == 0}};
+    int ok = run->counting || place_make(&p, name, run->budget->windows, why);
+    if (!ok) chart_run_skip(run, name, why);
+    const chart_setting *settings;
+    uint32_t count = chart_settings_make(&p.level, &settings);
+    if (!run->counting && ok) measure_doubt(run, &p);
+    for (uint32_t i = 0; i < count; i++) {
+        if (chart_run_next(run, name, settings[i].name) && ok) measure(run, &p, &settings[i]);
+    }
+    if (!run->counting) place_free(&p);
+}
+
+void chart_movement(chart_run *run)
+{
+    for (int i = 0; i < LEVEL_COUNT; i++) {
+        measure_level(run, LEVELS[i]);
+    }
+}
