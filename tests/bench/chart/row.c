@@ -8,7 +8,7 @@
 void chart_row_clear(chart_row *row)
 {
     *row = (chart_row){.scene = "", .curve = "", .setting = "", .role = CHART_KNOB, .reference = ""};
-    double *const empty[] = {&row->value,  &row->error_p50,  &row->error_p99, &row->error_max,     &row->penetration,
+    double *const empty[] = {&row->value, &row->rate,  &row->error_p50,  &row->error_p99, &row->error_max,     &row->penetration,
                              &row->ns_p50, &row->ns_p99,     &row->ns_mean,   &row->ns_second,     &row->queries,
                              &row->tests,  &row->iterations, &row->bytes,     &row->build_seconds, &row->threads};
     for (size_t i = 0; i < sizeof empty / sizeof empty[0]; i++) {
@@ -18,7 +18,7 @@ void chart_row_clear(chart_row *row)
 
 void chart_row_head(FILE *csv)
 {
-    fprintf(csv, "family,scene,curve,setting,value,role,reference,samples,failed,why,error_p50_m,error_p99_m,"
+    fprintf(csv, "family,scene,curve,setting,value,rate_hz,role,reference,samples,failed,why,error_p50_m,error_p99_m,"
                  "error_max_m,penetration_m,ns_p50,ns_p99,ns_mean,ns_per_second,queries,tests,iterations,bytes,build_s,"
                  "threads\n");
 }
@@ -39,6 +39,7 @@ void chart_row_write(FILE *csv, const char *family, const chart_row *r)
                                r->iterations, r->bytes,     r->build_seconds, r->threads};
     fprintf(csv, "%s,%s,%s,%s", family, r->scene, r->curve, r->setting);
     number(csv, r->value);
+    number(csv, r->rate);
     fprintf(csv, ",%s,%s,%llu,%llu,%s", r->role, r->reference, (unsigned long long)r->samples,
             (unsigned long long)r->failed, r->why);
     for (size_t i = 0; i < sizeof measured / sizeof measured[0]; i++) {

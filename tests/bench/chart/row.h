@@ -24,6 +24,7 @@ typedef struct chart_row {
     const char *reference; /* what errors are measured against */
     char why[128];         /* what the failures were */
     double value;          /* of the knob: the order along the curve */
+    double rate;           /* Hz, of the steps */
     uint64_t samples, failed;
     double error_p50, error_p99, error_max; /* m */
     double penetration;                     /* m, deepest */

@@ -190,16 +190,17 @@ void chart_walk_fill(chart_row *row, const chart_pace *p, double rate)
     row->ns_p50 = p->ns_p50;
     row->ns_p99 = p->ns_p99;
     row->ns_mean = p->ns_mean;
+    row->rate = rate;
     row->ns_second = p->ns_mean * rate;
     row->queries = p->queries;
     row->tests = p->tests;
     row->iterations = p->iterations;
     row->penetration = p->penetration;
     row->samples = p->steps;
-    row->failed = p->crossed + p->embedded + p->unknown + p->stuck + p->crushed + p->capped + p->lost;
+    row->failed = p->crossed + p->embedded + p->unknown + p->stuck + p->crushed + p->capped;
     if (row->failed) {
         snprintf(row->why, sizeof row->why,
-                 "%u through; %u embedded; %u unknown; %u stuck; %u crushed; %u capped; %u lost", p->crossed,
-                 p->embedded, p->unknown, p->stuck, p->crushed, p->capped, p->lost);
+                 "%u through; %u embedded; %u unknown; %u stuck; %u crushed; %u capped", p->crossed,
+                 p->embedded, p->unknown, p->stuck, p->crushed, p->capped);
     }
 }

@@ -23,7 +23,8 @@ typedef struct chart_pace {
     double queries, tests, iterations; /* per step */
     double penetration;                /* m, deepest that was seen; NAN if nobody looked */
     uint32_t crossed, embedded;        /* went through a triangle; deeper than 1 mm */
-    uint32_t unknown, stuck, crushed, capped, lost;
+    uint32_t unknown, stuck, crushed, capped;
+    uint32_t lost; /* walked out of the level, and were put back: levels of others have open edges */
     uint64_t hash; /* of where everybody is in the end */
 } chart_pace;
 
