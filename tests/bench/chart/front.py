@@ -10,6 +10,7 @@ ERROR_FLOOR = 1e-12  # m: below a picometre nobody moves better; zero has no log
 ERROR_REFERENCE = 1.0  # m
 WORK_REFERENCE = 1e5  # ns: 100 us
 TIE = 1.05  # clocks repeat to about 5 %: what is that near is as good
+TIE_ERROR = 1.5  # the 99th percentile of some hundred errors is not known better than that
 
 Point = tuple[float, float]
 
@@ -51,23 +52,31 @@ def beaten(point: Point, others: Sequence[Point]) -> bool:
     """Whether another is clearly better in one way, and as good in the other."""
     error, work = point
     for e, w in others:
-        if (e <= error * TIE and w * TIE < work) or (e * TIE < error and w <= work * TIE):
+        cheaper, as_cheap = w * TIE < work, w <= work * TIE
+        better, as_good = e * TIE_ERROR < error, e <= error * TIE_ERROR
+        if (cheaper and as_good) or (better and as_cheap):
             return True
     return False
 
 
+def backend_of(row: Row) -> str:
+    """Settings are for a backend: what another one does better is no reason to drop one of this."""
+    first = row.curve.split()[0] if row.curve else ""
+    return first if first in ("ccd", "fcl", "box2d") else "native"
+
+
 def never_on_front(rows: Sequence[Row]) -> list[Row]:
-    """One row of each setting that is beaten wherever it was measured, and is there for nothing else."""
-    scenes: dict[str, list[Row]] = {}
+    """One row of each setting that is there for nothing else, and that another of its backend and its rate beats on
+    every scene."""
+    groups: dict[tuple[str, str, str], list[Row]] = {}
     for row in rows:
-        scenes.setdefault(row.scene, []).append(row)
+        if row.role != "reference":
+            groups.setdefault((row.scene, str(row.rate_hz), backend_of(row)), []).append(row)
     good: set[str] = set()
     seen: dict[str, Row] = {}
-    for members in scenes.values():
+    for members in groups.values():
         points = [point_of(r) for r in members if counts(r)]
         for row in members:
-            if row.role == "reference":
-                continue
             seen.setdefault(row.setting, row)
             if counts(row) and not beaten(point_of(row), points):
                 good.add(row.setting)

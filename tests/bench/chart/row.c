@@ -8,9 +8,10 @@
 void chart_row_clear(chart_row *row)
 {
     *row = (chart_row){.scene = "", .curve = "", .setting = "", .role = CHART_KNOB, .reference = ""};
-    double *const empty[] = {&row->value, &row->rate,  &row->error_p50,  &row->error_p99, &row->error_max,     &row->penetration,
-                             &row->ns_p50, &row->ns_p99,     &row->ns_mean,   &row->ns_second,     &row->queries,
-                             &row->tests,  &row->iterations, &row->bytes,     &row->build_seconds, &row->threads};
+    double *const empty[] = {&row->value,      &row->rate,        &row->error_p50,     &row->error_p99,
+                             &row->error_max,  &row->penetration, &row->ns_p50,        &row->ns_p99,
+                             &row->ns_mean,    &row->ns_second,   &row->queries,       &row->tests,
+                             &row->iterations, &row->bytes,       &row->build_seconds, &row->threads};
     for (size_t i = 0; i < sizeof empty / sizeof empty[0]; i++) {
         *empty[i] = NAN;
     }

@@ -46,6 +46,17 @@ class Front(unittest.TestCase):
     def test_a_tie_within_the_clock_is_not_beaten(self):
         self.assertFalse(front.beaten((1e-6, 103.0), [(1e-6, 100.0)]))
         self.assertTrue(front.beaten((1e-6, 106.0), [(1e-6, 100.0)]))
+        self.assertFalse(front.beaten((1.4e-6, 100.0), [(1e-6, 100.0)]))
+        self.assertTrue(front.beaten((1.6e-6, 100.0), [(1e-6, 104.0)]))
+
+    def test_settings_compete_within_their_backend_and_rate(self):
+        rows = [
+            row(scene="a", setting="native", curve="native float", role="knob", error_p99_m=1e-3, ns_p50=10.0),
+            row(scene="a", setting="ccd", curve="ccd advance", role="knob", error_p99_m=1e-3, ns_p50=99.0),
+            row(scene="a", setting="often", curve="precise", role="knob", error_p99_m=1e-3, ns_p50=99.0, rate_hz=120.0),
+            row(scene="a", setting="ccd slow", curve="ccd GJK", role="knob", error_p99_m=1e-3, ns_p50=199.0),
+        ]
+        self.assertEqual([r.setting for r in front.never_on_front(rows)], ["ccd slow"])
 
     def test_never_on_front_names_only_settings_beaten_on_every_scene(self):
         rows = [

@@ -199,8 +199,7 @@ void chart_walk_fill(chart_row *row, const chart_pace *p, double rate)
     row->samples = p->steps;
     row->failed = p->crossed + p->embedded + p->unknown + p->stuck + p->crushed + p->capped;
     if (row->failed) {
-        snprintf(row->why, sizeof row->why,
-                 "%u through; %u embedded; %u unknown; %u stuck; %u crushed; %u capped", p->crossed,
-                 p->embedded, p->unknown, p->stuck, p->crushed, p->capped);
+        snprintf(row->why, sizeof row->why, "%u through; %u embedded; %u unknown; %u stuck; %u crushed; %u capped",
+                 p->crossed, p->embedded, p->unknown, p->stuck, p->crushed, p->capped);
     }
 }

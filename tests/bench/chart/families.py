@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: MIT
+"""The charts of each family: which rows are drawn against which, and what is said about them."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from matplotlib.figure import Figure
+
+from panel import MEDIAN_ERROR, P99_ERROR, Scale, dots, over_size, scatter
+from rows import Row
+from style import panels
+
+NS_SWEEP = Scale(lambda r: r.ns_p50, "median time of a sweep", "s", 1e-9)
+NS_STEP = Scale(lambda r: r.ns_p50, "median time of a step", "s", 1e-9)
+NS_SECOND = Scale(lambda r: r.ns_per_second, "time per simulated second", "s", 1e-9)
+TESTS = Scale(lambda r: r.tests_and_iterations, "narrow tests + iterations per sweep")
+TESTS_STEP = Scale(lambda r: r.tests_and_iterations, "narrow tests + iterations per step")
+QUERIES = Scale(lambda r: r.queries, "queries per step")
+QUERIES_SECOND = Scale(lambda r: r.queries_per_second, "queries per simulated second")
+
+
+@dataclass
+class Chart:
+    """One picture with its caption and the rows it shows."""
+
+    name: str
+    title: str
+    caption: str
+    figure: Figure
+    rows: list[Row]
+
+
+@dataclass(frozen=True)
+class Topic:
+    """Curves of whole movement that belong on one picture."""
+
+    name: str
+    title: str
+    curves: tuple[str, ...]
+    work: Scale
+    count: Scale
+    also: tuple[str, ...] = ()  # single settings of other curves, to compare with
+
+
+TOPICS = (
+    Topic("rates", "how often it is stepped, 10 to 960 Hz", ("precise", "platformer", "stepped", "two walls", "unreal"),
+          NS_SECOND, QUERIES_SECOND),
+    Topic("methods", "one method or number changed, 60 Hz", ("methods", "skin", "max_slides"), NS_STEP, QUERIES,
+          ("precise; 60 Hz",)),
+    Topic("slices", "long steps, 10 and 20 Hz", ("arc_tolerance; 20 Hz", "max_substep; stepped; 10 Hz",
+          "max_substeps; stepped; 10 Hz"), NS_SECOND, QUERIES_SECOND, ("precise; 10 Hz", "precise; 20 Hz")),
+    Topic("backends", "every backend, 60 Hz", ("native float", "native double", "ccd advance", "ccd GJK", "ccd MPR",
+          "fcl descend", "fcl collide", "box2d", "box2d 2.4"), NS_STEP, TESTS_STEP),
+)
+COST_CURVES = ("cache_margin", "switches")
+
+SCENES = {
+    "triangles": "capsules and spheres against single triangles",
+    "meshes": "capsules and spheres against small meshes",
+    "hard": "capsules and spheres: slivers, tiny and huge triangles, far from the origin",
+    "boxes": "boxes against triangles and meshes",
+    "playground": "the generated playground",
+    "dungeon": "the level dungeon, of a shooter",
+    "tiles_2d": "a side-scroller of 1002 bodies",
+    "hills": "generated hills",
+    "plane": "a plane",
+}
+
+
+def scenes_of(rows: Sequence[Row]) -> list[str]:
+    return list(dict.fromkeys(r.scene for r in rows))
+
+
+def describe(scene: str) -> str:
+    return SCENES.get(scene, scene)
+
+
+def _errors_and_counts(rows: Sequence[Row], work: Scale, count: Scale) -> Figure:
+    """Work over the median error, over the 99th percentile, and the count that no machine changes."""
+    figure, (left, middle, right) = panels(3)
+    scatter(left, rows, MEDIAN_ERROR, work)
+    scatter(middle, rows, P99_ERROR, work, with_front=True)
+    scatter(right, rows, P99_ERROR, count)
+    left.set_title("half of the answers")
+    middle.set_title("99 % of the answers, and the front")
+    right.set_title("the same on every machine")
+    return figure
+
+
+def sweep_charts(rows: Sequence[Row]) -> list[Chart]:
+    charts = []
+    for scene in scenes_of(rows):
+        own = [r for r in rows if r.scene == scene]
+        caption = (
+            f"Sweeps of {describe(scene)}, {own[0].samples} of them. Error: how far off its margin the shape is where "
+            "the answer stops it, against the stored truth (quad precision). Time: median over the sweeps, each the "
+            "least of some rounds, after the announcement that a step makes. Points of one curve differ by the number "
+            "beside them; a red cross fails as often as it says (missed, hit nothing, gave up, or a normal more than 2 "
+            "degrees off). Grey: the Pareto front. Errors below 1e-12 m are drawn there."
+        )
+        figure = _errors_and_counts(own, NS_SWEEP, TESTS)
+        charts.append(Chart(f"sweeps-{scene}", f"Sweeps: {describe(scene)}", caption, figure, own))
+    return charts
+
+
+def _doubt(rows: Sequence[Row]) -> str:
+    for row in rows:
+        if row.role == "reference":
+            return (f" The reference itself moves by {row.error_p99_m:.1e} m (99 %) when its rate is halved; {row.why}, "
+                    "left out.")
+    return ""
+
+
+def _cost_chart(scene: str, rows: Sequence[Row]) -> Chart | None:
+    own = [r for r in rows if r.curve in COST_CURVES or r.setting == "precise; 60 Hz"]
+    if len(own) < 2:
+        return None
+    figure, (times, counts) = panels(2, width=5.5, height=0.9 + 0.26 * len(own), left=1.7)
+    names = [r.setting for r in own]
+    dots(times, names, [("median", [r.ns_p50 for r in own]), ("99th percentile", [r.ns_p99 for r in own])],
+         Scale(lambda r: r.ns_p50, "time of a step", "s", 1e-9))
+    dots(counts, [""] * len(own), [("queries", [r.queries for r in own]),
+         ("narrow tests", [r.tests for r in own])], Scale(lambda r: r.queries, "per step"))
+    caption = (f"What only costs: cache margin, and what is switched off, on {describe(scene)} at 60 Hz. The errors are "
+               "the same to the bit: see the table.")
+    return Chart(f"movement-{scene}-caches", f"Movement on {describe(scene)}: caches and switches", caption, figure, own)
+
+
+def movement_charts(rows: Sequence[Row]) -> list[Chart]:
+    charts = []
+    for scene in scenes_of(rows):
+        here = [r for r in rows if r.scene == scene]
+        for topic in TOPICS:
+            own = [r for r in here if r.curve in topic.curves or r.setting in topic.also]
+            if len(own) < 2:
+                continue
+            caption = (
+                f"Whole movement on {describe(scene)}: {topic.title}. Error: the farthest that a character is from its "
+                "reference path during a second of movement from rest (the same numbers by the exact methods on native "
+                "in double at 1920 Hz, the same start)." + _doubt(here) +
+                " Time and queries: wandering characters on the same level, each with a mover of its own. A red cross "
+                "went through something, ended more than 1 mm inside, or reported that it gave up or hit its cap of "
+                "queries. Grey: the Pareto front."
+            )
+            figure = _errors_and_counts(own, topic.work, topic.count)
+            charts.append(Chart(f"movement-{scene}-{topic.name}", f"Movement on {describe(scene)}: {topic.title}",
+                                caption, figure, own))
+        cost = _cost_chart(scene, here)
+        if cost:
+            charts.append(cost)
+    return charts
+
+
+def shortcut_charts(rows: Sequence[Row]) -> list[Chart]:
+    charts = []
+    for scene in scenes_of(rows):
+        on = {r.curve: r for r in rows if r.scene == scene and r.setting == "on"}
+        off = {r.curve: r for r in rows if r.scene == scene and r.setting == "off"}
+        names = [name for name in on if name in off]
+        figure, (axes,) = panels(1, width=8, height=1.1 + 0.3 * len(names), left=2)
+        dots(axes, names, [("median", [off[n].ns_p50 / on[n].ns_p50 for n in names]),
+             ("99th percentile", [off[n].ns_p99 / on[n].ns_p99 for n in names]),
+             ("mean", [off[n].ns_mean / on[n].ns_mean for n in names])], Scale(lambda r: r.ns_p50, "time of a step without it / with it"))
+        axes.axvline(1, color="#444444", linewidth=0.8)
+        caption = (f"What each shortcut buys, {scene}: the time of a step with it switched off over that with it on, "
+                   "measured in turns. Right of 1 it pays. The table says whether the characters ended at the same "
+                   "bits.")
+        charts.append(Chart(f"shortcuts-{scene.replace(' ', '-')}", f"Shortcuts: {scene}", caption, figure,
+                            [r for r in rows if r.scene == scene]))
+    return charts
+
+
+def crowd_charts(rows: Sequence[Row]) -> list[Chart]:
+    charts = []
+    for scene in scenes_of(rows):
+        own = [r for r in rows if r.scene == scene]
+        figure, (axes,) = panels(1, width=8)
+        over_size(axes, own, [("", Scale(lambda r: r.ns_mean, "time per character and tick", "s", 1e-9))], "characters")
+        caption = (f"A tick of a crowd on {describe(scene)} at 60 Hz, per character, by the wall clock. More threads "
+                   "pay where there are cores for them; caches of many characters do not fit into the processor's.")
+        charts.append(Chart(f"crowds-{scene}", f"Crowds on {describe(scene)}", caption, figure, own))
+    return charts
+
+
+def scene_charts(rows: Sequence[Row]) -> list[Chart]:
+    figure, (times, memory, build) = panels(3)
+    over_size(times, rows, [("median", Scale(lambda r: r.ns_p50, "time of a step", "s", 1e-9)),
+              ("p99", Scale(lambda r: r.ns_p99, ""))], "triangles")
+    over_size(memory, rows, [("", Scale(lambda r: r.bytes, "bytes per triangle"))], "triangles")
+    over_size(build, rows, [("", Scale(lambda r: r.build_s, "opening the world", "s"))], "triangles")
+    caption = ("Hills of more and more triangles, wandering characters at 60 Hz on native. Constant size: triangles of "
+               "0.5 m, more of them cover more ground. Constant area: the same 100 m by 100 m cut ever finer.")
+    return [Chart("scenes", "Size of the scene", caption, figure, list(rows))]
+
+
+FAMILIES: dict[str, Callable[[Sequence[Row]], list[Chart]]] = {
+    "sweeps": sweep_charts,
+    "movement": movement_charts,
+    "shortcuts": shortcut_charts,
+    "crowds": crowd_charts,
+    "scenes": scene_charts,
+}
