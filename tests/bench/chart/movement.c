@@ -21,9 +21,7 @@ typedef struct place {
 static int place_make(place *p, const char *name, uint32_t windows, char *why)
 {
     memset(p, 0, sizeof *p);
-    for (int i = 0; i < BENCH_WORLDS; i++) {
-        if (strcmp(bench_world_name(i), name) == 0) bench_world_make(&p->level, i);
-    }
+    chart_level_make(&p->level, name);
     if (p->level.missing[0]) {
         snprintf(why, 256, "%s", p->level.missing);
         return 0;

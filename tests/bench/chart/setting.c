@@ -213,6 +213,13 @@ void chart_setting_reference(const chart_setting *setting, chart_setting *refere
     set_options(reference, &native, sizeof native);
 }
 
+void chart_level_make(bench_world *level, const char *name)
+{
+    for (int i = 0; i < BENCH_WORLDS; i++) {
+        if (strcmp(bench_world_name(i), name) == 0) bench_world_make(level, i);
+    }
+}
+
 static void complain(void *user, int32_t level, const char *message)
 {
     (void)user;

@@ -30,6 +30,9 @@ void chart_setting_default(const bench_world *level, chart_setting *setting);
 /* The same numbers by the exact methods on native in double: what the methods are judged by. */
 void chart_setting_reference(const chart_setting *setting, chart_setting *reference);
 
+/* Makes one of bench_world.h's by its name. */
+void chart_level_make(bench_world *level, const char *name);
+
 /* Opens a level on a setting's backend. */
 tahr_status chart_setting_open(const chart_setting *setting, const bench_world *level, tahr_world **world);
 

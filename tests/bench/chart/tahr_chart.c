@@ -13,8 +13,8 @@ typedef struct family {
 } family;
 
 static const family FAMILIES[] = {
-    {"sweeps", chart_sweeps},
-    {"movement", chart_movement},
+    {"sweeps", chart_sweeps}, {"movement", chart_movement}, {"shortcuts", chart_shortcuts},
+    {"crowds", chart_crowds}, {"scenes", chart_scenes},
 };
 enum { FAMILY_COUNT = sizeof FAMILIES / sizeof FAMILIES[0] };
 

@@ -57,7 +57,10 @@ static int spawn(herd *h, uint32_t i)
 static int herd_make(herd *h, uint64_t steps, char *why)
 {
     const chart_walk *w = h->walk;
+    double before = chart_processor();
     tahr_status status = chart_setting_open(w->setting, w->level, &h->world);
+    h->pace->build_seconds = chart_processor() - before;
+    h->pace->bytes = tahr_world_memory(h->world);
     h->movers = calloc(h->count, sizeof *h->movers);
     h->states = calloc(h->count, sizeof *h->states);
     h->places = calloc(h->count, sizeof *h->places);

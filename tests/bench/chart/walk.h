@@ -24,8 +24,10 @@ typedef struct chart_pace {
     double penetration;                /* m, deepest that was seen; NAN if nobody looked */
     uint32_t crossed, embedded;        /* went through a triangle; deeper than 1 mm */
     uint32_t unknown, stuck, crushed, capped;
-    uint32_t lost; /* walked out of the level, and were put back: levels of others have open edges */
-    uint64_t hash; /* of where everybody is in the end */
+    uint32_t lost;        /* walked out of the level, and were put back: levels of others have open edges */
+    double build_seconds; /* processor time of opening the world */
+    uint64_t bytes;       /* that it holds */
+    uint64_t hash;        /* of where everybody is in the end */
 } chart_pace;
 
 /* Returns 0 and says why (capacity 256) if it cannot be run. */
