@@ -221,7 +221,8 @@ int chart_windows_doubt(chart_windows *w, const chart_setting *setting, chart_ro
         chart_row_errors(row, errors, count);
         row->samples = w->count;
         row->failed = w->count - count;
-        snprintf(row->why, sizeof row->why, "%u of %u windows undecided", w->count - count, w->count);
+        if (count < w->count)
+            snprintf(row->why, sizeof row->why, "%u of %u windows undecided", w->count - count, w->count);
     } else {
         snprintf(why, 256, "no reference");
     }
