@@ -186,7 +186,7 @@ static void box_triangle(nearest *best, const core *k, const triangle *t)
     }
 }
 
-static nearest core_triangle(const core *k, const triangle *t)
+static inline nearest core_triangle(const core *k, const triangle *t)
 {
     nearest best = {-1, {0, 0, 0}};
 

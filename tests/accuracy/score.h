@@ -73,8 +73,8 @@ typedef struct score_truth {
 } score_truth;
 
 /* Finds the truth of a sweep on the spot, in long double: convexity, golden section, bisection. About 200 distances for
- * each triangle in reach. Returns 0 where the core touches something at the start: no unique way out, nothing to judge
- * by. */
+ * each triangle in reach. Returns 0 where there is nothing sure to judge by: the core touches something at the start (no
+ * unique way out), or what is within the margin at the start goes on as another face that bends the motion. */
 int score_solve(const score_scene *scene, const tahr_sweep *query, score_truth *truth);
 
 /* What can go wrong, each counted apart. MISS: went through what it should have met. FALSE_HIT: stopped by nothing.
@@ -180,14 +180,14 @@ typedef struct score_path {
     double length;         /* m, of the path itself */
     uint32_t ground_flips; /* times that standing began or ended */
     double jitter;         /* m, largest second difference of the position at rest, from the third idle step on */
-    uint32_t rest_changes; /* idle steps from the third on that changed a bit of the position */
+    uint32_t rest_changes; /* idle steps after the third that changed a bit of the position */
     uint32_t steps;        /* without the start */
     double duration;       /* s */
     uint32_t failures[SCORE_FAILURES]; /* steps */
     uint32_t failed_steps;             /* steps with at least one of them */
 
     uint32_t started, idle_steps, stood, reserved; /* what goes on from step to step */
-    double allowed_energy;
+    double surplus;
     score_step last, before;
 } score_path;
 
@@ -196,9 +196,11 @@ void score_path_add(score_path *path, const score_step *step);
 double score_path_flips_per_second(const score_path *path);
 void score_path_free(score_path *path);
 
-/* A step of Tahr's as score_path takes it: after tahr_mover_step with this status and report (or NULL). work and idle
- * are the caller's to set. Velocity: relative to a base, as the state has it. */
-score_step score_step_of(const tahr_state *state, double time, tahr_status status, const tahr_report *report);
+/* A step of Tahr's as score_path takes it: after tahr_mover_step with this status and report (or NULL); shape:
+ * config.shape, whose radius and half height are then the state's. work and idle are the caller's to set. Velocity:
+ * relative to a base, as the state has it. */
+score_step score_step_of(const tahr_state *state, const tahr_shape *shape, double time, tahr_status status,
+                         const tahr_report *report);
 
 #ifdef __cplusplus
 }
