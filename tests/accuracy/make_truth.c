@@ -82,7 +82,7 @@ static int out_of_reach(const query *q, const triangle *t, double rho)
 static void solve_start(const query *q, const mesh *m, answer *out, vec *gap)
 {
     core k = core_of(q);
-    nearest best = {-1, {0, 0, 0}};
+    nearest best = {-1, {0, 0, 0}, {0, 0, 0}};
 
     for (int i = 0; i < m->triangle_count; i++) {
         triangle t = triangle_of(m, i);

@@ -27,10 +27,11 @@ typedef struct {
     vec v[3];
 } triangle;
 
-/* squared: of the distance; gap: from the triangle's closest point to the core's. */
+/* squared: of the distance; gap: from the triangle's closest point to the core's; point: the triangle's (not set where
+ * they cross). */
 typedef struct {
     real squared;
-    vec gap;
+    vec gap, point;
 } nearest;
 
 static vec vadd(vec a, vec b)
@@ -64,7 +65,7 @@ static void nearer(nearest *best, vec on_core, vec on_triangle)
     vec gap = vsub(on_core, on_triangle);
     real squared = vdot(gap, gap);
 
-    if (best->squared < 0 || squared < best->squared) *best = (nearest){squared, gap};
+    if (best->squared < 0 || squared < best->squared) *best = (nearest){squared, gap, on_triangle};
 }
 
 static vec closest_on_segment(vec p, vec a, vec b)
@@ -172,14 +173,14 @@ static void box_triangle(nearest *best, const core *k, const triangle *t)
 {
     for (int i = 0; i < 3; i++) {
         nearer(best, closest_in_box(k, t->v[i]), t->v[i]);
-        if (segment_in_box(k, t->v[i], t->v[(i + 1) % 3])) *best = (nearest){0, {0, 0, 0}};
+        if (segment_in_box(k, t->v[i], t->v[(i + 1) % 3])) *best = (nearest){0, {0, 0, 0}, {0, 0, 0}};
     }
     for (int corner = 0; corner < 8; corner++) {
         point_triangle(best, core_corner(k, corner), t);
         for (int i = 0; i < 3; i++) {
             if (corner >> i & 1) continue;
             vec edge[2] = {core_corner(k, corner), core_corner(k, corner | 1 << i)};
-            if (segment_crosses(edge, t)) *best = (nearest){0, {0, 0, 0}};
+            if (segment_crosses(edge, t)) *best = (nearest){0, {0, 0, 0}, {0, 0, 0}};
             for (int j = 0; j < 3; j++)
                 segment_segment(best, edge, (vec[2]){t->v[j], t->v[(j + 1) % 3]});
         }
@@ -188,13 +189,13 @@ static void box_triangle(nearest *best, const core *k, const triangle *t)
 
 static inline nearest core_triangle(const core *k, const triangle *t)
 {
-    nearest best = {-1, {0, 0, 0}};
+    nearest best = {-1, {0, 0, 0}, {0, 0, 0}};
 
     if (k->axes == 3) {
         box_triangle(&best, k, t);
     } else if (k->axes == 1) {
         vec p[2] = {core_corner(k, 0), core_corner(k, 1)};
-        if (segment_crosses(p, t)) return (nearest){0, {0, 0, 0}};
+        if (segment_crosses(p, t)) return (nearest){0, {0, 0, 0}, {0, 0, 0}};
         for (int i = 0; i < 3; i++)
             segment_segment(&best, p, (vec[2]){t->v[i], t->v[(i + 1) % 3]});
         point_triangle(&best, p[0], t);

@@ -82,7 +82,7 @@ nearest score__nearest(const score_scene *scene, const tahr_sweep *query, long d
 {
     core k = score__core(query, fraction);
     double way = sqrt((double)vdot(k.centre, k.centre));
-    nearest best = {-1, {0, 0, 0}};
+    nearest best = {-1, {0, 0, 0}, {0, 0, 0}};
 
     for (uint32_t b = 0; b < scene->body_count; b++) {
         const score_body *body = &scene->bodies[b];
@@ -97,7 +97,7 @@ nearest score__nearest(const score_scene *scene, const tahr_sweep *query, long d
             }
         }
         if ((body->flags & SCORE_SOLID) && score__inside(body, query, fraction)) {
-            return (nearest){0, {0, 0, 0}};
+            return (nearest){0, {0, 0, 0}, {0, 0, 0}};
         }
     }
     return best;

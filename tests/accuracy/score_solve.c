@@ -56,6 +56,13 @@ static real time_of_entry(core k, const triangle *t, vec motion, real hi, real r
     return hi;
 }
 
+static int holds(const triangle *t, vec point)
+{
+    nearest found = {-1, {0, 0, 0}, {0, 0, 0}};
+    point_triangle(&found, point, t);
+    return found.squared < 1e-24L;
+}
+
 /* Entering the neighbourhood of a triangle is meeting it only if its nearest point is the nearest one of all that hold
  * that point: an edge between what is rested on and what goes on behind it is not met. */
 static int is_nearest_around(const score_scene *scene, const tahr_sweep *query, real time, const nearest *found)
@@ -66,6 +73,9 @@ static int is_nearest_around(const score_scene *scene, const tahr_sweep *query, 
     for (uint32_t b = 0; b < scene->body_count; b++) {
         for (uint32_t i = 0; i < scene->bodies[b].triangle_count; i++) {
             triangle t = score__triangle(&scene->bodies[b], query, i);
+            if (!holds(&t, found->point)) {
+                continue;
+            }
             nearest other = core_triangle(&k, &t);
             if (sqrtl(other.squared) < least - 1e-12L) {
                 return 0;
