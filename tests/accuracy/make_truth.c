@@ -15,6 +15,7 @@
 
 #include "quad_entry.h"
 #include "truth_scene.h"
+#include "truth_solid.h"
 
 enum { FREE, HIT, OVERLAP };
 
@@ -83,12 +84,16 @@ static void solve_start(const query *q, const mesh *m, answer *out, vec *gap)
 {
     core k = core_of(q);
     nearest best = {-1, {0, 0, 0}, {0, 0, 0}};
+    int inside = m->solid;
 
     for (int i = 0; i < m->triangle_count; i++) {
         triangle t = triangle_of(m, i);
+        vec n = vcross(vsub(t.v[1], t.v[0]), vsub(t.v[2], t.v[0]));
+        if (vdot(n, vsub(k.centre, t.v[0])) > 0) inside = 0;
         nearest d = core_triangle(&k, &t);
         if (best.squared < 0 || d.squared < best.squared) best = d;
     }
+    if (inside) best.squared = 0;
     real distance = root(best.squared);
     out->start_gap = (double)(distance - q->radius);
     *gap = best.gap;
@@ -127,10 +132,13 @@ static real solve_motion(const query *q, const mesh *m, answer *out)
     return first;
 }
 
+static const char *family_name;
+static int case_number;
+
 static void fail(const char *what, const query *q, double a, double b)
 {
-    fprintf(stderr, "make_truth: the two methods differ: %s: %a against %a (position %a %a %a)\n", what, a, b,
-            q->position.x, q->position.y, q->position.z);
+    fprintf(stderr, "make_truth: %s, case %d: the two methods differ: %s: %a against %a (position %a %a %a)\n",
+            family_name, case_number, what, a, b, q->position.x, q->position.y, q->position.z);
     exit(1);
 }
 
@@ -195,6 +203,8 @@ static FILE *open_file(const char *folder, const char *name)
     char path[1024];
     FILE *out;
 
+    family_name = name;
+    case_number = 0;
     snprintf(path, sizeof path, "%s/%s.txt", folder, name);
     out = fopen(path, "w");
     if (!out) {
@@ -207,7 +217,8 @@ static FILE *open_file(const char *folder, const char *name)
         "#   gcc -std=gnu11 -O2 -ffp-contract=off tests/accuracy/make_truth.c -lm -o make_truth; ./make_truth "
         "tests/accuracy/truth\n"
         "# m: vertices triangles, then x y z of each vertex, then three indices of each triangle (two-sided body)\n"
-        "# c: a case on the last mesh: shape radius half_height half_x half_y, position, up, orientation x y z w, "
+        "# s: a convex solid, as m; b: half extents, centre, orientation x y z w of a box, then as s\n"
+        "# c: a case on the last of these: shape radius half_height half_x half_y, position, up, orientation x y z w, "
         "motion,\n"
         "#    margin, status (0 free, 1 hit, 2 overlap at the start), signed start distance, start normal, fraction,\n"
         "#    smallest distance along the whole motion minus margin (upper bound if nothing is in reach), normal at "
@@ -229,7 +240,13 @@ static void put_normal(FILE *out, dvec v)
 
 static void put_mesh(FILE *out, const mesh *m)
 {
-    fprintf(out, "m %d %d", m->vertex_count, m->triangle_count);
+    fprintf(out, "%s", m->is_box ? "b" : m->solid ? "s" : "m");
+    if (m->is_box) {
+        put(out, (dvec){m->half[0], m->half[1], m->half[2]});
+        put(out, m->centre);
+        fprintf(out, " %a %a %a %a", m->quat[0], m->quat[1], m->quat[2], m->quat[3]);
+    }
+    fprintf(out, " %d %d", m->vertex_count, m->triangle_count);
     for (int i = 0; i < m->vertex_count; i++)
         put(out, m->vertices[i]);
     for (int i = 0; i < m->triangle_count; i++)
@@ -249,6 +266,7 @@ static void put_case(FILE *out, const query *q, const answer *a)
     fprintf(out, " %a %a", a->fraction, a->min_gap);
     put_normal(out, a->normal);
     fputc('\n', out);
+    case_number++;
 }
 
 static void shift(mesh *m, query *q, double offset)
@@ -322,6 +340,48 @@ static int make_mesh_family(const char *folder, const char *name, void (*build)(
     return cases;
 }
 
+/* Four cases on each solid. */
+static const struct solids {
+    family family;
+    int kind;
+} solids[] = {
+    {{"convex_hull", 24, MIXED, DYADIC, 2, 2, 0, 0, 2}, SOLID_HULL},
+    {{"convex_exact", 12, MIXED, EXACT, 2, 2, 0, 0, 4}, SOLID_HULL},
+    {{"convex_box", 24, MIXED, DYADIC, 2, 2, 0, 0, 2}, SOLID_BOX},
+    {{"convex_sharp", 16, MIXED, FINE, 2, 2, 0, 0, 2}, SOLID_SHARP},
+    {{"convex_grazing", 16, GRAZING, FINE, 2, 2, 0, 0, 2}, SOLID_HULL},
+    {{"convex_touching", 16, TOUCHING, DYADIC, 2, 2, 0, 0, 1}, SOLID_BOX},
+    {{"convex_overlap", 16, OVERLAPPING, DYADIC, 2, 2, 0, 0, 1}, SOLID_HULL},
+};
+
+static int make_solid_family(const char *folder, const struct solids *s)
+{
+    const family *f = &s->family;
+    FILE *out = open_file(folder, f->name);
+    int cases = 0;
+
+    for (int kind = 0; kind < KINDS; kind++) {
+        mesh m;
+        if (kind >= BOX && f->placement == OVERLAPPING) continue;
+        for (int i = 0, tries = 0; i < f->per_kind; tries++) {
+            query q;
+            answer a;
+            if (i % 4 == 0 && (i == 0 || tries > 0)) make_solid(&m, s->kind, f->size_max, f->rounding, i / 4);
+            make_shape(&q, kind, f->rounding);
+            if (f->placement == TOUCHING && q.margin == 0) q.margin = 0x1p-7;
+            place(&q, &m, f, i);
+            if (!solve(&q, &m, &a) ||
+                (a.start_gap <= q.margin) != (f->placement == TOUCHING || f->placement == OVERLAPPING))
+                continue;
+            if (i % 4 == 0) put_mesh(out, &m);
+            put_case(out, &q, &a);
+            cases++, i++, tries = 0;
+        }
+    }
+    fclose(out);
+    return cases;
+}
+
 int main(int count, char **arguments)
 {
     const char *folder = count > 1 ? arguments[1] : ".";
@@ -340,6 +400,12 @@ int main(int count, char **arguments)
     cases += make_mesh_family(folder, "mesh_corner", corner, 16);
     cases += make_mesh_family(folder, "mesh_fan", fan, 12);
     cases += make_mesh_family(folder, "mesh_soup", soup, 12);
+    for (size_t i = 0; i < sizeof solids / sizeof *solids; i++) {
+        seed = 2000 + i;
+        cases += make_solid_family(folder, &solids[i]);
+        printf("%-15s %d\n", solids[i].family.name, cases);
+        fflush(stdout);
+    }
     printf("%d cases, both methods agree\n", cases);
     return 0;
 }

@@ -21,6 +21,10 @@ typedef struct {
     dvec vertices[MAX_VERTICES];
     int triangles[MAX_TRIANGLES][3];
     int vertex_count, triangle_count;
+    int solid; /* 1: the triangles bound a convex solid, counter-clockwise seen from outside */
+    int is_box;
+    double half[3], quat[4]; /* of a box, about centre */
+    dvec centre;
 } mesh;
 
 typedef struct {
