@@ -107,7 +107,7 @@ static int bends(const score_scene *scene, const tahr_sweep *query, const triang
 typedef struct {
     real time, smallest; /* smallest: squared, of what can be met; or < 0 */
     vec gap;
-    int doubtful;
+    real doubt; /* the earliest time at which something may block or not */
 } entry;
 
 static void meet(entry *e, real time, vec gap)
@@ -137,7 +137,9 @@ static void enter_triangle(const score_scene *scene, const tahr_sweep *query, co
         found = at_time(k, t, motion, time);
     }
     if (resting && least <= rho * rho && !is_nearest_around(scene, query, time, &found)) {
-        e->doubtful |= bends(scene, query, t, time, minimum);
+        if (time < e->doubt && bends(scene, query, t, time, minimum)) {
+            e->doubt = time;
+        }
         return;
     }
     if (e->smallest < 0 || least < e->smallest) {
@@ -152,7 +154,7 @@ static entry enter(const score_scene *scene, const tahr_sweep *query, int restin
 {
     vec motion = motion_of(query);
     double way = sqrt((double)vdot(motion, motion)), rho = query->shape.radius + query->margin;
-    entry e = {2, -1, {0, 0, 0}, 0};
+    entry e = {2, -1, {0, 0, 0}, 2};
 
     for (uint32_t b = 0; b < scene->body_count; b++) {
         for (uint32_t i = 0; i < scene->bodies[b].triangle_count; i++) {
@@ -178,7 +180,7 @@ static int solve_motion(const score_scene *scene, const tahr_sweep *query, score
 {
     entry e = enter(scene, query, out->start_gap <= query->margin);
 
-    if (e.doubtful) {
+    if (e.doubt < e.time) {
         return 0;
     }
     if (e.smallest >= 0) {
