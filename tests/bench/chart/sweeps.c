@@ -10,6 +10,7 @@
 
 #include "run.h"
 #include "subject.h"
+#include "sweeps.h"
 #include "truth_set.h"
 
 enum { ASKINGS = 16 }; /* per reading of the clock, which costs as much as a fast sweep */
@@ -64,15 +65,14 @@ static int ask_all(const chart_run *run, const chart_subject *subject, const cha
     const tahr_backend *backend = subject->get();
     void *self = NULL;
     for (uint32_t i = 0; i < chart_truth_count(set); i++) {
-        tahr_body_desc body;
         int same;
-        chart_truth_body(set, i, &body, &same);
+        const tahr_body_desc *body = chart_truth_body(set, i, &same);
         if (!same) {
             if (self) backend->close(self);
             self = NULL;
             free(t->context.cache);
             t->context.cache = NULL;
-            if (chart_subject_open(subject, &body, 1, &self) < 0) return 0;
+            if (chart_subject_open(subject, body, 1, &self) < 0) return 0;
             if (!chart_subject_cache(subject, self, &t->context)) return 0;
         }
         ask(run, backend, self, set, i, t);
@@ -136,9 +136,8 @@ static void measure(chart_run *run, const chart_subject *subject, const char *sc
 void chart_sweeps(chart_run *run)
 {
     for (int s = 0; s < CHART_TRUTH_SETS; s++) {
-        char why[256];
-        chart_truth_set *set = run->counting ? NULL : chart_truth_load(s, run->budget->sweep_stride, why);
-        if (!set && !run->counting) chart_run_fail(run, chart_truth_name(s), why);
+        chart_truth_set *set = run->counting ? NULL : chart_truth_load(s, run->budget->sweep_stride);
+        if (!set && !run->counting) chart_run_fail(run, chart_truth_name(s), "out of memory");
         const chart_subject *subject;
         for (uint32_t i = 0; (subject = chart_subject_at(i)) != NULL; i++) {
             if (!subject->planar && chart_run_next(run, chart_truth_name(s), subject->setting) && set) {
@@ -147,4 +146,5 @@ void chart_sweeps(chart_run *run)
         }
         chart_truth_free(set);
     }
+    chart_plane_sweeps(run);
 }

@@ -1,29 +1,26 @@
 /* SPDX-License-Identifier: MIT
- * truth_set.c: loads the stored truth and judges answers by the long double distance of tests/accuracy. */
+ * truth_set.c: keeps the stored truth in memory, and judges answers by the score of tests/accuracy. */
 #include "truth_set.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "../../accuracy/truth_file.h"
 
-#ifndef TAHR_SOURCE_DIR
-#define TAHR_SOURCE_DIR "."
-#endif
-
-enum { MAX_FAMILIES = 20, LINE = 65536 };
+enum { MAX_FAMILIES = 24 };
 enum { ROUND, BOXES };
 
 /* degrees: what the design allows the weakest backend (the strongest: 0.1) */
 static const double WORST_NORMAL = 2;
 
 struct chart_truth_set {
-    truth_mesh *meshes;
+    truth_body **bodies; /* one by one: they point into themselves */
     truth_case *cases;
-    uint32_t *mesh_of;
-    uint32_t mesh_count, count, capacity;
+    uint32_t *body_of;
+    uint32_t body_count, count, capacity;
+    uint32_t stride, seen;
+    int shapes, failed;
 };
 
 static const struct {
@@ -33,11 +30,15 @@ static const struct {
 } SETS[CHART_TRUTH_SETS] = {
     {"triangles", ROUND, {"generic", "dyadic", "lattice", "feature", "grazing", "long", "overlap", "touching"}},
     {"meshes", ROUND, {"mesh_flat", "mesh_hills", "mesh_stairs", "mesh_corner", "mesh_fan", "mesh_soup"}},
-    {"hard", ROUND, {"sliver", "tiny", "huge", "far_1e3", "far_1e6"}},
+    {"convex",
+     ROUND,
+     {"convex_hull", "convex_box", "convex_exact", "convex_grazing", "convex_touching", "convex_overlap"}},
+    {"hard", ROUND, {"sliver", "tiny", "huge", "far_1e3", "far_1e6", "convex_sharp"}},
     {"boxes",
      BOXES,
      {"generic", "dyadic", "lattice", "feature", "grazing", "long", "touching", "mesh_flat", "mesh_hills",
-      "mesh_stairs", "mesh_corner", "mesh_fan", "mesh_soup"}},
+      "mesh_stairs", "mesh_corner", "mesh_fan", "mesh_soup", "convex_hull", "convex_box", "convex_exact",
+      "convex_grazing", "convex_touching"}},
 };
 
 const char *chart_truth_name(int set)
@@ -45,79 +46,73 @@ const char *chart_truth_name(int set)
     return SETS[set].name;
 }
 
-/* Room for one more mesh and one more case. */
+/* Room for one more body and one more case. */
 static int grow(chart_truth_set *s)
 {
-    if (s->count < s->capacity && s->mesh_count < s->capacity) return 1;
+    if (s->count < s->capacity && s->body_count < s->capacity) return 1;
     uint32_t capacity = s->capacity ? 2 * s->capacity : 256;
-    truth_mesh *meshes = realloc(s->meshes, capacity * sizeof *meshes);
-    s->meshes = meshes ? meshes : s->meshes;
+    truth_body **bodies = realloc(s->bodies, capacity * sizeof *bodies);
+    s->bodies = bodies ? bodies : s->bodies;
     truth_case *cases = realloc(s->cases, capacity * sizeof *cases);
     s->cases = cases ? cases : s->cases;
-    uint32_t *mesh_of = realloc(s->mesh_of, capacity * sizeof *mesh_of);
-    s->mesh_of = mesh_of ? mesh_of : s->mesh_of;
-    if (!meshes || !cases || !mesh_of) return 0;
+    uint32_t *body_of = realloc(s->body_of, capacity * sizeof *body_of);
+    s->body_of = body_of ? body_of : s->body_of;
+    if (!bodies || !cases || !body_of) return 0;
     s->capacity = capacity;
     return 1;
 }
 
-/* What of a family is taken: of one kind of shape every stride-th case. */
-typedef struct part {
-    const char *family;
-    int shapes;
-    uint32_t stride;
-} part;
-
-static int read_family(chart_truth_set *s, const part *p, char *why)
+static truth_body *copy_of(const truth_body *body)
 {
-    static char line[LINE];
-    char path[1024];
-    uint32_t seen = 0;
-    snprintf(path, sizeof path, "%s/tests/accuracy/truth/%s.txt", TAHR_SOURCE_DIR, p->family);
-    FILE *file = fopen(path, "r");
-    if (!file) {
-        snprintf(why, 256, "tests/accuracy/truth/%s.txt cannot be read", p->family);
-        return 0;
-    }
-    int ok = 1;
-    for (int number = 1; ok && fgets(line, sizeof line, file); number++) {
-        ok = grow(s);
-        if (!ok) {
-            snprintf(why, 256, "out of memory");
-        } else if (line[0] == 'm') {
-            truth_read_mesh(line + 1, &s->meshes[s->mesh_count++]);
-        } else if (line[0] == 'c') {
-            truth_case *c = &s->cases[s->count];
-            truth_read_case(line + 1, number, c);
-            if ((c->query.shape.type == TAHR_SHAPE_BOX) != (p->shapes == BOXES) || seen++ % p->stride) continue;
-            s->mesh_of[s->count++] = s->mesh_count - 1;
-        }
-    }
-    fclose(file);
-    return ok;
+    truth_body *copy = malloc(sizeof *copy);
+    if (!copy) return NULL;
+    *copy = *body;
+    copy->judged.vertices = copy->vertices;
+    copy->judged.indices = copy->indices;
+    if (copy->desc.vertices) copy->desc.vertices = copy->vertices;
+    if (copy->desc.indices) copy->desc.indices = copy->indices;
+    return copy;
 }
 
-chart_truth_set *chart_truth_load(int set, uint32_t stride, char *why)
+static void keep(void *user, const truth_body *body, int is_new, const truth_case *c)
+{
+    chart_truth_set *s = user;
+    s->failed = s->failed || !grow(s);
+    if (s->failed) return;
+    if (is_new || s->body_count == 0) {
+        s->bodies[s->body_count] = copy_of(body);
+        s->failed = s->bodies[s->body_count] == NULL;
+        if (s->failed) return;
+        s->body_count++;
+    }
+    if ((c->query.shape.type == TAHR_SHAPE_BOX) != (s->shapes == BOXES) || s->seen++ % s->stride) return;
+    s->cases[s->count] = *c;
+    s->body_of[s->count++] = s->body_count - 1;
+}
+
+chart_truth_set *chart_truth_load(int set, uint32_t stride)
 {
     chart_truth_set *s = calloc(1, sizeof *s);
-    int ok = s != NULL;
-    if (!ok) snprintf(why, 256, "out of memory");
-    for (int i = 0; ok && i < MAX_FAMILIES && SETS[set].families[i]; i++) {
-        ok = read_family(s, &(part){SETS[set].families[i], SETS[set].shapes, stride}, why);
+    if (!s) return NULL;
+    s->stride = stride;
+    s->shapes = SETS[set].shapes;
+    for (int i = 0; i < MAX_FAMILIES && SETS[set].families[i]; i++) {
+        truth_each(SETS[set].families[i], keep, s);
     }
-    if (!ok) {
-        chart_truth_free(s);
-        return NULL;
-    }
-    return s;
+    if (!s->failed) return s;
+    chart_truth_free(s);
+    return NULL;
 }
 
 void chart_truth_free(chart_truth_set *s)
 {
     if (!s) return;
-    free(s->meshes);
+    for (uint32_t i = 0; i < s->body_count; i++) {
+        free(s->bodies[i]);
+    }
+    free(s->bodies);
     free(s->cases);
-    free(s->mesh_of);
+    free(s->body_of);
     free(s);
 }
 
@@ -131,16 +126,10 @@ const tahr_sweep *chart_truth_sweep(const chart_truth_set *s, uint32_t i)
     return &s->cases[i].query;
 }
 
-void chart_truth_body(const chart_truth_set *s, uint32_t i, tahr_body_desc *body, int *same)
+const tahr_body_desc *chart_truth_body(const chart_truth_set *s, uint32_t i, int *same)
 {
-    const truth_mesh *mesh = &s->meshes[s->mesh_of[i]];
-    tahr_body_desc_init(body, sizeof *body, TAHR_BODY_MESH);
-    body->flags = TAHR_BODY_TWO_SIDED;
-    body->vertices = mesh->vertices;
-    body->indices = mesh->indices;
-    body->vertex_count = mesh->vertex_count;
-    body->triangle_count = mesh->triangle_count;
-    *same = i > 0 && s->mesh_of[i] == s->mesh_of[i - 1];
+    *same = i > 0 && s->body_of[i] == s->body_of[i - 1];
+    return &s->bodies[s->body_of[i]]->desc;
 }
 
 static double tolerance(const truth_case *c)
@@ -150,39 +139,24 @@ static double tolerance(const truth_case *c)
     return way <= 1 ? 1e-6 : way > 100 ? 1e-4 : 1e-6 * way;
 }
 
-/* How far off the margin the answer stops the shape. What began nearer than its margin, and approaches, stops there. */
-static double gap_error(const truth_mesh *mesh, const truth_case *c, const tahr_hit *hit, double *angle)
+static chart_verdict failed(const score_answer *a, const truth_case *c, uint32_t count)
 {
-    nearest distances[TRUTH_MAX_TRIANGLES];
-    double wanted = c->start_gap < c->query.margin ? c->start_gap : c->query.margin;
-    double gap = (double)truth_distances(mesh, &c->query, hit->fraction, distances) - c->query.shape.radius;
-    *angle = truth_normal_error(mesh, distances, 2 * tolerance(c), hit->normal);
-    if (c->status == TRUTH_OVERLAP) return fabs(-hit->depth - c->start_gap);
-    return fabs(gap - wanted);
+    switch (a->failure) {
+    case SCORE_MISS: return a->beyond > tolerance(c) ? CHART_MISSED : CHART_FREE;
+    case SCORE_FALSE_HIT: return a->beyond > tolerance(c) ? CHART_FALSE_HIT : CHART_FREE;
+    case SCORE_START: return a->beyond <= tolerance(c) ? CHART_FREE : count ? CHART_FALSE_HIT : CHART_MISSED;
+    default: return CHART_GAVE_UP;
+    }
 }
 
 chart_verdict chart_truth_judge(const chart_truth_set *s, uint32_t i, tahr_status status, const tahr_hit *hit,
                                 uint32_t count, double *error)
 {
     const truth_case *c = &s->cases[i];
-    double tau = tolerance(c);
-    *error = NAN;
-    if (status < 0 || (count > 0 && (hit->unknown || !(hit->fraction >= 0 && hit->fraction <= 1)))) {
-        return CHART_GAVE_UP;
-    }
-    if (count == 0) {
-        int missed = c->status == TRUTH_OVERLAP ? c->start_gap < -tau : c->status == TRUTH_HIT && c->min_gap < -tau;
-        return missed ? CHART_MISSED : CHART_FREE;
-    }
-    if (c->status == TRUTH_FREE) {
-        return c->start_gap <= c->query.margin || c->min_gap > tau ? CHART_FALSE_HIT : CHART_FREE;
-    }
-    if (hit->start_overlap != (c->status == TRUTH_OVERLAP)) {
-        if (fabs(c->start_gap) <= tau) return CHART_FREE;
-        return hit->start_overlap ? CHART_FALSE_HIT : CHART_MISSED;
-    }
-    double angle;
-    *error = gap_error(&s->meshes[s->mesh_of[i]], c, hit, &angle);
-    if (!isfinite(*error)) return CHART_GAVE_UP;
-    return angle <= WORST_NORMAL ? CHART_HIT : CHART_WRONG_NORMAL;
+    const score_scene scene = {&s->bodies[s->body_of[i]]->judged, 1};
+    score_answer a = score_sweep(&scene, &c->query, &c->truth, status, hit, count, 2 * tolerance(c));
+    *error = fabs(a.gap_error);
+    if (a.failure != SCORE_FINE) return failed(&a, c, count);
+    if (!a.measured) return CHART_FREE;
+    return a.normal_error <= WORST_NORMAL ? CHART_HIT : CHART_WRONG_NORMAL;
 }

@@ -5,7 +5,7 @@
 
 #include <tahr/tahr.h>
 
-enum { CHART_TRUTH_SETS = 4 };
+enum { CHART_TRUTH_SETS = 5 };
 
 typedef struct chart_truth_set chart_truth_set;
 
@@ -15,21 +15,21 @@ typedef enum chart_verdict {
     CHART_HIT,
     CHART_MISSED,
     CHART_FALSE_HIT,
-    CHART_WRONG_NORMAL, /* more than 2 degrees off every direction that is closest there */
+    CHART_WRONG_NORMAL, /* more than 2 degrees outside of all that are right there */
     CHART_GAVE_UP       /* unknown, an error, a number that is none */
 } chart_verdict;
 
-/* Reads every stride-th case of a group: capsules and spheres against "triangles", "meshes" and what is "hard", or
- * "boxes". Returns NULL and says why (capacity 256). */
-chart_truth_set *chart_truth_load(int set, uint32_t stride, char *why);
+/* Reads every stride-th case of a group: capsules and spheres against "triangles", "meshes", "convex" bodies and what
+ * is "hard", or "boxes" against all of them. NULL: out of memory. */
+chart_truth_set *chart_truth_load(int set, uint32_t stride);
 void chart_truth_free(chart_truth_set *set);
 
 const char *chart_truth_name(int set);
 uint32_t chart_truth_count(const chart_truth_set *set);
 const tahr_sweep *chart_truth_sweep(const chart_truth_set *set, uint32_t i);
 
-/* The mesh of a case as a body that borrows its arrays; same is 1 where it is that of the case before. */
-void chart_truth_body(const chart_truth_set *set, uint32_t i, tahr_body_desc *body, int *same);
+/* The body of a case; same is 1 where it is that of the case before. */
+const tahr_body_desc *chart_truth_body(const chart_truth_set *set, uint32_t i, int *same);
 
 /* Judges an answer backward: error, m, is how far from the margin (or, overlapping from the start, from the depth) the
  * shape is where it was stopped. A miss or a false hit counts beyond 1 um of distance, for ways beyond a metre a
