@@ -27,7 +27,7 @@ TITLES = {
 
 # What a table shows of a row, and its name and unit there.
 COLUMNS = [
-    ("setting", "setting"), ("role", "there as"), ("samples", "samples"), ("failed", "failed"), ("why", "how"),
+    ("curve", "curve"), ("setting", "setting"), ("value", "value"), ("role", "there as"), ("reference", "judged by"), ("samples", "samples"), ("failed", "failed"), ("why", "how"),
     ("error_p50_m", "median error, m"), ("error_p99_m", "p99, m"), ("error_max_m", "worst, m"),
     ("penetration_m", "deepest, m"), ("ns_p50", "median, ns"), ("ns_p99", "p99, ns"), ("ns_mean", "mean, ns"),
     ("ns_per_second", "per s, ns"), ("queries", "queries"), ("tests", "tests"), ("iterations", "iterations"),

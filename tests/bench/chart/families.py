@@ -76,6 +76,12 @@ def describe(scene: str) -> str:
     return SCENES.get(scene, scene)
 
 
+def describe_walk(scene: str) -> str:
+    """"walking in dungeon", in words."""
+    what, _, level = scene.partition(" in ")
+    return f"{what} on {describe(level)}"
+
+
 def _errors_and_counts(rows: Sequence[Row], work: Scale, count: Scale) -> Figure:
     """Work over the median error, over the 99th percentile, and the count that no machine changes."""
     counted = any(count.of(r) == count.of(r) for r in rows)
@@ -161,21 +167,33 @@ def movement_charts(rows: Sequence[Row]) -> list[Chart]:
     return charts
 
 
+def _ratios(names: Sequence[str], on: dict[str, Row], off: dict[str, Row], what: str) -> list[float]:
+    """Without it over with it; NaN where there is nothing to divide by."""
+    pairs = [(getattr(off[n], what), getattr(on[n], what)) for n in names]
+    return [a / b if b > 0 and a > 0 else float("nan") for a, b in pairs]
+
+
 def shortcut_charts(rows: Sequence[Row]) -> list[Chart]:
     charts = []
     for scene in scenes_of(rows):
         on = {r.curve: r for r in rows if r.scene == scene and r.setting == "on"}
         off = {r.curve: r for r in rows if r.scene == scene and r.setting == "off"}
         names = [name for name in on if name in off]
-        figure, (axes,) = panels(1, width=8, height=1.1 + 0.3 * len(names), left=2)
-        dots(axes, names, [("median", [off[n].ns_p50 / on[n].ns_p50 for n in names]),
-             ("99th percentile", [off[n].ns_p99 / on[n].ns_p99 for n in names]),
-             ("mean", [off[n].ns_mean / on[n].ns_mean for n in names])], Scale(lambda r: r.ns_p50, "time of a step without it / with it"))
-        axes.axvline(1, color="#444444", linewidth=0.8)
-        caption = (f"What each shortcut buys, {scene}: the time of a step with it switched off over that with it on, "
-                   "measured in turns. Right of 1 it pays. The table says whether the characters ended at the same "
-                   "bits.")
-        charts.append(Chart(f"shortcuts-{scene.replace(' ', '-')}", f"Shortcuts: {scene}", caption, figure,
+        figure, (times, counts) = panels(2, width=6.6, height=1.1 + 0.3 * len(names), left=2.6)
+        figure.subplots_adjust(wspace=0.12)
+        dots(times, names, [("median", _ratios(names, on, off, "ns_p50")),
+             ("99th percentile", _ratios(names, on, off, "ns_p99")), ("mean", _ratios(names, on, off, "ns_mean"))],
+             Scale(lambda r: r.ns_p50, "time of a step without it / with it"))
+        dots(counts, [""] * len(names), [("queries", _ratios(names, on, off, "queries")),
+             ("narrow tests", _ratios(names, on, off, "tests")),
+             ("iterations", _ratios(names, on, off, "iterations"))],
+             Scale(lambda r: r.queries, "counts of a step without it / with it"))
+        for axes in (times, counts):
+            axes.axvline(1, color="#444444", linewidth=0.8, zorder=1)
+        caption = (f"What each shortcut buys, {describe_walk(scene)}: the time of a step, and what it asks and tests, with "
+                   "the shortcut switched off over that with it on, measured in turns. Right of 1 it pays; no dot: with "
+                   "it there is nothing left to ask. The table says whether the characters ended at the same bits.")
+        charts.append(Chart(f"shortcuts-{scene.replace(' ', '-')}", f"Shortcuts: {describe_walk(scene)}", caption, figure,
                             [r for r in rows if r.scene == scene]))
     return charts
 
@@ -185,8 +203,8 @@ def crowd_charts(rows: Sequence[Row]) -> list[Chart]:
     for scene in scenes_of(rows):
         own = [r for r in rows if r.scene == scene]
         figure, (axes,) = panels(1, width=8)
-        over_size(axes, own, [("", Scale(lambda r: r.ns_mean, "time per character and tick", "s", 1e-9))], "characters")
-        caption = (f"A tick of a crowd on {describe(scene)} at 60 Hz, per character, by the wall clock. More threads "
+        over_size(axes, own, [("", Scale(lambda r: r.ns_p50, "time per character and tick", "s", 1e-9))], "characters")
+        caption = (f"A tick of a crowd on {describe(scene)} at 60 Hz, per character, by the wall clock, median over ticks. More threads "
                    "pay where there are cores for them; caches of many characters do not fit into the processor's.")
         charts.append(Chart(f"crowds-{scene}", f"Crowds on {describe(scene)}", caption, figure, own))
     return charts

@@ -41,7 +41,7 @@ def _ticks(axis: Axis, decades: float, scale: Scale) -> None:
     prefixes = EngFormatter(unit=scale.unit, places=None)
     plain = not scale.unit
     axis.set_major_formatter(
-        FuncFormatter(lambda v, _: f"{v:g}" if plain and 1e-3 < v < 1e5 else prefixes(v * scale.factor))
+        FuncFormatter(lambda v, _: f"{v:g}" if plain and 1e-3 < v < 9999 else prefixes(v * scale.factor))
     )
 
 
@@ -116,14 +116,25 @@ def scatter(axes: Axes, rows: Sequence[Row], x: Scale, y: Scale, with_front: boo
         own = [p for p in points if p[2].curve == curve]
         good = [p for p in own if p[2].failed == 0]
         bad = [p for p in own if p[2].failed > 0]
-        line = [(p[0], p[1]) for p in good if p[2].value == p[2].value]
-        axes.plot([p[0] for p in line], [p[1] for p in line], color=colour, zorder=2)
+        for line in _pieces(own):
+            axes.plot([p[0] for p in line], [p[1] for p in line], color=colour, zorder=2)
+            lines.append(line)
         axes.plot([p[0] for p in good], [p[1] for p in good], color=colour, marker=marker, linestyle="", zorder=3,
                   markeredgecolor="white", markeredgewidth=0.4)
         axes.plot([p[0] for p in bad], [p[1] for p in bad], color=FAILED, marker="x", linestyle="", zorder=3)
         names += _names(axes, own, colour)
-        lines.append(line)
     place(axes, names, [(p[0], p[1]) for p in points], lines)
+
+
+def _pieces(own: Sequence[Spot]) -> list[list[tuple[float, float]]]:
+    """A knob's curve, cut where it fails."""
+    pieces: list[list[tuple[float, float]]] = [[]]
+    for x, y, row in own:
+        if row.failed or row.value != row.value:
+            pieces.append([])
+        else:
+            pieces[-1].append((x, y))
+    return [piece for piece in pieces if len(piece) > 1]
 
 
 def _heaps(axes: Axes, own: Sequence[Spot]) -> list[list[Spot]]:

@@ -13,21 +13,21 @@ from panel import Scale, frame
 from rows import ChartError
 from style import FAILED, look, panels, save
 
-TEXTS = ("course", "method", "version", "settings", "reason")
-NUMBERS = ("steps", "ns_median", "ns_p99", "ns_cpu", "queries", "tunnelled", "embedded", "invalid", "left", "stuck",
+TEXTS = ("course", "method", "version", "settings", "left_out")
+NUMBERS = ("steps", "ns_median", "ns_p99", "ns_cpu_mean", "queries", "tunnelled", "embedded", "invalid", "left", "stuck",
            "deepest", "clearance", "progress", "flips")
 CLEARER = 1.05  # of a time or a share: what is nearer than that is as good
 
 
 @dataclass(frozen=True)
 class Peer:
-    """One method on one course. reason: why it was left out, or empty. Numbers that are not there are NaN."""
+    """One method on one course. left_out: why it was not measured, or empty. Numbers that are not there are NaN."""
 
     course: str
     method: str
     version: str
     settings: str
-    reason: str
+    left_out: str
     numbers: dict[str, float]
 
     def __getitem__(self, name: str) -> float:
@@ -40,7 +40,7 @@ class Peer:
 
     @property
     def own(self) -> bool:
-        return self.method.startswith("tahr") or self.method.startswith("native")
+        return self.method.startswith("tahr")
 
 
 def read_peers(path: Path) -> list[Peer]:
@@ -74,7 +74,7 @@ NS_STEP = Scale(lambda p: p["ns_median"], "median time of a step", "s", 1e-9)
 WEIGHED = (
     ("ns_median", "median time of a step", "ns", False),
     ("ns_p99", "99th percentile of the time of a step", "ns", False),
-    ("ns_cpu", "mean time of a step", "ns", False),
+    ("ns_cpu_mean", "mean time of a step", "ns", False),
     ("deepest", "deepest penetration", "m", False),
     ("failures", "steps that tunnelled, ended embedded or at no number", "", False),
     ("stuck", "stretches of 5 s on one spot", "", False),
@@ -116,7 +116,7 @@ def worse(peers: Sequence[Peer]) -> list[str]:
     """Where another controller beats the best of Tahr's, in words: computed, not chosen."""
     said = []
     for course in courses_of(peers):
-        members = [p for p in peers if p.course == course and not p.reason]
+        members = [p for p in peers if p.course == course and not p.left_out]
         for name, words, unit, more in WEIGHED:
             own = [_value(p, name) for p in members if p.own and not math.isnan(_value(p, name))]
             if not own:
@@ -135,14 +135,14 @@ def worse(peers: Sequence[Peer]) -> list[str]:
 def _table(peers: Sequence[Peer]) -> page.Table:
     columns = ["course", "method", "median, ns", "p99, ns", "mean, ns", "queries", "tunnelled", "embedded", "invalid",
                "left", "stuck", "deepest, m", "clearance, m", "progress", "flips / s"]
-    names = ("ns_median", "ns_p99", "ns_cpu", "queries", "tunnelled", "embedded", "invalid", "left", "stuck", "deepest",
+    names = ("ns_median", "ns_p99", "ns_cpu_mean", "queries", "tunnelled", "embedded", "invalid", "left", "stuck", "deepest",
              "clearance", "progress", "flips")
-    return page.Table(columns, [[p.course, p.method] + [p[n] for n in names] for p in peers if not p.reason])
+    return page.Table(columns, [[p.course, p.method] + [p[n] for n in names] for p in peers if not p.left_out])
 
 
 def section(peers: Sequence[Peer], out: Path) -> str:
     """HTML: the picture of all courses, the table, what was chosen, who was left out, and what Tahr does worse."""
-    measured = [p for p in peers if not p.reason]
+    measured = [p for p in peers if not p.left_out]
     methods = list(dict.fromkeys(p.method for p in measured))
     courses = courses_of(measured)
     figure, axes = _grid(courses)
@@ -156,8 +156,8 @@ def section(peers: Sequence[Peer], out: Path) -> str:
     chosen = dict.fromkeys((p.method, p.version, p.settings) for p in measured)
     parts.append("<h3>What was chosen for each</h3>" + page.table(
         page.Table(["method", "version", "settings, and who recommends them"], [list(c) for c in chosen])))
-    left_out = list(dict.fromkeys(f"{p.method}{' on ' + p.course if p.course else ''}: {p.reason}"
-                                  for p in peers if p.reason))
+    left_out = list(dict.fromkeys(f"{p.method}{' on ' + p.course if p.course else ''}: {p.left_out}"
+                                  for p in peers if p.left_out))
     if left_out:
         parts.append("<h3>Left out</h3>" + page.bullets(left_out))
     said = worse(peers)
