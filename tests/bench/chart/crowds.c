@@ -7,143 +7,15 @@
 #include <string.h>
 #include <unistd.h>
 
-#include <tahr/crowd.h>
-#ifdef TAHR_HAVE_THREADS
-#include <tahr/threads.h>
-#endif
-
 #include "run.h"
-#include "scene_level.h"
-#include "setting.h"
+#include "throng.h"
 
 enum { WARM_UP_TICKS = 10, MIN_TICKS = 5, MAX_TICKS = 2000 };
 
 static const uint32_t COUNTS[] = {1, 10, 100, 1000, 10000, 100000};
 enum { COUNT_SIZES = sizeof COUNTS / sizeof COUNTS[0] };
 
-static const double DT = 1.0 / 60;
-static const double APART = 2.0;      /* m between neighbours at the start: four shoulders */
 static const double TICK_STEPS = 2e5; /* steps of all ticks of one measurement */
-static const uint32_t CACHE = 32;     /* triangles: a default cache of 36 KB for each of 100 000 would be 3.6 GB */
-static const double GROUND = 2.0;     /* m, cells of the hills: 20 triangles fall into a cached box */
-
-/* Everybody, and what steps them: movers or a crowd. */
-typedef struct throng {
-    uint32_t count;
-    tahr_world *world;
-    tahr_mover **movers;
-    tahr_crowd *crowd;
-    void *threads; /* of libtahr_threads, or NULL */
-    tahr_state *states;
-    tahr_input *inputs;
-    scene_wanderer *wanderers;
-} throng;
-
-static void throng_free(throng *t)
-{
-    for (uint32_t i = 0; t->movers && i < t->count; i++) {
-        tahr_mover_destroy(t->movers[i]);
-    }
-    tahr_crowd_destroy(t->crowd);
-#ifdef TAHR_HAVE_THREADS
-    tahr_threads_destroy(t->threads);
-#endif
-    free(t->movers);
-    free(t->states);
-    free(t->inputs);
-    free(t->wanderers);
-    tahr_world_close(t->world);
-}
-
-/* In a square, on the ground: a ray finds it. */
-static int stand_up(throng *t, const tahr_config *config)
-{
-    uint32_t side = (uint32_t)ceil(sqrt(t->count));
-    for (uint32_t i = 0; i < t->count; i++) {
-        double x = APART * (i % side - side / 2.0), y = APART * (i / side - side / 2.0);
-        tahr_ray ray = {.origin = {x, y, 100}, .motion = {0, 0, -200}, .mask = ~0u, .ignore_body = TAHR_NO_BODY};
-        tahr_hit hit;
-        uint32_t count = 0;
-        if (tahr_world_ray(t->world, &ray, &hit, &count) < 0 || count == 0) return 0;
-        tahr_vec3 place = {x, y, hit.point.z + config->shape.half_height + 0.2};
-        tahr_state_init(&t->states[i], config, &place);
-        scene_wander_start(&t->wanderers[i], 1, i);
-    }
-    return 1;
-}
-
-static tahr_status make_crowd(throng *t, const tahr_config *config, uint32_t threads)
-{
-    (void)threads; /* without libtahr_threads there is one */
-    tahr_crowd_desc desc;
-    tahr_crowd_desc_init(&desc, sizeof desc);
-    desc.capacity = t->count;
-    desc.configs = config;
-    desc.config_count = 1;
-#ifdef TAHR_HAVE_THREADS
-    tahr_threads *pool = NULL;
-    if (threads > 1) {
-        tahr_status status = tahr_threads_create(NULL, threads, &pool);
-        if (status < 0) return status;
-        desc.run_tasks = tahr_threads_run;
-        desc.run_user = t->threads = pool;
-    }
-#endif
-    return tahr_crowd_create(t->world, &desc, &t->crowd);
-}
-
-/* threads 0: plain movers. */
-static tahr_status make_steppers(throng *t, const tahr_config *config, uint32_t threads)
-{
-    if (threads > 0) return make_crowd(t, config, threads);
-    t->movers = calloc(t->count, sizeof *t->movers);
-    tahr_status status = t->movers ? TAHR_OK : TAHR_E_MEMORY;
-    for (uint32_t i = 0; status >= 0 && i < t->count; i++) {
-        status = tahr_mover_create(t->world, config, &t->movers[i]);
-    }
-    return status;
-}
-
-static tahr_status throng_make(throng *t, const bench_world *level, uint32_t threads)
-{
-    chart_setting setting;
-    chart_setting_default(level, &setting);
-    tahr_native_desc native = {.struct_size = sizeof native, .cache_triangles = CACHE};
-    memcpy(&setting.options, &native, sizeof native);
-    t->states = calloc(t->count, sizeof *t->states);
-    t->inputs = calloc(t->count, sizeof *t->inputs);
-    t->wanderers = calloc(t->count, sizeof *t->wanderers);
-    if (!t->states || !t->inputs || !t->wanderers) return TAHR_E_MEMORY;
-    tahr_status status = chart_setting_open(&setting, level, &t->world);
-    if (status >= 0) status = make_steppers(t, &setting.config, threads);
-    if (status >= 0 && !stand_up(t, &setting.config)) status = TAHR_E_NOT_FOUND;
-    return status;
-}
-
-/* Returns the wall-clock time of the steps alone, or less than 0 where one failed. */
-static double tick(throng *t)
-{
-    tahr_status status = TAHR_OK;
-    for (uint32_t i = 0; i < t->count; i++) {
-        t->inputs[i] = *scene_wander_next(&t->wanderers[i], DT);
-    }
-    double before = chart_monotonic();
-    if (t->crowd) {
-        tahr_crowd_tick one;
-        tahr_crowd_tick_init(&one, sizeof one);
-        one.count = t->count;
-        one.dt = DT;
-        one.inputs = t->inputs;
-        one.states = t->states;
-        status = tahr_crowd_step(t->crowd, &one);
-    } else {
-        for (uint32_t i = 0; i < t->count && status >= 0; i++) {
-            status = tahr_mover_step(t->movers[i], &t->inputs[i], DT, &t->states[i], NULL);
-        }
-    }
-    double seconds = chart_monotonic() - before;
-    return status < 0 ? -1 : seconds;
-}
 
 static int by_value(const void *a, const void *b)
 {
@@ -151,16 +23,16 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static int time_ticks(throng *t, chart_row *row)
+static int time_ticks(chart_throng *t, chart_row *row)
 {
     static double ns[MAX_TICKS];
     uint32_t ticks = (uint32_t)fmin(MAX_TICKS, fmax(MIN_TICKS, TICK_STEPS / t->count));
     double sum = 0;
     for (uint32_t k = 0; k < WARM_UP_TICKS; k++) {
-        if (tick(t) < 0) return 0;
+        if (chart_throng_tick(t) < 0) return 0;
     }
     for (uint32_t k = 0; k < ticks; k++) {
-        double seconds = tick(t);
+        double seconds = chart_throng_tick(t);
         if (seconds < 0) return 0;
         ns[k] = 1e9 * seconds / t->count;
         sum += ns[k];
@@ -179,8 +51,8 @@ static void measure(chart_run *run, const bench_world *level, uint32_t count, ui
 {
     char name[48];
     chart_row row;
-    throng t = {.count = count};
-    tahr_status status = throng_make(&t, level, threads);
+    chart_throng t;
+    tahr_status status = chart_throng_make(&t, &(chart_throng_desc){level, count, threads, 0, 0});
     chart_row_clear(&row);
     snprintf(name, sizeof name, threads ? "crowd; %u thread%s" : "movers; no obstacles", threads,
              threads == 1 ? "" : "s");
@@ -193,23 +65,81 @@ static void measure(chart_run *run, const bench_world *level, uint32_t count, ui
     } else {
         chart_run_fail(run, name, status < 0 ? tahr_status_name(status) : "a step failed");
     }
-    throng_free(&t);
+    chart_throng_free(&t);
 }
 
-static void make_ground(bench_world *level, int hills, uint32_t most)
+/* What a budget of error buys, and what it costs: characters that are alone, each with a budget, beside others that
+ * want the same and are exact. */
+static const double BUDGETS[] = {0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2};
+enum { BUDGET_COUNT = sizeof BUDGETS / sizeof BUDGETS[0], BUDGET_CROWD = 1000, BUDGET_TICKS = 180 };
+
+static double apart(const tahr_state *a, const tahr_state *b)
 {
-    memset(level, 0, sizeof *level);
-    level->name = hills ? "hills" : "plane";
-    level->body_count = 1;
-    if (hills) {
-        int cells = (int)(ceil(sqrt(most)) * APART / GROUND) + 60; /* and 60 m to all sides for who walks on */
-        scene_mesh_field(&level->mesh, cells, cells, GROUND, scene_hills);
-        scene_level_body(&level->mesh, &level->one);
-    } else {
-        tahr_body_desc_init(&level->one, sizeof level->one, TAHR_BODY_BOX);
-        level->one.half_extents = (tahr_vec3){1000, 1000, 1};
-        level->one.pose.position.z = -1;
+    double x = a->position.x - b->position.x, y = a->position.y - b->position.y, z = a->position.z - b->position.z;
+    return sqrt(x * x + y * y + z * z);
+}
+
+static int compare_ticks(chart_throng *cheap, chart_throng *exact, chart_row *row, double *errors)
+{
+    double ns[BUDGET_TICKS], sum = 0;
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < WARM_UP_TICKS + BUDGET_TICKS; k++) {
+        double seconds = chart_throng_tick(cheap);
+        if (seconds < 0 || chart_throng_tick(exact) < 0) return 0;
+        if (k < WARM_UP_TICKS) continue;
+        ns[k - WARM_UP_TICKS] = 1e9 * seconds / cheap->count;
+        sum += ns[k - WARM_UP_TICKS];
+        for (uint32_t i = 0; i < cheap->count; i++) {
+            errors[count++] = apart(&cheap->states[i], &exact->states[i]);
+        }
     }
+    qsort(ns, BUDGET_TICKS, sizeof ns[0], by_value);
+    row->ns_p50 = ns[BUDGET_TICKS / 2];
+    row->ns_p99 = ns[BUDGET_TICKS - 1 - BUDGET_TICKS / 100];
+    row->ns_mean = sum / BUDGET_TICKS;
+    row->rate = 60;
+    row->ns_second = row->ns_mean * 60;
+    row->samples = count;
+    chart_row_errors(row, errors, count);
+    return 1;
+}
+
+static void measure_budget(chart_run *run, const bench_world *level, double budget, uint32_t count)
+{
+    char name[48];
+    chart_row row;
+    chart_throng cheap, exact;
+    double *errors = malloc((size_t)count * BUDGET_TICKS * sizeof *errors);
+    tahr_status first = chart_throng_make(&cheap, &(chart_throng_desc){level, count, 1, 1, budget});
+    tahr_status second = chart_throng_make(&exact, &(chart_throng_desc){level, count, 1, 1, 0});
+    chart_row_clear(&row);
+    snprintf(name, sizeof name, budget > 0 ? "budget %g mm" : "budget 0; exact", 1e3 * budget);
+    row.scene = "budgets";
+    row.curve = "budget";
+    row.setting = name;
+    row.role = budget > 0 ? CHART_KNOB : CHART_DEFAULT;
+    row.reference = "the same without a budget";
+    row.value = 1e3 * budget;
+    if (errors && first >= 0 && second >= 0 && compare_ticks(&cheap, &exact, &row, errors)) {
+        chart_run_write(run, &row);
+    } else {
+        chart_run_fail(run, name, "out of memory, or a step failed");
+    }
+    chart_throng_free(&cheap);
+    chart_throng_free(&exact);
+    free(errors);
+}
+
+static void measure_budgets(chart_run *run)
+{
+    uint32_t most = run->budget->max_characters, count = most < BUDGET_CROWD ? most : BUDGET_CROWD;
+    bench_world level = {.name = ""};
+    if (!run->counting) chart_throng_ground(&level, 0, count);
+    for (int i = -1; i < BUDGET_COUNT; i++) {
+        double budget = i < 0 ? 0 : BUDGETS[i];
+        if (chart_run_next(run, "budgets", "a budget of error")) measure_budget(run, &level, budget, count);
+    }
+    bench_world_free(&level);
 }
 
 void chart_crowds(chart_run *run)
@@ -222,7 +152,7 @@ void chart_crowds(chart_run *run)
 #endif
     for (int hills = 0; hills < 2; hills++) {
         bench_world level = {.name = ""};
-        if (!run->counting) make_ground(&level, hills, run->budget->max_characters);
+        if (!run->counting) chart_throng_ground(&level, hills, run->budget->max_characters);
         for (int k = 0; k < 5 && (k < 2 || (long)all[k] <= processors); k++) {
             for (int i = 0; i < COUNT_SIZES && COUNTS[i] <= run->budget->max_characters; i++) {
                 char name[48];
@@ -232,4 +162,5 @@ void chart_crowds(chart_run *run)
         }
         bench_world_free(&level);
     }
+    measure_budgets(run);
 }

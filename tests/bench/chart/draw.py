@@ -63,7 +63,7 @@ def volumes(rows: Sequence[Row]) -> list[tuple[str, float]]:
 
 def family_section(name: str, rows: Sequence[Row], charts: Sequence[tuple[Chart, str]]) -> str:
     parts = [page.figure(chart.title, svg, chart.caption, rows_table(chart.rows)) for chart, svg in charts]
-    if found := volumes(rows):
+    if (found := volumes(rows)) and name in ("sweeps", "movement"):
         numbers = ", ".join(f"{describe(scene) if scene != 'mean' else 'mean'}: {value:.2f}" for scene, value in found)
         parts.insert(0, "<p>Hypervolume of the front (decades of p99 error below 1 m times decades of median time below "
                         f"100 µs per step of 1/60 s or per sweep; larger is better): {escape(numbers)}. Rows on the "
@@ -123,17 +123,18 @@ def print_never(name: str, rows: Sequence[Row]) -> None:
 def draw(folder: Path, out: Path, peer_file: Path | None, command: str) -> None:
     out.mkdir(parents=True, exist_ok=True)
     machine = read_machine(folder / "machine.csv")
+    others = peers.read_peers(peer_file) if peer_file and peer_file.exists() else None
     sections, found, measured = [], [], {}
     for name in FAMILIES:
         if drawn := draw_family(name, folder, out):
             html, rows = drawn
             measured[name] = rows
             sections.append((name, TITLES[name], html))
-            found += [(name, scene, value) for scene, value in volumes(rows)]
             if name in ("sweeps", "movement"):
+                found += [(name, scene, value) for scene, value in volumes(rows)]
                 print_never(name, rows)
-    if peer_file and peer_file.exists():
-        sections.append(("peers", "Other controllers", peers.section(peers.read_peers(peer_file), out)))
+    if others:
+        sections.append(("peers", "Other controllers", peers.section(others, out)))
     else:
         print("chart: peers.csv is not there: without other controllers (make peers)")
     if "sweeps" in measured and "movement" in measured:

@@ -6,12 +6,14 @@ from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 
+from front import ERROR_FLOOR
 from panel import MEDIAN_ERROR, P99_ERROR, Scale, dots, over_size, scatter
 from rows import Row
 from style import panels
 
 NS_SWEEP = Scale(lambda r: r.ns_p50, "median time of a sweep", "s", 1e-9)
 NS_STEP = Scale(lambda r: r.ns_p50, "median time of a step", "s", 1e-9)
+NS_TICK = Scale(lambda r: r.ns_p50, "time per character and tick", "s", 1e-9)
 NS_SECOND = Scale(lambda r: r.ns_per_second, "time per simulated second", "s", 1e-9)
 TESTS = Scale(lambda r: r.tests_and_iterations, "narrow tests + iterations per sweep")
 TESTS_STEP = Scale(lambda r: r.tests_and_iterations, "narrow tests + iterations per step")
@@ -198,14 +200,30 @@ def shortcut_charts(rows: Sequence[Row]) -> list[Chart]:
     return charts
 
 
+def _budget_chart(rows: Sequence[Row]) -> Chart:
+    figure, (left, right) = panels(2, width=5.5)
+    scatter(left, rows, P99_ERROR, NS_TICK, with_front=True)
+    scatter(right, rows, Scale(lambda r: r.error_max_m, "largest error", "m", floor=ERROR_FLOOR), NS_TICK)
+    left.set_title("99 % of the places shown")
+    right.set_title("the worst place shown")
+    caption = ("A budget of error per character (tahr_member.budget): characters on a plane, each alone, beside the same "
+               "ones without a budget, every tick for three seconds. Error: how far apart the two are. What is met is "
+               "met up to 8 ticks later, and from there on they are two different ways.")
+    return Chart("crowds-budgets", "Crowds: a budget of error", caption, figure, list(rows))
+
+
 def crowd_charts(rows: Sequence[Row]) -> list[Chart]:
     charts = []
     for scene in scenes_of(rows):
         own = [r for r in rows if r.scene == scene]
+        if scene == "budgets":
+            charts.append(_budget_chart(own))
+            continue
         figure, (axes,) = panels(1, width=8)
-        over_size(axes, own, [("", Scale(lambda r: r.ns_p50, "time per character and tick", "s", 1e-9))], "characters")
-        caption = (f"A tick of a crowd on {describe(scene)} at 60 Hz, per character, by the wall clock, median over ticks. More threads "
-                   "pay where there are cores for them; caches of many characters do not fit into the processor's.")
+        over_size(axes, own, [("", NS_TICK)], "characters")
+        caption = (f"A tick of a crowd on {describe(scene)} at 60 Hz, per character, by the wall clock, median over "
+                   "ticks. More threads pay where there are cores for them; caches of many characters do not fit into "
+                   "the processor's.")
         charts.append(Chart(f"crowds-{scene}", f"Crowds on {describe(scene)}", caption, figure, own))
     return charts
 

@@ -91,7 +91,7 @@ def frame(axes: Axes, points: Sequence[Spot], x: Scale, y: Scale) -> None:
 
 def _draw_front(axes: Axes, points: Sequence[Spot]) -> None:
     """What nothing beats, as a grey stair behind the points."""
-    kept = front([(a, b) for a, b, row in points if row.failed == 0])
+    kept = front([(a, b) for a, b, row in points if counts(row)])
     if not kept:
         return
     xs, ys = [kept[0][0]], [axes.get_ylim()[1]]

@@ -10,11 +10,29 @@
 #include "setting.h"
 #include "sweeps.h"
 
+/* Names as those of the other sweeps have them (subject.c). */
+static void name_row(chart_row *row, const char *backend)
+{
+    static const char *const names[][4] = {{"native", "native float", "native float", CHART_DEFAULT},
+                                           {"native-double", "native double", "native double", CHART_KNOB},
+                                           {"ccd", "ccd advance", "ccd advance", CHART_DEFAULT},
+                                           {"fcl", "fcl descend", "fcl AABB; descend", CHART_DEFAULT},
+                                           {"box2d", "box2d", "box2d", CHART_ONLY},
+                                           {"box2d-2", "box2d 2.4", "box2d 2.4", CHART_ONLY}};
+    row->curve = row->setting = backend;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (strcmp(backend, names[i][0]) == 0) {
+            row->curve = names[i][1];
+            row->setting = names[i][2];
+            row->role = names[i][3];
+        }
+    }
+}
+
 static void fill(chart_row *row, const scene_backend *backend, const bench_query_result *r)
 {
     row->scene = "tiles_2d";
-    row->curve = row->setting = backend->name;
-    row->role = backend->planar ? CHART_ONLY : strcmp(backend->name, "native-double") ? CHART_DEFAULT : CHART_KNOB;
+    name_row(row, backend->name);
     row->reference = "native double";
     row->samples = r->sweeps;
     row->failed = r->misses + r->false_hits;

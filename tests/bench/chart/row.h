@@ -8,12 +8,13 @@
 
 /* What a setting is there for, beside its place on a chart: only a KNOB that is never on a front is a candidate to go.
  * DEFAULT: what a preset has. OFF: the off switch of a shortcut. PARITY: another library's behaviour, to move alike.
- * ONLY: all that its backend can do. */
+ * ONLY: all that its backend can do. DEFINITION: what is right changes with it, so that it has no place on a front. */
 #define CHART_DEFAULT "default"
 #define CHART_KNOB "knob"
 #define CHART_OFF "off"
 #define CHART_PARITY "parity"
 #define CHART_ONLY "only"
+#define CHART_DEFINITION "definition"
 
 /* NAN: not measured, an empty field. SI units, nanoseconds where the name says so. */
 typedef struct chart_row {

@@ -21,7 +21,7 @@ enum { RATE_COUNT = sizeof RATES / sizeof RATES[0] };
 
 /* A number of the configuration and what it is set to. */
 typedef struct knob {
-    const char *curve, *format;
+    const char *curve, *format, *role;
     size_t offset;
     int kind;
     double unit, rate;
@@ -31,10 +31,27 @@ typedef struct knob {
 
 #define FIELD(name) offsetof(tahr_config, name)
 static const knob KNOBS[] = {
-    {"skin", "skin %g mm", FIELD(skin), A_DOUBLE, 1e-3, 60, TAHR_INTEGRATOR_EXACT, {0.1, 0.2, 0.5, 1, 2, 5, 10, 20}},
-    {"max_slides", "max_slides %g", FIELD(max_slides), AN_INTEGER, 1, 60, TAHR_INTEGRATOR_EXACT, {1, 2, 3, 4, 6, 8}},
+    {"skin",
+     "skin %g mm",
+     CHART_DEFINITION,
+     FIELD(skin),
+     A_DOUBLE,
+     1e-3,
+     60,
+     TAHR_INTEGRATOR_EXACT,
+     {0.1, 0.2, 0.5, 1, 2, 5, 10, 20}},
+    {"max_slides",
+     "max_slides %g",
+     CHART_KNOB,
+     FIELD(max_slides),
+     AN_INTEGER,
+     1,
+     60,
+     TAHR_INTEGRATOR_EXACT,
+     {1, 2, 3, 4, 6, 8}},
     {"arc_tolerance; 20 Hz",
      "arc_tolerance %g mm; 20 Hz",
+     CHART_KNOB,
      FIELD(arc_tolerance),
      A_DOUBLE,
      1e-3,
@@ -43,6 +60,7 @@ static const knob KNOBS[] = {
      {0.01, 0.1, 1, 10, 100}},
     {"max_substep; stepped; 10 Hz",
      "max_substep %g ms; stepped; 10 Hz",
+     CHART_KNOB,
      FIELD(max_substep),
      A_DOUBLE,
      1e-3,
@@ -51,6 +69,7 @@ static const knob KNOBS[] = {
      {2, 5, 10, 20, 50, 100}},
     {"max_substeps; stepped; 10 Hz",
      "max_substeps %g; stepped; 10 Hz",
+     CHART_KNOB,
      FIELD(max_substeps),
      AN_INTEGER,
      1,
@@ -88,7 +107,7 @@ static void add_rates(const chart_setting *base, const char *curve, const char *
 static void add_knob(const chart_setting *base, const knob *k)
 {
     for (int i = 0; i < MAX_VALUES && k->values[i] > 0; i++) {
-        chart_setting *s = add(base, k->curve, "", CHART_KNOB);
+        chart_setting *s = add(base, k->curve, "", k->role);
         char *field = (char *)&s->config + k->offset;
         double value = k->values[i] * k->unit;
         uint32_t whole = (uint32_t)value;

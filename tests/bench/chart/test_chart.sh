@@ -34,14 +34,14 @@ from pathlib import Path
 from rows import read_machine, read_rows
 
 folder = Path(sys.argv[1])
-wanted = {"sweeps": 6, "movement": 2, "shortcuts": 2, "crowds": 2, "scenes": 1}  # scenes without the shared levels
+wanted = {"sweeps": 6, "movement": 2, "shortcuts": 2, "crowds": 3, "scenes": 1}  # scenes without the shared levels
 for family, scenes in wanted.items():
     rows = read_rows(folder / f"{family}.csv")
     assert len({r.scene for r in rows}) == scenes, f"{family}: {sorted({r.scene for r in rows})}"
     assert len({(r.scene, r.curve, r.setting, r.value) for r in rows}) == len(rows), f"{family}: a setting twice"
     for r in rows:
         assert r.family == family and r.scene and r.curve and r.setting, r
-        assert r.role in ("default", "knob", "off", "parity", "only", "reference"), r
+        assert r.role in ("default", "knob", "off", "parity", "only", "definition", "reference"), r
         assert r.failed <= r.samples and (r.failed == 0) == (r.why == ""), r
         assert r.role == "reference" or (r.samples > 0 and r.ns_p50 > 0 and r.ns_p99 >= r.ns_p50), r
         if family in ("sweeps", "movement"):

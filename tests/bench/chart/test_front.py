@@ -43,6 +43,10 @@ class Front(unittest.TestCase):
     def test_failing_settings_are_on_no_front(self):
         self.assertFalse(front.counts(replace(row(error_p99_m=1e-9, ns_p50=1.0), failed=1)))
 
+    def test_settings_that_change_what_is_right_are_on_no_front(self):
+        self.assertFalse(front.counts(row(error_p99_m=1e-9, ns_p50=1.0, role="definition")))
+        self.assertTrue(front.counts(row(error_p99_m=1e-9, ns_p50=1.0, role="knob")))
+
     def test_a_tie_within_the_clock_is_not_beaten(self):
         self.assertFalse(front.beaten((1e-6, 103.0), [(1e-6, 100.0)]))
         self.assertTrue(front.beaten((1e-6, 106.0), [(1e-6, 100.0)]))
