@@ -144,6 +144,19 @@ def _cost_chart(scene: str, rows: Sequence[Row]) -> Chart | None:
     return Chart(f"movement-{scene}-caches", f"Movement on {describe(scene)}: caches and switches", caption, figure, own)
 
 
+def _movement_caption(scene: str, topic: Topic, doubt: str) -> str:
+    error = (
+        "how far off the closed form of its numbers a character is, every 0.1 s of speeding up, braking and a jump"
+        if scene == "plane" else
+        "the farthest that a character is from its reference path during a second of movement from rest (the same "
+        "numbers by the exact methods on native in double at 1920 Hz, the same start)"
+    )
+    skin = " The skin is no matter of accuracy but of what is right, and on no front." if "skin" in topic.curves else ""
+    return (f"Whole movement on {describe(scene)}: {topic.title}. Error: {error}.{doubt} Time and queries: wandering "
+            "characters on the same level, each with a mover of its own. A red cross went through something, ended more "
+            f"than 1 mm inside, or reported that it gave up or hit its cap of queries. Grey: the Pareto front.{skin}")
+
+
 def movement_charts(rows: Sequence[Row]) -> list[Chart]:
     charts = []
     for scene in scenes_of(rows):
@@ -152,14 +165,7 @@ def movement_charts(rows: Sequence[Row]) -> list[Chart]:
             own = [r for r in here if r.curve in topic.curves or r.setting in topic.also]
             if len(own) < 2:
                 continue
-            caption = (
-                f"Whole movement on {describe(scene)}: {topic.title}. Error: the farthest that a character is from its "
-                "reference path during a second of movement from rest (the same numbers by the exact methods on native "
-                "in double at 1920 Hz, the same start)." + _doubt(here) +
-                " Time and queries: wandering characters on the same level, each with a mover of its own. A red cross "
-                "went through something, ended more than 1 mm inside, or reported that it gave up or hit its cap of "
-                "queries. Grey: the Pareto front."
-            )
+            caption = _movement_caption(scene, topic, _doubt(here))
             figure = _errors_and_counts(own, topic.work, topic.count)
             charts.append(Chart(f"movement-{scene}-{topic.name}", f"Movement on {describe(scene)}: {topic.title}",
                                 caption, figure, own))

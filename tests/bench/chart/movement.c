@@ -1,22 +1,46 @@
 /* SPDX-License-Identifier: MIT
- * movement.c: whole movement with every setting: errors by windows, costs by wanderers on the same level. */
+ * movement.c: whole movement with every setting: errors by closed forms on the plane and by windows elsewhere, costs by
+ * wanderers on the same level. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "forms.h"
 #include "run.h"
 #include "walk.h"
 #include "window.h"
 
-static const char *const LEVELS[] = {"playground", "dungeon", "tiles_2d"};
+static const char *const LEVELS[] = {"plane", "playground", "dungeon", "tiles_2d"};
 enum { LEVEL_COUNT = sizeof LEVELS / sizeof LEVELS[0] };
 
 /* What all settings of a level share. */
 typedef struct place {
     bench_world level;
-    chart_windows *windows;
+    chart_windows *windows; /* NULL on the plane: closed forms */
     scene_solid *solid;
 } place;
+
+static int is_plane(const char *name)
+{
+    return strcmp(name, "plane") == 0;
+}
+
+/* On the plane nothing differs but how time is cut. */
+static int is_measured(const char *level, const chart_setting *s)
+{
+    static const char *const curves[] = {"precise", "stepped", "unreal", "max_substep; stepped; 10 Hz",
+                                         "max_substeps; stepped; 10 Hz"};
+    for (size_t i = 0; i < sizeof curves / sizeof curves[0]; i++) {
+        if (strcmp(s->curve, curves[i]) == 0) return 1;
+    }
+    return !is_plane(level);
+}
+
+static int score(const place *p, const chart_setting *setting, chart_row *row, char *why)
+{
+    return p->windows ? chart_windows_score(p->windows, setting, row, why)
+                      : chart_forms_score(&p->level, setting, row, why);
+}
 
 static int place_make(place *p, const char *name, uint32_t windows, char *why)
 {
@@ -32,6 +56,7 @@ static int place_make(place *p, const char *name, uint32_t windows, char *why)
         snprintf(why, 256, "out of memory");
         return 0;
     }
+    if (is_plane(name)) return 1;
     p->windows = chart_windows_make(&p->level, windows, why);
     return p->windows != NULL;
 }
@@ -59,7 +84,7 @@ static void measure(chart_run *run, const place *p, const chart_setting *setting
     row.setting = setting->name;
     row.role = setting->role;
     row.value = setting->value;
-    if (!chart_walk_run(&walk, &pace, why) || !chart_windows_score(p->windows, setting, &row, why)) {
+    if (!chart_walk_run(&walk, &pace, why) || !score(p, setting, &row, why)) {
         chart_run_fail(run, setting->name, why);
         return;
     }
@@ -95,8 +120,9 @@ static void measure_level(chart_run *run, const char *name)
     if (!ok) chart_run_skip(run, name, why);
     const chart_setting *settings;
     uint32_t count = chart_settings_make(&p.level, &settings);
-    if (!run->counting && ok) measure_doubt(run, &p);
+    if (p.windows) measure_doubt(run, &p);
     for (uint32_t i = 0; i < count; i++) {
+        if (!is_measured(name, &settings[i])) continue;
         if (chart_run_next(run, name, settings[i].name) && ok) measure(run, &p, &settings[i]);
     }
     if (!run->counting) place_free(&p);

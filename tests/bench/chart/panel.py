@@ -33,7 +33,7 @@ P99_ERROR = Scale(lambda r: r.error_p99_m, "99th percentile of the error", "m", 
 def _ticks(axis: Axis, decades: float, scale: Scale) -> None:
     """As many ticks as there is room for, with SI prefixes."""
     figure = axis.axes.figure
-    many = int(axis.axes.get_position().width * figure.get_figwidth() * 1.9) + 2
+    many = int(axis.axes.get_position().width * figure.get_figwidth() * 1.5) + 1
     parts = (1.0,) if decades > 2.5 else (1.0, 2.0, 5.0) if decades > 0.8 else (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
     axis.set_major_locator(LogLocator(subs=parts, numticks=many if decades > 2.5 else 30))
     axis.set_minor_locator(LogLocator(subs=tuple(float(n) for n in range(2, 10)), numticks=30))
