@@ -149,7 +149,8 @@ def _movement_caption(scene: str, topic: Topic, doubt: str) -> str:
         "how far off the closed form of its numbers a character is, every 0.1 s of speeding up, braking and a jump"
         if scene == "plane" else
         "the farthest that a character is from its reference path during a second of movement from rest (the same "
-        "numbers by the exact methods on native in double at 1920 Hz, the same start)"
+        "start and numbers, all planes at once, on native in double; exact ones at 1920 Hz, stepped ones, whose law along "
+        "walls is another one, stepped at 7680 Hz)"
     )
     skin = " The skin is no matter of accuracy but of what is right, and on no front." if "skin" in topic.curves else ""
     return (f"Whole movement on {describe(scene)}: {topic.title}. Error: {error}.{doubt} Time and queries: wandering "

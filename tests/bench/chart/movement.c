@@ -103,7 +103,7 @@ static void measure_doubt(chart_run *run, const place *p)
     row.scene = p->level.name;
     row.curve = row.setting = "reference at 960 Hz";
     row.role = "reference";
-    row.reference = "exact methods at 1920 Hz";
+    row.reference = "exact at 1920 Hz";
     if (chart_windows_doubt(p->windows, &setting, &row, why)) {
         chart_run_write(run, &row);
     } else {

@@ -24,6 +24,6 @@ def overview(sweeps: Sequence[Row], movement: Sequence[Row]) -> Figure:
     for axes, scene, title in ((middle, "plane", "speed up, brake, jump; 10 to 960 Hz"),
                                (right, "playground", "a second of the playground, likewise")):
         own = [r for r in movement if r.scene == scene and r.curve in MOVEMENT_CURVES]
-        scatter(axes, own, P99_ERROR, NS_SECOND, with_front=True)
+        scatter(axes, own, P99_ERROR, NS_SECOND, with_front=True, order=MOVEMENT_CURVES)
         axes.set_title(title)
     return figure

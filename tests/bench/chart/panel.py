@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.ticker import EngFormatter, FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import EngFormatter, FuncFormatter, LogLocator, NullFormatter, NullLocator
 
 from front import ERROR_FLOOR, counts, front, point_of
 from labels import Label, place
@@ -36,7 +36,8 @@ def _ticks(axis: Axis, decades: float, scale: Scale) -> None:
     many = int(axis.axes.get_position().width * figure.get_figwidth() * 1.5) + 1
     parts = (1.0,) if decades > 2.5 else (1.0, 2.0, 5.0) if decades > 0.8 else (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
     axis.set_major_locator(LogLocator(subs=parts, numticks=many if decades > 2.5 else 30))
-    axis.set_minor_locator(LogLocator(subs=tuple(float(n) for n in range(2, 10)), numticks=30))
+    parts = tuple(float(n) for n in range(2, 10)) if decades < 5 else ()
+    axis.set_minor_locator(LogLocator(subs=parts, numticks=30) if parts else NullLocator())
     axis.set_minor_formatter(NullFormatter())
     prefixes = EngFormatter(unit=scale.unit, places=None)
     plain = not scale.unit
@@ -101,8 +102,10 @@ def _draw_front(axes: Axes, points: Sequence[Spot]) -> None:
     axes.plot(xs, ys, color="#d9d9d9", linewidth=4, solid_joinstyle="round", zorder=1)
 
 
-def scatter(axes: Axes, rows: Sequence[Row], x: Scale, y: Scale, with_front: bool = False) -> None:
-    """Curves of error against work, named at their points. What fails is crossed, told apart and off the curve."""
+def scatter(axes: Axes, rows: Sequence[Row], x: Scale, y: Scale, with_front: bool = False,
+            order: Sequence[str] = ()) -> None:
+    """Curves of error against work, named at their points. What fails is crossed, told apart and off the curve. order:
+    of all curves that shall look the same on several panels."""
     points = _read(rows, x, y)
     if not points:
         axes.text(0.5, 0.5, "nothing measured", transform=axes.transAxes, ha="center", color=GREY)
@@ -111,8 +114,9 @@ def scatter(axes: Axes, rows: Sequence[Row], x: Scale, y: Scale, with_front: boo
     if with_front:
         _draw_front(axes, points)
     names, lines = [], []
-    for index, curve in enumerate(curves_of(rows)):
-        colour, marker = look(index)
+    order = order or curves_of(rows)
+    for curve in curves_of(rows):
+        colour, marker = look(order.index(curve))
         own = [p for p in points if p[2].curve == curve]
         good = [p for p in own if p[2].failed == 0]
         bad = [p for p in own if p[2].failed > 0]

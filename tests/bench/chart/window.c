@@ -9,7 +9,7 @@
 
 enum { SAMPLES = 10, MAX_REFERENCES = 24, APART = 30 };
 
-static const double REFERENCE_RATE = 1920, SAMPLE_RATE = 10; /* Hz */
+static const double SAMPLE_RATE = 10; /* Hz */
 static const double SETTLE_RATE = 240, SETTLE_SECONDS = 0.5;
 static const double UNDECIDED = 1e-3; /* m */
 
@@ -24,6 +24,7 @@ typedef struct path {
 
 typedef struct reference {
     tahr_config config; /* whose it is */
+    double rate;        /* Hz */
     tahr_state *starts;
     path *paths;
     double *doubts; /* m, from itself at half its rate, in the order of the windows */
@@ -143,8 +144,8 @@ static int compute(const chart_windows *w, tahr_mover *mover, reference *r)
     if (!settle(w, mover, &r->config, r->starts)) return 0;
     for (uint32_t i = 0; i < w->count; i++) {
         path half;
-        if (!follow(&w->wishes[i], mover, REFERENCE_RATE, &r->starts[i], &r->paths[i])) return 0;
-        if (!follow(&w->wishes[i], mover, REFERENCE_RATE / 2, &r->starts[i], &half)) return 0;
+        if (!follow(&w->wishes[i], mover, r->rate, &r->starts[i], &r->paths[i])) return 0;
+        if (!follow(&w->wishes[i], mover, r->rate / 2, &r->starts[i], &half)) return 0;
         r->doubts[i] = apart(&half, &r->paths[i]);
         r->decided += r->doubts[i] <= UNDECIDED;
     }
@@ -163,6 +164,7 @@ static const reference *reference_of(chart_windows *w, const chart_setting *sett
     reference *r = &w->references[full ? w->oldest++ % MAX_REFERENCES : w->reference_count++];
     reference_free(r);
     *r = (reference){.config = exact.config,
+                     .rate = exact.rate,
                      .starts = calloc(w->count, sizeof *r->starts),
                      .paths = calloc(w->count, sizeof *r->paths),
                      .doubts = calloc(w->count, sizeof *r->doubts)};
@@ -199,7 +201,8 @@ int chart_windows_score(chart_windows *w, const chart_setting *setting, chart_ro
     if (status >= 0) status = tahr_mover_create(world, &setting->config, &mover);
     if (status >= 0) {
         chart_row_errors(row, errors, compare(w, mover, setting->rate, r, errors));
-        row->reference = "exact methods at 1920 Hz";
+        row->reference =
+            setting->config.integrator == TAHR_INTEGRATOR_STEPPED ? "stepped at 7680 Hz" : "exact at 1920 Hz";
     } else {
         snprintf(why, 256, "%s", r ? tahr_status_name(status) : "no reference");
     }
