@@ -100,9 +100,13 @@ def place(axes: Axes, labels: Sequence[Label], points: Sequence[Point], lines: S
             left_out += 1
             continue
         taken.append(box.padded(scale))
-        x, y = to_axes.transform((box.x0, box.y0))
+        # Held at the side of the point: a viewer with another font must not write over it.
+        side = "right" if box.x1 <= at[0] else "left" if box.x0 >= at[0] else "center"
+        anchor = {"right": box.x1, "left": box.x0, "center": (box.x0 + box.x1) / 2}[side]
+        x, y = to_axes.transform((anchor, box.y0))
         weight = "bold" if label.needed else "normal"
-        axes.text(x, y, label.text, fontsize=label.size, color=label.colour, fontweight=weight, va="bottom", zorder=5)
+        axes.text(x, y, label.text, fontsize=label.size, color=label.colour, fontweight=weight, ha=side, va="bottom",
+                  zorder=5)
         if far >= LEADER:
             end = (min(max(at[0], box.x0), box.x1), min(max(at[1], box.y0), box.y1))
             ends = to_axes.transform([at, end])

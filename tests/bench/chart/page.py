@@ -19,7 +19,7 @@ details { margin: 6px 0 14px; } summary { cursor: pointer; color: #0072b2; font-
 table { border-collapse: collapse; font-size: 12.5px; margin: 6px 0; } caption { text-align: left; color: #444; }
 th, td { padding: 2px 9px; text-align: right; border-bottom: 1px solid #e6e6e6; white-space: nowrap; }
 th { background: #f4f6f8; cursor: pointer; position: sticky; top: 0; } th:hover { background: #e3e9ee; }
-td.t, th.t { text-align: left; } td.bad { color: #b00020; } tr.front td { background: #eef6ee; }
+td.t, th.t { text-align: left; } td.w { white-space: normal; min-width: 50ch; } td.bad { color: #b00020; } tr.front td { background: #eef6ee; }
 code, pre { background: #f4f6f8; padding: 1px 4px; font-size: 13px; } pre { padding: 8px 10px; overflow-x: auto; }
 li { margin: 2px 0; }
 """
@@ -63,7 +63,7 @@ def number(value: float) -> str:
 
 def _cell(value: str | float) -> str:
     if isinstance(value, str):
-        return f'<td class="t">{escape(value)}</td>'
+        return f'<td class="{"t w" if len(value) > 60 else "t"}">{escape(value)}</td>'
     plain = "" if math.isnan(value) else repr(float(value))
     return f'<td data-n="{plain}">{number(value)}</td>'
 

@@ -152,7 +152,7 @@ def section(peers: Sequence[Peer], out: Path) -> str:
     caption = ("Character controllers on the same levels with the same starts and wishes at 60 Hz, in one run, judged by "
                "one independent look at the triangles. What never touched anything is drawn at 1 µm. A red cross "
                "tunnelled, ended a step more than 1 mm inside, or at no number.")
-    parts = [page.figure("Other controllers", save(figure, out, "peers"), caption, _table(peers))]
+    parts = [page.figure("Every course", save(figure, out, "peers"), caption, _table(peers))]
     chosen = dict.fromkeys((p.method, p.version, p.settings) for p in measured)
     parts.append("<h3>What was chosen for each</h3>" + page.table(
         page.Table(["method", "version", "settings, and who recommends them"], [list(c) for c in chosen])))
