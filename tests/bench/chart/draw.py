@@ -27,11 +27,28 @@ TITLES = {
 
 # What a table shows of a row, and its name and unit there.
 COLUMNS = [
-    ("curve", "curve"), ("setting", "setting"), ("value", "value"), ("role", "there as"), ("reference", "judged by"), ("samples", "samples"), ("failed", "failed"), ("why", "how"),
-    ("error_p50_m", "median error, m"), ("error_p99_m", "p99, m"), ("error_max_m", "worst, m"),
-    ("penetration_m", "deepest, m"), ("ns_p50", "median, ns"), ("ns_p99", "p99, ns"), ("ns_mean", "mean, ns"),
-    ("ns_per_second", "per s, ns"), ("queries", "queries"), ("tests", "tests"), ("iterations", "iterations"),
-    ("bytes", "bytes / triangle"), ("build_s", "open, s"), ("threads", "threads"),
+    ("curve", "curve"),
+    ("setting", "setting"),
+    ("value", "value"),
+    ("role", "there as"),
+    ("reference", "judged by"),
+    ("samples", "samples"),
+    ("failed", "failed"),
+    ("why", "how"),
+    ("error_p50_m", "median error, m"),
+    ("error_p99_m", "p99, m"),
+    ("error_max_m", "worst, m"),
+    ("penetration_m", "deepest, m"),
+    ("ns_p50", "median, ns"),
+    ("ns_p99", "p99, ns"),
+    ("ns_mean", "mean, ns"),
+    ("ns_per_second", "per s, ns"),
+    ("queries", "queries"),
+    ("tests", "tests"),
+    ("iterations", "iterations"),
+    ("bytes", "bytes / triangle"),
+    ("build_s", "open, s"),
+    ("threads", "threads"),
 ]
 
 
@@ -41,8 +58,11 @@ def shown(value) -> str | float:
 
 def rows_table(rows: Sequence[Row]) -> page.Table:
     """The rows of a chart, without columns that none of them has."""
-    used = [(name, title) for name, title in COLUMNS
-            if any(shown(getattr(r, name)) not in ("", 0.0) and getattr(r, name) == getattr(r, name) for r in rows)]
+    used = [
+        (name, title)
+        for name, title in COLUMNS
+        if any(shown(getattr(r, name)) not in ("", 0.0) and getattr(r, name) == getattr(r, name) for r in rows)
+    ]
     on_front = front_settings(rows)
     cells = [[shown(getattr(r, name)) for name, _ in used] for r in rows]
     marked = {i for i, r in enumerate(rows) if r.setting in on_front}
@@ -65,9 +85,12 @@ def family_section(name: str, rows: Sequence[Row], charts: Sequence[tuple[Chart,
     parts = [page.figure(chart.title, svg, chart.caption, rows_table(chart.rows)) for chart, svg in charts]
     if (found := volumes(rows)) and name in ("sweeps", "movement"):
         numbers = ", ".join(f"{describe(scene) if scene != 'mean' else 'mean'}: {value:.2f}" for scene, value in found)
-        parts.insert(0, "<p>Hypervolume of the front (decades of p99 error below 1 m times decades of median time below "
-                        f"100 µs per step of 1/60 s or per sweep; larger is better): {escape(numbers)}. Rows on the "
-                        "front of their picture are green in the tables; a click on a heading sorts.</p>")
+        parts.insert(
+            0,
+            "<p>Hypervolume of the front (decades of p99 error below 1 m times decades of median time below "
+            f"100 µs per step of 1/60 s or per sweep; larger is better): {escape(numbers)}. Rows on the "
+            "front of their picture are green in the tables; a click on a heading sorts.</p>",
+        )
     if name in ("sweeps", "movement"):
         parts.append(never_section(rows))
     return "\n".join(parts)
@@ -76,9 +99,11 @@ def family_section(name: str, rows: Sequence[Row], charts: Sequence[tuple[Chart,
 def never_section(rows: Sequence[Row]) -> str:
     """Settings that no scene has a use for."""
     never = never_on_front(rows)
-    lead = ("<h3>Never on a front</h3><p>Settings that another one of the same backend and rate beats on every scene, "
-            "by more than 5 % in time or a factor of 1.5 in error without being worse in the other, and that are no "
-            "off switch, there for parity, or all that their backend can do:</p>")
+    lead = (
+        "<h3>Never on a front</h3><p>Settings that another one of the same backend and rate beats on every scene, "
+        "by more than 5 % in time or a factor of 1.5 in error without being worse in the other, and that are no "
+        "off switch, there for parity, or all that their backend can do:</p>"
+    )
     if not never:
         return lead + "<p>None.</p>"
     cells = [[r.setting, r.curve, r.role] for r in never]
@@ -87,10 +112,13 @@ def never_section(rows: Sequence[Row]) -> str:
 
 def lead_section(machine: Sequence[tuple[str, str]], command: str) -> str:
     pairs = [list(pair) for pair in machine]
-    return ("<p>What a step of Tahr costs, how wrong it is and where it fails, for each backend and setting. Both axes "
-            "are logarithmic; down and to the left is better. Made by</p>"
-            f"<pre>{escape(command)}</pre>"
-            "<p>on this machine:</p>" + page.table(page.Table(["", "this machine"], pairs)))
+    return (
+        "<p>What a step of Tahr costs, how wrong it is and where it fails, for each backend and setting. Both axes "
+        "are logarithmic; down and to the left is better. Made by</p>"
+        f"<pre>{escape(command)}</pre>"
+        "<p>on this machine:</p>"
+        + page.table(page.Table(["", "this machine"], pairs))
+    )
 
 
 def write_volumes(path: Path, found: Sequence[tuple[str, str, float]]) -> None:

@@ -21,9 +21,11 @@ def point_of(row: Row) -> Point:
 
 
 def counts(row: Row) -> bool:
-    """A setting that fails has no place on a front, nor has one that was not measured, or that changes what is right."""
+    """A setting that fails has no place on a front, nor one that was not measured or changes what is right."""
     error, work = point_of(row)
-    return row.failed == 0 and row.role not in ("reference", "definition") and error == error and work == work and work > 0
+    return (
+        row.failed == 0 and row.role not in ("reference", "definition") and error == error and work == work and work > 0
+    )
 
 
 def front(points: Sequence[Point]) -> list[Point]:

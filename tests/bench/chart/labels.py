@@ -32,7 +32,7 @@ def _size(axes: Axes, label: Label) -> tuple[float, float]:
     """Width and height in pixels."""
     weight = "bold" if label.needed else "normal"
     text = axes.text(0, 0, label.text, fontsize=label.size, fontweight=weight)
-    box = text.get_window_extent(axes.figure.canvas.get_renderer())
+    box = text.get_window_extent()
     text.remove()
     return box.width, box.height
 
@@ -87,8 +87,10 @@ def _obstacles(axes: Axes, points: Sequence[Point], lines: Sequence[Sequence[Poi
 def place(axes: Axes, labels: Sequence[Label], points: Sequence[Point], lines: Sequence[Sequence[Point]] = ()) -> int:
     """Names them, away from all points and lines. Limits, scales and the layout must be final. Returns how many were
     left out."""
-    axes.figure.draw_without_rendering()
-    scale = axes.figure.dpi / 72
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    figure.draw_without_rendering()
+    scale = figure.dpi / 72
     to_axes = axes.transData.inverted()
     frame = axes.get_window_extent().padded(2)
     taken = _obstacles(axes, points, lines)
@@ -105,8 +107,9 @@ def place(axes: Axes, labels: Sequence[Label], points: Sequence[Point], lines: S
         anchor = {"right": box.x1, "left": box.x0, "center": (box.x0 + box.x1) / 2}[side]
         x, y = to_axes.transform((anchor, box.y0))
         weight = "bold" if label.needed else "normal"
-        axes.text(x, y, label.text, fontsize=label.size, color=label.colour, fontweight=weight, ha=side, va="bottom",
-                  zorder=5)
+        axes.text(
+            x, y, label.text, fontsize=label.size, color=label.colour, fontweight=weight, ha=side, va="bottom", zorder=5
+        )
         if far >= LEADER:
             end = (min(max(at[0], box.x0), box.x1), min(max(at[1], box.y0), box.y1))
             ends = to_axes.transform([at, end])

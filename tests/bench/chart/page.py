@@ -19,7 +19,7 @@ details { margin: 6px 0 14px; } summary { cursor: pointer; color: #0072b2; font-
 table { border-collapse: collapse; font-size: 12.5px; margin: 6px 0; } caption { text-align: left; color: #444; }
 th, td { padding: 2px 9px; text-align: right; border-bottom: 1px solid #e6e6e6; white-space: nowrap; }
 th { background: #f4f6f8; cursor: pointer; position: sticky; top: 0; } th:hover { background: #e3e9ee; }
-td.t, th.t { text-align: left; } td.w { white-space: normal; min-width: 50ch; } td.bad { color: #b00020; } tr.front td { background: #eef6ee; }
+td.t, th.t { text-align: left; } td.w { white-space: normal; min-width: 50ch; } tr.front td { background: #eef6ee; }
 code, pre { background: #f4f6f8; padding: 1px 4px; font-size: 13px; } pre { padding: 8px 10px; overflow-x: auto; }
 li { margin: 2px 0; }
 """
@@ -85,12 +85,14 @@ def folded(summary: str, inner: str) -> str:
 
 def inline(svg: str) -> str:
     """The picture without what only a file of its own needs."""
-    return svg[svg.index("<svg"):]
+    return svg[svg.index("<svg") :]
 
 
 def figure(title: str, svg: str, caption: str, data: Table) -> str:
-    return (f"<h3>{escape(title)}</h3>\n<figure>{inline(svg)}\n<figcaption>{escape(caption)}</figcaption></figure>\n"
-            + folded(f"Table: {len(data.cells)} rows", table(data)))
+    return (
+        f"<h3>{escape(title)}</h3>\n<figure>{inline(svg)}\n<figcaption>{escape(caption)}</figcaption></figure>\n"
+        + folded(f"Table: {len(data.cells)} rows", table(data))
+    )
 
 
 def bullets(items: Iterable[str]) -> str:
@@ -101,6 +103,8 @@ def page(title: str, lead: str, sections: Sequence[tuple[str, str, str]]) -> str
     """lead: HTML. sections: anchor, title, HTML."""
     links = " ".join(f'<a href="#{anchor}">{escape(name)}</a>' for anchor, name, _ in sections)
     bodies = "\n".join(f'<h2 id="{anchor}">{escape(name)}</h2>\n{body}' for anchor, name, body in sections)
-    return (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>\n'
-            f"<style>{STYLE}</style></head>\n<body>\n<h1>{escape(title)}</h1>\n{lead}\n<nav>{links}</nav>\n{bodies}\n"
-            f"<script>{SCRIPT}</script>\n</body></html>\n")
+    return (
+        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>\n'
+        f"<style>{STYLE}</style></head>\n<body>\n<h1>{escape(title)}</h1>\n{lead}\n<nav>{links}</nav>\n{bodies}\n"
+        f"<script>{SCRIPT}</script>\n</body></html>\n"
+    )

@@ -4,6 +4,7 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
@@ -19,7 +20,7 @@ from style import FAILED, GREY, look
 class Scale:
     """What is read off a row for one axis. unit: of the ticks, after factor."""
 
-    of: Callable[[Row], float]
+    of: Callable[[Any], float]
     label: str
     unit: str = ""
     factor: float = 1.0
@@ -32,12 +33,15 @@ P99_ERROR = Scale(lambda r: r.error_p99_m, "99th percentile of the error", "m", 
 
 def _ticks(axis: Axis, decades: float, scale: Scale) -> None:
     """As many ticks as there is room for, with SI prefixes."""
-    figure = axis.axes.figure
+    figure = axis.axes.get_figure(root=True)
+    assert figure is not None
     many = int(axis.axes.get_position().width * figure.get_figwidth() * 1.5) + 1
-    parts = (1.0,) if decades > 2.5 else (1.0, 2.0, 5.0) if decades > 0.8 else (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
+    parts: tuple[float, ...] = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)
+    if decades > 0.8:
+        parts = (1.0,) if decades > 2.5 else (1.0, 2.0, 5.0)
     axis.set_major_locator(LogLocator(subs=parts, numticks=many if decades > 2.5 else 30))
-    parts = tuple(float(n) for n in range(2, 10)) if decades < 5 else ()
-    axis.set_minor_locator(LogLocator(subs=parts, numticks=30) if parts else NullLocator())
+    between = LogLocator(subs=tuple(float(n) for n in range(2, 10)), numticks=30)
+    axis.set_minor_locator(between if decades < 5 else NullLocator())
     axis.set_minor_formatter(NullFormatter())
     prefixes = EngFormatter(unit=scale.unit, places=None)
     plain = not scale.unit
@@ -46,7 +50,7 @@ def _ticks(axis: Axis, decades: float, scale: Scale) -> None:
     )
 
 
-Spot = tuple[float, float, Row]
+Spot = tuple[float, float, Any]  # x, y, and the row it is read off
 
 
 def curves_of(rows: Sequence[Row]) -> list[str]:
@@ -102,8 +106,9 @@ def _draw_front(axes: Axes, points: Sequence[Spot]) -> None:
     axes.plot(xs, ys, color="#d9d9d9", linewidth=4, solid_joinstyle="round", zorder=1)
 
 
-def scatter(axes: Axes, rows: Sequence[Row], x: Scale, y: Scale, with_front: bool = False,
-            order: Sequence[str] = ()) -> None:
+def scatter(
+    axes: Axes, rows: Sequence[Row], x: Scale, y: Scale, with_front: bool = False, order: Sequence[str] = ()
+) -> None:
     """Curves of error against work, named at their points. What fails is crossed, told apart and off the curve. order:
     of all curves that shall look the same on several panels."""
     points = _read(rows, x, y)
@@ -123,8 +128,16 @@ def scatter(axes: Axes, rows: Sequence[Row], x: Scale, y: Scale, with_front: boo
         for line in _pieces(own):
             axes.plot([p[0] for p in line], [p[1] for p in line], color=colour, zorder=2)
             lines.append(line)
-        axes.plot([p[0] for p in good], [p[1] for p in good], color=colour, marker=marker, linestyle="", zorder=3,
-                  markeredgecolor="white", markeredgewidth=0.4)
+        axes.plot(
+            [p[0] for p in good],
+            [p[1] for p in good],
+            color=colour,
+            marker=marker,
+            linestyle="",
+            zorder=3,
+            markeredgecolor="white",
+            markeredgewidth=0.4,
+        )
         axes.plot([p[0] for p in bad], [p[1] for p in bad], color=FAILED, marker="x", linestyle="", zorder=3)
         names += _names(axes, own, colour)
     place(axes, names, [(p[0], p[1]) for p in points], lines)
@@ -186,8 +199,15 @@ def dots(axes: Axes, names: Sequence[str], series: Sequence[tuple[str, Sequence[
     _ticks(axes.xaxis, math.log10(axes.get_xlim()[1] / axes.get_xlim()[0]), scale)
     axes.set_xlabel(scale.label)
     if len(series) > 1:
-        axes.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=len(series), frameon=False, fontsize=8,
-                    handletextpad=0.2, borderaxespad=0.2)
+        axes.legend(
+            loc="lower left",
+            bbox_to_anchor=(0, 1),
+            ncols=len(series),
+            frameon=False,
+            fontsize=8,
+            handletextpad=0.2,
+            borderaxespad=0.2,
+        )
 
 
 def over_size(axes: Axes, rows: Sequence[Row], scales: Sequence[tuple[str, Scale]], size: str) -> None:
@@ -195,14 +215,21 @@ def over_size(axes: Axes, rows: Sequence[Row], scales: Sequence[tuple[str, Scale
     points: list[Spot] = []
     names, lines = [], []
     for index, (curve, (title, scale)) in enumerate((c, s) for c in curves_of(rows) for s in scales):
-        own = sorted(((r.value, scale.of(r), r) for r in rows if r.curve == curve and scale.of(r) > 0),
-                     key=lambda p: p[0])
+        own = sorted(
+            ((r.value, scale.of(r), r) for r in rows if r.curve == curve and scale.of(r) > 0), key=lambda p: p[0]
+        )
         if not own:
             continue
         colour, marker = look(index)
         line = [(p[0], p[1]) for p in own]
-        axes.plot([p[0] for p in own], [p[1] for p in own], color=colour, marker=marker, markeredgecolor="white",
-                  markeredgewidth=0.4)
+        axes.plot(
+            [p[0] for p in own],
+            [p[1] for p in own],
+            color=colour,
+            marker=marker,
+            markeredgecolor="white",
+            markeredgewidth=0.4,
+        )
         points += own
         lines.append(line)
         names.append(Label(*line[-1], f"{curve} {title}".strip(), colour, needed=True, size=7.2))

@@ -14,8 +14,22 @@ from rows import ChartError
 from style import FAILED, look, panels, save
 
 TEXTS = ("course", "method", "version", "settings", "left_out")
-NUMBERS = ("steps", "ns_median", "ns_p99", "ns_cpu_mean", "queries", "tunnelled", "embedded", "invalid", "left", "stuck",
-           "deepest", "clearance", "progress", "flips")
+NUMBERS = (
+    "steps",
+    "ns_median",
+    "ns_p99",
+    "ns_cpu_mean",
+    "queries",
+    "tunnelled",
+    "embedded",
+    "invalid",
+    "left",
+    "stuck",
+    "deepest",
+    "clearance",
+    "progress",
+    "flips",
+)
 CLEARER = 1.05  # of a time or a share: what is nearer than that is as good
 
 
@@ -56,9 +70,11 @@ def read_peers(path: Path) -> list[Peer]:
                 try:
                     numbers[name] = float(line[name]) if line[name] else math.nan
                 except (TypeError, ValueError):
-                    raise ChartError(f"{path}:{reader.line_num}: {name} is '{line[name]}', expected a number or "
-                                     "nothing") from None
-            found.append(Peer(*(line[name] or "" for name in TEXTS), numbers))
+                    raise ChartError(
+                        f"{path}:{reader.line_num}: {name} is '{line[name]}', expected a number or nothing"
+                    ) from None
+            texts = {name: line[name] or "" for name in TEXTS}
+            found.append(Peer(**texts, numbers=numbers))
     return found
 
 
@@ -87,7 +103,7 @@ def _grid(courses: Sequence[str]):
     columns = min(4, len(courses))
     lines = math.ceil(len(courses) / columns)
     figure, axes = panels(columns, width=3.3, height=3.1, left=0.75, lines=lines)
-    for spare in axes[len(courses):]:
+    for spare in axes[len(courses) :]:
         spare.set_visible(False)
     return figure, axes
 
@@ -127,16 +143,46 @@ def worse(peers: Sequence[Peer]) -> list[str]:
                 if p.own or math.isnan(value):
                     continue
                 if (value > best * CLEARER) if more else (value * CLEARER < best):
-                    said.append(f"{course}: {words}: {p.method} {page.number(value)} {unit}".rstrip()
-                                + f", Tahr {page.number(best)} {unit}".rstrip())
+                    said.append(
+                        f"{course}: {words}: {p.method} {page.number(value)} {unit}".rstrip()
+                        + f", Tahr {page.number(best)} {unit}".rstrip()
+                    )
     return said
 
 
 def _table(peers: Sequence[Peer]) -> page.Table:
-    columns = ["course", "method", "median, ns", "p99, ns", "mean, ns", "queries", "tunnelled", "embedded", "invalid",
-               "left", "stuck", "deepest, m", "clearance, m", "progress", "flips / s"]
-    names = ("ns_median", "ns_p99", "ns_cpu_mean", "queries", "tunnelled", "embedded", "invalid", "left", "stuck", "deepest",
-             "clearance", "progress", "flips")
+    columns = [
+        "course",
+        "method",
+        "median, ns",
+        "p99, ns",
+        "mean, ns",
+        "queries",
+        "tunnelled",
+        "embedded",
+        "invalid",
+        "left",
+        "stuck",
+        "deepest, m",
+        "clearance, m",
+        "progress",
+        "flips / s",
+    ]
+    names = (
+        "ns_median",
+        "ns_p99",
+        "ns_cpu_mean",
+        "queries",
+        "tunnelled",
+        "embedded",
+        "invalid",
+        "left",
+        "stuck",
+        "deepest",
+        "clearance",
+        "progress",
+        "flips",
+    )
     return page.Table(columns, [[p.course, p.method] + [p[n] for n in names] for p in peers if not p.left_out])
 
 
@@ -149,18 +195,26 @@ def section(peers: Sequence[Peer], out: Path) -> str:
     for one, course in zip(axes, courses):
         one.set_title(course)
         _draw_course(one, [p for p in measured if p.course == course], methods)
-    caption = ("Character controllers on the same levels with the same starts and wishes at 60 Hz, in one run, judged by "
-               "one independent look at the triangles. What never touched anything is drawn at 1 µm. A red cross "
-               "tunnelled, ended a step more than 1 mm inside, or at no number.")
+    caption = (
+        "Character controllers on the same levels with the same starts and wishes at 60 Hz, in one run, judged by "
+        "one independent look at the triangles. What never touched anything is drawn at 1 µm. A red cross "
+        "tunnelled, ended a step more than 1 mm inside, or at no number."
+    )
     parts = [page.figure("Every course", save(figure, out, "peers"), caption, _table(peers))]
     chosen = dict.fromkeys((p.method, p.version, p.settings) for p in measured)
-    parts.append("<h3>What was chosen for each</h3>" + page.table(
-        page.Table(["method", "version", "settings, and who recommends them"], [list(c) for c in chosen])))
-    left_out = list(dict.fromkeys(f"{p.method}{' on ' + p.course if p.course else ''}: {p.left_out}"
-                                  for p in peers if p.left_out))
+    parts.append(
+        "<h3>What was chosen for each</h3>"
+        + page.table(page.Table(["method", "version", "settings, and who recommends them"], [list(c) for c in chosen]))
+    )
+    left_out = list(
+        dict.fromkeys(f"{p.method}{' on ' + p.course if p.course else ''}: {p.left_out}" for p in peers if p.left_out)
+    )
     if left_out:
         parts.append("<h3>Left out</h3>" + page.bullets(left_out))
     said = worse(peers)
-    parts.append("<h3>What Tahr does worse</h3><p>Everything measured in which another controller beats the best of "
-                 "Tahr's by more than 5 %:</p>" + (page.bullets(said) if said else "<p>Nothing.</p>"))
+    parts.append(
+        "<h3>What Tahr does worse</h3><p>Everything measured in which another controller beats the best of "
+        "Tahr's by more than 5 %:</p>"
+        + (page.bullets(said) if said else "<p>Nothing.</p>")
+    )
     return "\n".join(parts)

@@ -48,10 +48,14 @@ def panels(count: int, width: float = 4.5, height: float = 4.2, left: float = 0.
     one panel with what stands around it, and of what stands left of it."""
     figure, axes = pyplot.subplots(lines, count, figsize=(width * count, height * lines), squeeze=False)
     right, bottom, top = 0.15, 0.5, 0.35
-    figure.subplots_adjust(left=left / (width * count), right=1 - right / (width * count),
-                           bottom=bottom / (height * lines), top=1 - top / (height * lines),
-                           wspace=(left + right) / (width - left - right),
-                           hspace=(bottom + top) / (height - bottom - top))
+    figure.subplots_adjust(
+        left=left / (width * count),
+        right=1 - right / (width * count),
+        bottom=bottom / (height * lines),
+        top=1 - top / (height * lines),
+        wspace=(left + right) / (width - left - right),
+        hspace=(bottom + top) / (height - bottom - top),
+    )
     return figure, [one for line in axes for one in line]
 
 

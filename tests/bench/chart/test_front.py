@@ -4,13 +4,14 @@
 import math
 import unittest
 from dataclasses import replace
+from typing import Any
 
 import front
 from rows import COLUMNS, COUNTS, TEXTS, Row
 
 
 def row(**changes) -> Row:
-    empty = {name: "" if name in TEXTS else 1 if name in COUNTS else math.nan for name in COLUMNS}
+    empty: dict[str, Any] = {name: "" if name in TEXTS else 1 if name in COUNTS else math.nan for name in COLUMNS}
     return replace(Row(**empty), failed=0, **changes)
 
 

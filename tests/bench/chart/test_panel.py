@@ -5,6 +5,7 @@ import importlib.util
 import math
 import unittest
 from dataclasses import replace
+from typing import Any
 
 from rows import COLUMNS, COUNTS, TEXTS, Row
 
@@ -15,7 +16,7 @@ if importlib.util.find_spec("matplotlib"):
 
 
 def row(**changes) -> Row:
-    empty = {name: "" if name in TEXTS else 100 if name in COUNTS else math.nan for name in COLUMNS}
+    empty: dict[str, Any] = {name: "" if name in TEXTS else 100 if name in COUNTS else math.nan for name in COLUMNS}
     return replace(Row(**empty), failed=0, **changes)
 
 
@@ -41,7 +42,7 @@ class Panel(unittest.TestCase):
         boxes = [text.get_window_extent() for text in axes.texts]
         self.assertEqual(len(boxes), 4)
         for i, box in enumerate(boxes):
-            for other in boxes[i + 1:]:
+            for other in boxes[i + 1 :]:
                 self.assertFalse(box.overlaps(other))
             for point in points:
                 self.assertFalse(box.contains(*axes.transData.transform(point)))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests of peers.py: what is read, what wrong input says, and that what Tahr does worse is said. They need matplotlib."""
+"""Tests of peers.py: what is read, what wrong input says, what is said of Tahr. They need matplotlib."""
 
 import importlib.util
 import tempfile
@@ -11,8 +11,10 @@ from rows import ChartError
 if importlib.util.find_spec("matplotlib"):
     import peers
 
-HEAD = ("course,method,version,left_out,steps,ns_median,ns_p99,ns_cpu_mean,queries,tunnelled,embedded,invalid,left,stuck,"
-        "deepest,clearance,progress,flips,settings\n")
+HEAD = (
+    "course,method,version,left_out,steps,ns_median,ns_p99,ns_cpu_mean,queries,tunnelled,embedded,invalid,left,stuck,"
+    "deepest,clearance,progress,flips,settings\n"
+)
 TAHR = 'plane,tahr,0.1,,100,200,400,210,2,0,0,0,0,0,0,0.01,0.9,0.2,"the default, as it is"\n'
 PEER = "plane,other,2,,100,300,350,310,3,1,0,0,0,0,0.001,-0.001,0.91,0.2,its own\n"
 LEFT_OUT = 'plane,third,,"no compiler, no library",,,,,,,,,,,,,,,\n'
