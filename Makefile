@@ -104,7 +104,7 @@ chart:
 	@$(call compile,$(BUILD)) --target tahr_chart
 	@mkdir -p $(BUILD)/chart
 	$(BUILD)/bin/tahr_chart --budget $(if $(QUICK),quick,full) --out $(BUILD)/chart $(ARGS)
-	@$(chart_python) tests/bench/chart/draw.py --in $(BUILD)/chart --out $(BUILD)/chart --peers $(BUILD)/peers.csv \
+	@$(chart_python) -B tests/bench/chart/draw.py --in $(BUILD)/chart --out $(BUILD)/chart --peers $(BUILD)/peers.csv \
 		--command "make chart$(if $(QUICK), QUICK=1)"
 
 install: build
