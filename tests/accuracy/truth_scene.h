@@ -22,6 +22,7 @@ typedef struct {
     int triangles[MAX_TRIANGLES][3];
     int vertex_count, triangle_count;
     int solid; /* 1: the triangles bound a convex solid, counter-clockwise seen from outside */
+    int flat;  /* 1: all triangles together are one convex polygon */
     int is_box;
     double half[3], quat[4]; /* of a box, about centre */
     dvec centre;
