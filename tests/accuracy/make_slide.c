@@ -16,7 +16,7 @@
 #include "slide_scene.h"
 
 /* m: what is stored may be off the exact path between two knots. */
-static const double KNOT_ERROR = 1e-11;
+static const double KNOT_ERROR = 1e-10;
 
 /* s: pieces that only find out which of two features holds are not stored; nothing moves 1e-8 m in them. */
 static const double TOO_SHORT = 1e-9;
@@ -234,7 +234,7 @@ static void make_random(FILE *out)
     int made = 0;
 
     seed = 77;
-    while (made < 24) {
+    while (made < 16) {
         uint64_t began = seed;
         polyhedra(&s, made % 2 ? CAPSULE : SPHERE, made);
         s.character.margin = 0x1p-7;

@@ -116,7 +116,7 @@ static void wedge(slide_scene *s, int kind, double degrees, double sink)
     char name[32];
     double half = degrees * DEGREE / 2, depth = rounded(0.75 / sin(half), DYADIC);
     snprintf(name, sizeof name, "wedge_%g%s", degrees, sink != 0 ? "_along" : "");
-    named(s, name, kind, (dvec){depth, 0.25, 0}, (dvec){-0.75 * depth, 0.75, sink});
+    named(s, name, kind, (dvec){depth, 0.25, 0}, (dvec){-fmax(0.75 * depth, 3), 0.75, sink});
     add_plane(s, (dvec){0, 0, 0}, (dvec){sin(half), -cos(half), 0}, 0.3);
     add_plane(s, (dvec){0, 0, 0}, (dvec){sin(half), cos(half), 0}, 0.2);
 }
@@ -133,7 +133,7 @@ static void three_planes(slide_scene *s, int kind)
 /* Walls at 30 and 5 degrees to the way, which is between them: the corner of ping-pong. */
 static void acute(slide_scene *s, int kind)
 {
-    named(s, "acute", kind, (dvec){-1.5, 0.75, 0}, (dvec){3, 0.5, 0});
+    named(s, "acute", kind, (dvec){-1.5, 0.75, 0}, (dvec){4.5, 0.75, 0});
     add_plane(s, (dvec){0, 0, 0}, (dvec){sin(5 * DEGREE), cos(5 * DEGREE), 0}, 0.3);
     add_plane(s, (dvec){0, 1.5, 0}, (dvec){-sin(30 * DEGREE), -cos(30 * DEGREE), 0}, 0.2);
 }

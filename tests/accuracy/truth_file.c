@@ -56,7 +56,7 @@ static tahr_quat read_quat(char **text)
     return q;
 }
 
-static void read_body(char kind, char *text, truth_body *out)
+void truth_read_body(char kind, char *text, truth_body *out)
 {
     tahr_body_desc *d = &out->desc;
     score_body *judged = &out->judged;
@@ -117,22 +117,28 @@ static void read_case(char *text, int line, truth_case *out)
     t->normal = truth_vec(&text);
 }
 
+FILE *truth_open(const char *name)
+{
+    char path[1024];
+
+    snprintf(path, sizeof path, "%s/tests/accuracy/truth/%s.txt", TAHR_SOURCE_DIR, name);
+    FILE *file = fopen(path, "r");
+    if (!file) {
+        refuse("cannot read", path);
+    }
+    return file;
+}
+
 int truth_each(const char *family, truth_fn each, void *user)
 {
     static char line[65536];
     static truth_body body;
-    char path[1024];
+    FILE *file = truth_open(family);
     int cases = 0, is_new = 0;
 
-    snprintf(path, sizeof path, "%s/tests/accuracy/truth/%s.txt", TAHR_SOURCE_DIR, family);
-    FILE *file = fopen(path, "r");
-    if (!file) {
-        refuse("cannot read", path);
-        return 0;
-    }
     for (int number = 1; fgets(line, sizeof line, file); number++) {
         if (line[0] == 'm' || line[0] == 's' || line[0] == 'b') {
-            read_body(line[0], line + 1, &body);
+            truth_read_body(line[0], line + 1, &body);
             is_new = 1;
         } else if (line[0] == 'c') {
             truth_case c;

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * truth_file.h: reads the stored truth of sweeps (truth/<family>.txt, made by make_truth.c). */
+ * truth_file.h: reads the stored truth of sweeps (truth/<family>.txt, made by make_truth.c) and of slides
+ * (truth/slides.txt, made by make_slide.c). */
 #ifndef TAHR_ACCURACY_TRUTH_FILE_H
 #define TAHR_ACCURACY_TRUTH_FILE_H
+
+#include <stdio.h>
 
 #include <tahr/tahr.h>
 
@@ -30,6 +33,33 @@ int truth_each(const char *family, truth_fn each, void *user);
 
 /* Names of all families, then NULL. */
 extern const char *const TRUTH_FAMILIES[];
+
+enum { TRUTH_MAX_BODIES = 16 };
+
+/* One slide: a scene, who wants to go where in it, and the path that is right: at every moment the velocity nearest to
+ * wish that leads into nothing that is touched, where "touched" is at the distance margin. */
+typedef struct truth_slide {
+    char name[32]; /* "edge_capsule" */
+    const tahr_body_desc *descs;
+    score_scene scene;
+    tahr_shape shape;
+    tahr_vec3 position, up, wish; /* wish: m/s */
+    double margin;                /* m: 0, or the skin of a character that is to go this way */
+    double duration;              /* s */
+    int curved;                   /* 1: a part of it goes around an edge or a vertex: no polygon */
+    score_reference path;
+} truth_slide;
+
+/* Calls with every slide; what it is given is valid during the call. Aborts with a message on a file that cannot be
+ * read. Returns how many. */
+typedef void (*truth_slide_fn)(void *user, const truth_slide *slide);
+int truth_each_slide(truth_slide_fn each, void *user);
+
+/* A body of a line of a file, after its first letter kind (m, s, b). */
+void truth_read_body(char kind, char *text, truth_body *out);
+
+/* tests/accuracy/truth/<name>.txt of the sources; aborts where it cannot be read. */
+FILE *truth_open(const char *name);
 
 /* The next number of a text, in hex floats or decimals; aborts where there is none. */
 double truth_number(char **text);
