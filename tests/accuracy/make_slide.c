@@ -126,6 +126,32 @@ static real verify(const slide_scene *s)
     return sum;
 }
 
+static vec exactly_at(real time)
+{
+    int i = 0;
+
+    while (i + 1 < piece_count && time > pieces[i].duration)
+        time -= pieces[i++].duration;
+    return piece_at(&pieces[i], time);
+}
+
+/* What the catching-up scheme itself is off, at most, with steps of 1/64 s from the start on: the yardstick for whoever
+ * steps as coarsely. */
+static double catch_error(const slide_scene *s)
+{
+    catch_scene c = {s->bodies, s->body_count, core_of(&s->character), things.rho};
+    vec x = wide(s->character.position);
+    real worst = 0;
+
+    c.shape.centre = (vec){0, 0, 0};
+    for (int i = 1; i <= (int)(s->duration * 64 + 0.5); i++) {
+        x = catch_up(&c, x, vmul(wide(s->u), (real)1 / 64));
+        vec off = vsub(x, exactly_at((real)i / 64));
+        if (vdot(off, off) > worst) worst = vdot(off, off);
+    }
+    return (double)root(worst);
+}
+
 static void put(FILE *out, vec v)
 {
     fprintf(out, " %a %a %a", (double)v.x, (double)v.y, (double)v.z);
@@ -154,7 +180,7 @@ static void put_path(FILE *out, const slide_scene *s, double differ)
     fprintf(out, "p %d %a %a %a %a", q->type, q->radius, q->half_height, q->half_x, q->half_y);
     put(out, wide(q->up));
     put(out, wide(s->u));
-    fprintf(out, " %a %a %d %.1e\n", q->margin, s->duration, curved, differ);
+    fprintf(out, " %a %a %d %.1e %.3e\n", q->margin, s->duration, curved, differ, catch_error(s));
     for (int i = 0; i < knot_count; i++) {
         fprintf(out, "k %a", (double)knots[i].time);
         put(out, knots[i].position);
@@ -213,7 +239,8 @@ static FILE *open_file(const char *folder)
           "tests/accuracy/truth\n"
           "# w: a scene and its name; m, s: its bodies, as in the files of sweeps\n"
           "# p: a path in it: shape radius half_height half_x half_y, up, the velocity wanted, the distance kept from\n"
-          "#    everything, duration, 1 if a part of it is curved, m by which the two methods differ\n"
+          "#    everything, duration, 1 if a part of it is curved, m by which the two methods differ, m by which the\n"
+          "#    catching-up scheme with steps of 1/64 s is off at most\n"
           "# k: time, position, velocity: knots of it, a cubic between two of them; two of one time where it bends\n",
           out);
     return out;

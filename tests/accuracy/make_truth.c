@@ -15,6 +15,7 @@
 
 #include "quad_entry.h"
 #include "truth_scene.h"
+#include "truth_plane.h"
 #include "truth_solid.h"
 
 enum { FREE, HIT, OVERLAP };
@@ -218,6 +219,7 @@ static FILE *open_file(const char *folder, const char *name)
         "tests/accuracy/truth\n"
         "# m: vertices triangles, then x y z of each vertex, then three indices of each triangle (two-sided body)\n"
         "# s: a convex solid, as m; b: half extents, centre, orientation x y z w of a box, then as s\n"
+        "# l: an outline drawn out along z, 1 if it is a ring, then as m: its corners at -z, then those at z\n"
         "# c: a case on the last of these: shape radius half_height half_x half_y, position, up, orientation x y z w, "
         "motion,\n"
         "#    margin, status (0 free, 1 hit, 2 overlap at the start), signed start distance, start normal, fraction,\n"
@@ -240,7 +242,8 @@ static void put_normal(FILE *out, dvec v)
 
 static void put_mesh(FILE *out, const mesh *m)
 {
-    fprintf(out, "%s", m->is_box ? "b" : m->solid ? "s" : "m");
+    fprintf(out, "%s", m->is_box ? "b" : m->solid ? "s" : m->chain ? "l" : "m");
+    if (m->chain) fprintf(out, " %d", m->chain - 1);
     if (m->is_box) {
         put(out, (dvec){m->half[0], m->half[1], m->half[2]});
         put(out, m->centre);
@@ -382,6 +385,35 @@ static int make_solid_family(const char *folder, const struct solids *s)
     return cases;
 }
 
+/* Three cases on each outline. */
+static int make_plane_family(const char *folder, const char *name, int solid, int per_kind)
+{
+    FILE *out = open_file(folder, name);
+    int cases = 0;
+
+    for (int kind = 0; kind < KINDS; kind++) {
+        mesh m;
+        for (int i = 0, tries = 0; i < per_kind; tries++) {
+            query q;
+            answer a;
+            if (i % 3 == 0 && (i == 0 || tries > 0)) {
+                if (solid)
+                    make_polygon(&m);
+                else
+                    make_chain(&m, below(2));
+            }
+            make_flat_shape(&q, kind);
+            place_flat(&q, &m, i);
+            if (!solve(&q, &m, &a) || a.start_gap <= q.margin) continue;
+            if (i % 3 == 0) put_mesh(out, &m);
+            put_case(out, &q, &a);
+            cases++, i++, tries = 0;
+        }
+    }
+    fclose(out);
+    return cases;
+}
+
 int main(int count, char **arguments)
 {
     const char *folder = count > 1 ? arguments[1] : ".";
@@ -406,6 +438,9 @@ int main(int count, char **arguments)
         printf("%-15s %d\n", solids[i].family.name, cases);
         fflush(stdout);
     }
+    seed = 3000;
+    cases += make_plane_family(folder, "plane_chain", 0, 36);
+    cases += make_plane_family(folder, "plane_hull", 1, 36);
     printf("%d cases, both methods agree\n", cases);
     return 0;
 }

@@ -39,6 +39,19 @@ static void add_plane(slide_scene *s, dvec p, dvec n, double angle)
     face(m, 0, 1, 2), face(m, 0, 2, 3);
 }
 
+/* An upright wall through (x, y), exactly upright, whose front looks to the left of who goes at this angle to x. */
+static void add_wall(slide_scene *s, double x, double y, double angle)
+{
+    mesh *m = &s->bodies[s->body_count++];
+    dvec a = round_vec((dvec){cos(angle) * ENDLESS, sin(angle) * ENDLESS, 0}, FINE);
+
+    memset(m, 0, sizeof *m);
+    for (int i = 0; i < 4; i++)
+        vertex(m, i % 3 ? x + a.x : x - a.x, i % 3 ? y + a.y : y - a.y, i < 2 ? -ENDLESS : ENDLESS);
+    m->flat = 1;
+    face(m, 0, 1, 2), face(m, 0, 2, 3);
+}
+
 static void add_block(slide_scene *s, dvec lo, dvec hi)
 {
     mesh *m = &s->bodies[s->body_count++];
@@ -99,7 +112,7 @@ static void crease(slide_scene *s, int kind)
 {
     named(s, "crease", kind, (dvec){-0.5, 0.25, 1.75}, (dvec){2, 3, -3});
     add_plane(s, (dvec){0, 0, 0}, (dvec){0, 0, 1}, 0.3);
-    add_plane(s, (dvec){0, 2, 0}, (dvec){-0.3, -1, 0}, 0.2);
+    add_wall(s, 0, 2, -0.3);
 }
 
 /* The gutter in which clipping by one plane after the other drifts. */
@@ -117,8 +130,8 @@ static void wedge(slide_scene *s, int kind, double degrees, double sink)
     double half = degrees * DEGREE / 2, depth = rounded(0.75 / sin(half), DYADIC);
     snprintf(name, sizeof name, "wedge_%g%s", degrees, sink != 0 ? "_along" : "");
     named(s, name, kind, (dvec){depth, 0.25, 0}, (dvec){-fmax(0.75 * depth, 3), 0.75, sink});
-    add_plane(s, (dvec){0, 0, 0}, (dvec){sin(half), -cos(half), 0}, 0.3);
-    add_plane(s, (dvec){0, 0, 0}, (dvec){sin(half), cos(half), 0}, 0.2);
+    add_wall(s, 0, 0, half);
+    add_wall(s, 0, 0, -half);
 }
 
 /* A floor and two walls 30 degrees apart. */
@@ -126,16 +139,16 @@ static void three_planes(slide_scene *s, int kind)
 {
     named(s, "three", kind, (dvec){3, 0.25, 1.5}, (dvec){-4, 0.5, -2});
     add_plane(s, (dvec){0, 0, 0}, (dvec){0, 0, 1}, 0.3);
-    add_plane(s, (dvec){0, 0, 0}, (dvec){sin(15 * DEGREE), -cos(15 * DEGREE), 0}, 0.2);
-    add_plane(s, (dvec){0, 0, 0}, (dvec){sin(15 * DEGREE), cos(15 * DEGREE), 0}, 0.1);
+    add_wall(s, 0, 0, 15 * DEGREE);
+    add_wall(s, 0, 0, -15 * DEGREE);
 }
 
 /* Walls at 30 and 5 degrees to the way, which is between them: the corner of ping-pong. */
 static void acute(slide_scene *s, int kind)
 {
     named(s, "acute", kind, (dvec){-1.5, 0.75, 0}, (dvec){4.5, 0.75, 0});
-    add_plane(s, (dvec){0, 0, 0}, (dvec){sin(5 * DEGREE), cos(5 * DEGREE), 0}, 0.3);
-    add_plane(s, (dvec){0, 1.5, 0}, (dvec){-sin(30 * DEGREE), -cos(30 * DEGREE), 0}, 0.2);
+    add_wall(s, 0, 0, -5 * DEGREE);
+    add_wall(s, 0, 1.5, -30 * DEGREE);
 }
 
 /* Over the edge of a table, and down. */

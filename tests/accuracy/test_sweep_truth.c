@@ -17,6 +17,9 @@
 #ifdef TAHR_HAVE_FCL
 #include <tahr/fcl.h>
 #endif
+#ifdef TAHR_HAVE_BOX2D
+#include <tahr/box2d.h>
+#endif
 
 #include "truth_file.h"
 
@@ -31,6 +34,7 @@ typedef struct subject {
     const void *options;
     double (*gap_limit)(const truth_case *c, const truth_body *body);
     double normal_limit; /* degrees */
+    int planar;          /* 1: a backend of two dimensions */
 } subject;
 
 /* One family on one backend. */
@@ -79,6 +83,17 @@ static double limit_library(const truth_case *c, const truth_body *body)
 
     (void)body;
     return 1e-4 * 2 * fmax(s->half_height, fmax(s->half_x, s->half_y));
+}
+#endif
+
+#ifdef TAHR_HAVE_BOX2D
+/* 1e-3 of the shape's largest extent. */
+static double limit_box2d(const truth_case *c, const truth_body *body)
+{
+    const tahr_shape *s = &c->query.shape;
+
+    (void)body;
+    return 1e-3 * 2 * fmax(s->half_height, s->half_x);
 }
 #endif
 
@@ -174,7 +189,7 @@ static void open_world(trial *t, const truth_body *body)
     tahr_world_close(t->world);
     t->world = NULL;
     assert_int_equal(tahr_world_desc_init(&desc, sizeof desc), TAHR_OK);
-    desc.bodies = &body->desc;
+    desc.bodies = t->subject->planar ? &body->flat : &body->desc;
     desc.body_count = 1;
     desc.options = t->subject->options;
     assert_int_equal(tahr_world_open(t->subject->backend, &desc, &t->world), TAHR_OK);
@@ -209,12 +224,13 @@ static int try_family(const subject *who, const char *family)
 static void backend_agrees_with_truth(void **state)
 {
     const subject *who = *state;
+    const char *const *families = who->planar ? TRUTH_PLANE_FAMILIES : TRUTH_FAMILIES;
     int failed = 0;
 
     print_message("%-14s %-15s %5s %5s %9s %9s %6s %6s %8s %9s %8s %6s\n", "backend", "family", "cases", "hits",
                   "gap p99 m", "gap max m", "missed", "false", "normal", "contact m", "normal", "of lim");
-    for (size_t i = 0; TRUTH_FAMILIES[i]; i++) {
-        failed += try_family(who, TRUTH_FAMILIES[i]);
+    for (size_t i = 0; families[i]; i++) {
+        failed += try_family(who, families[i]);
     }
     assert_int_equal(failed, 0);
 }
@@ -260,11 +276,17 @@ int main(void)
 {
     static const tahr_native_desc in_float = {.struct_size = sizeof in_float, .precision = TAHR_NATIVE_FLOAT};
     static const tahr_native_desc in_double = {.struct_size = sizeof in_double, .precision = TAHR_NATIVE_DOUBLE};
-    subject native_float = {"native float", tahr_backend_v1_native(), &in_float, limit_float, 0.1};
-    subject native_double = {"native double", tahr_backend_v1_native(), &in_double, limit_double, 0.1};
+    subject native_float = {"native float", tahr_backend_v1_native(), &in_float, limit_float, 0.1, 0};
+    subject native_double = {"native double", tahr_backend_v1_native(), &in_double, limit_double, 0.1, 0};
 #ifdef TAHR_HAVE_CCD
     static const tahr_ccd_desc by_gjk = {sizeof by_gjk, TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_GJK, 0, {0}};
     static const tahr_ccd_desc by_mpr = {sizeof by_mpr, TAHR_CCD_SWEEP_BISECTION, TAHR_CCD_BOOLEAN_MPR, 0, {0}};
+#endif
+#ifdef TAHR_HAVE_BOX2D_2
+    static const tahr_box2d_desc engine_2 = {.struct_size = sizeof engine_2, .engine = TAHR_BOX2D_2};
+#endif
+#ifdef TAHR_HAVE_BOX2D_3
+    static const tahr_box2d_desc engine_3 = {.struct_size = sizeof engine_3, .engine = TAHR_BOX2D_3};
 #endif
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solving_on_the_spot_finds_the_stored_truth),
@@ -272,15 +294,23 @@ int main(void)
         {"native_double_agrees_with_truth", backend_agrees_with_truth, NULL, NULL, &native_double},
 #ifdef TAHR_HAVE_CCD
         {"ccd_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
-         &(subject){"ccd", tahr_backend_v1_ccd(), NULL, limit_library, 2}},
+         &(subject){"ccd", tahr_backend_v1_ccd(), NULL, limit_library, 2, 0}},
         {"ccd_by_gjk_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
-         &(subject){"ccd by GJK", tahr_backend_v1_ccd(), &by_gjk, limit_library, 2}},
+         &(subject){"ccd by GJK", tahr_backend_v1_ccd(), &by_gjk, limit_library, 2, 0}},
         {"ccd_by_mpr_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
-         &(subject){"ccd by MPR", tahr_backend_v1_ccd(), &by_mpr, limit_library, 2}},
+         &(subject){"ccd by MPR", tahr_backend_v1_ccd(), &by_mpr, limit_library, 2, 0}},
 #endif
 #ifdef TAHR_HAVE_FCL
         {"fcl_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
-         &(subject){"fcl", tahr_backend_v1_fcl(), NULL, limit_library, 2}},
+         &(subject){"fcl", tahr_backend_v1_fcl(), NULL, limit_library, 2, 0}},
+#endif
+#ifdef TAHR_HAVE_BOX2D_2
+        {"box2d_2_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
+         &(subject){"box2d 2.4", tahr_backend_v1_box2d(), &engine_2, limit_box2d, 2, 1}},
+#endif
+#ifdef TAHR_HAVE_BOX2D_3
+        {"box2d_3_agrees_with_truth", backend_agrees_with_truth, NULL, NULL,
+         &(subject){"box2d 3", tahr_backend_v1_box2d(), &engine_3, limit_box2d, 2, 1}},
 #endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,11 +11,14 @@
 #endif
 
 const char *const TRUTH_FAMILIES[] = {
-    "generic",      "dyadic",       "lattice",        "feature",         "grazing",        "long",        "sliver",
-    "tiny",         "huge",         "far_1e3",        "far_1e6",         "touching",       "overlap",     "mesh_flat",
-    "mesh_hills",   "mesh_stairs",  "mesh_corner",    "mesh_fan",        "mesh_soup",      "convex_hull", "convex_box",
-    "convex_exact", "convex_sharp", "convex_grazing", "convex_touching", "convex_overlap", NULL,
+    "generic",         "dyadic",         "lattice",     "feature",      "grazing",      "long",
+    "sliver",          "tiny",           "huge",        "far_1e3",      "far_1e6",      "touching",
+    "overlap",         "mesh_flat",      "mesh_hills",  "mesh_stairs",  "mesh_corner",  "mesh_fan",
+    "mesh_soup",       "convex_hull",    "convex_box",  "convex_exact", "convex_sharp", "convex_grazing",
+    "convex_touching", "convex_overlap", "plane_chain", "plane_hull",   NULL,
 };
+
+const char *const TRUTH_PLANE_FAMILIES[] = {"plane_chain", "plane_hull", NULL};
 
 static void refuse(const char *what, const char *where)
 {
@@ -62,12 +65,14 @@ void truth_read_body(char kind, char *text, truth_body *out)
     score_body *judged = &out->judged;
 
     tahr_body_desc_init(d, sizeof *d, kind == 'b' ? TAHR_BODY_BOX : kind == 's' ? TAHR_BODY_HULL : TAHR_BODY_MESH);
+    int loop = kind == 'l' ? (int)truth_number(&text) : 0;
     if (kind == 'b') {
         d->half_extents = truth_vec(&text);
         d->pose.position = truth_vec(&text);
         d->pose.orientation = read_quat(&text);
     }
-    *judged = (score_body){.vertices = out->vertices, .indices = out->indices, .flags = kind == 'm' ? 0 : SCORE_SOLID};
+    *judged = (score_body){
+        .vertices = out->vertices, .indices = out->indices, .flags = kind == 'm' || kind == 'l' ? 0 : SCORE_SOLID};
     judged->vertex_count = (uint32_t)truth_number(&text);
     judged->triangle_count = (uint32_t)truth_number(&text);
     if (judged->vertex_count > TRUTH_MAX_VERTICES || judged->triangle_count > TRUTH_MAX_TRIANGLES) {
@@ -83,10 +88,18 @@ void truth_read_body(char kind, char *text, truth_body *out)
         d->vertices = out->vertices;
         d->vertex_count = judged->vertex_count;
     }
-    if (kind == 'm') {
+    if (kind == 'm' || kind == 'l') {
         d->flags = TAHR_BODY_TWO_SIDED;
         d->indices = out->indices;
         d->triangle_count = judged->triangle_count;
+    }
+    out->flat = *d;
+    if (kind == 'l') {
+        out->flat.type = TAHR_BODY_CHAIN;
+        out->flat.flags |= loop ? TAHR_BODY_LOOP : 0u;
+        out->flat.vertex_count = judged->vertex_count / 2; /* those at -z; a chain has no z */
+        out->flat.indices = NULL;
+        out->flat.triangle_count = 0;
     }
 }
 
@@ -137,7 +150,7 @@ int truth_each(const char *family, truth_fn each, void *user)
     int cases = 0, is_new = 0;
 
     for (int number = 1; fgets(line, sizeof line, file); number++) {
-        if (line[0] == 'm' || line[0] == 's' || line[0] == 'b') {
+        if (line[0] == 'm' || line[0] == 's' || line[0] == 'b' || line[0] == 'l') {
             truth_read_body(line[0], line + 1, &body);
             is_new = 1;
         } else if (line[0] == 'c') {
@@ -147,7 +160,7 @@ int truth_each(const char *family, truth_fn each, void *user)
             is_new = 0;
             cases++;
         } else if (line[0] != '#') {
-            refuse("a line that begins with none of m, s, b, c and #", line);
+            refuse("a line that begins with none of m, s, b, l, c and #", line);
         }
     }
     fclose(file);

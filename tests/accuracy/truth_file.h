@@ -18,6 +18,7 @@ typedef struct truth_body {
     uint32_t indices[TRUTH_MAX_TRIANGLES * 3];
     score_body judged;
     tahr_body_desc desc; /* a mesh that blocks from both sides, a hull, or a box; its arrays are those above */
+    tahr_body_desc flat; /* of an outline in the plane: the chain, for worlds of two dimensions; else as desc */
 } truth_body;
 
 typedef struct truth_case {
@@ -31,8 +32,8 @@ typedef struct truth_case {
 typedef void (*truth_fn)(void *user, const truth_body *body, int is_new, const truth_case *c);
 int truth_each(const char *family, truth_fn each, void *user);
 
-/* Names of all families, then NULL. */
-extern const char *const TRUTH_FAMILIES[];
+/* Names of all families, then NULL; and of those that happen in the plane of x and y, for backends of both kinds. */
+extern const char *const TRUTH_FAMILIES[], *const TRUTH_PLANE_FAMILIES[];
 
 enum { TRUTH_MAX_BODIES = 16 };
 
@@ -47,6 +48,7 @@ typedef struct truth_slide {
     double margin;                /* m: 0, or the skin of a character that is to go this way */
     double duration;              /* s */
     int curved;                   /* 1: a part of it goes around an edge or a vertex: no polygon */
+    double first_order;           /* m: how far off a scheme of first order with steps of 1/64 s is at most */
     score_reference path;
 } truth_slide;
 
@@ -55,7 +57,7 @@ typedef struct truth_slide {
 typedef void (*truth_slide_fn)(void *user, const truth_slide *slide);
 int truth_each_slide(truth_slide_fn each, void *user);
 
-/* A body of a line of a file, after its first letter kind (m, s, b). */
+/* A body of a line of a file, after its first letter kind (m, s, b, l). */
 void truth_read_body(char kind, char *text, truth_body *out);
 
 /* tests/accuracy/truth/<name>.txt of the sources; aborts where it cannot be read. */

@@ -23,6 +23,7 @@ typedef struct {
     int vertex_count, triangle_count;
     int solid; /* 1: the triangles bound a convex solid, counter-clockwise seen from outside */
     int flat;  /* 1: all triangles together are one convex polygon */
+    int chain; /* 1: an outline drawn out along z, its corners first at -z, then at z; 2: a ring */
     int is_box;
     double half[3], quat[4]; /* of a box, about centre */
     dvec centre;

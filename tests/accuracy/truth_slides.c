@@ -43,6 +43,8 @@ static void read_path(truth_slide *slide, char *text)
     slide->margin = truth_number(&text);
     slide->duration = truth_number(&text);
     slide->curved = (int)truth_number(&text);
+    truth_number(&text); /* by how much the two methods differ: for readers of the file */
+    slide->first_order = truth_number(&text);
     slide->path.count = 0;
 }
 
