@@ -176,7 +176,7 @@ static void put_path(FILE *out, const slide_scene *s, double differ)
     int curved = 0;
 
     for (int i = 0; i < piece_count; i++)
-        curved |= pieces[i].kind == ROUND;
+        curved |= pieces[i].kind == ROUND && pieces[i].duration >= TOO_SHORT;
     fprintf(out, "p %d %a %a %a %a", q->type, q->radius, q->half_height, q->half_x, q->half_y);
     put(out, wide(q->up));
     put(out, wide(s->u));

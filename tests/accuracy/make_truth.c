@@ -14,7 +14,6 @@
 #include <string.h>
 
 #include "quad_entry.h"
-#include "truth_scene.h"
 #include "truth_plane.h"
 #include "truth_solid.h"
 

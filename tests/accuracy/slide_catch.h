@@ -6,7 +6,7 @@
 #ifndef TAHR_TRUTH_SLIDE_CATCH_H
 #define TAHR_TRUTH_SLIDE_CATCH_H
 
-#include "quad_entry.h"
+#include "quad_patch.h"
 #include "truth_scene.h"
 
 enum { MAX_BODIES = 16, MAX_NEAR = 48, LEVELS = 6 };

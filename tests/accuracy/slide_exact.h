@@ -2,7 +2,7 @@
  * slide_exact.h: how something that wants to go along u slides, event by event: first method of make_slide.c.
  *
  * The law: x' = the velocity nearest to u that leads into nothing that is touched (a sweeping process; no inertia). The
- * character shrinks to a point, what is there grows by its core (quad_entry.h) and is kept at a distance rho. Between
+ * character shrinks to a point, what is there grows by its core (quad_patch.h) and is kept at a distance rho. Between
  * two events the point moves straight (along nothing, faces, creases) or along a circle about an edge or a vertex: with
  * phi the angle between the normal and -u across the edge, phi' = |u| sin phi / rho, so tan(phi / 2) grows as
  * exp(|u| t / rho): closed forms. Events (something else is met, what is touched ends) are found by looking 1024 times
@@ -11,7 +11,7 @@
 #ifndef TAHR_TRUTH_SLIDE_EXACT_H
 #define TAHR_TRUTH_SLIDE_EXACT_H
 
-#include "quad_entry.h"
+#include "quad_patch.h"
 
 /* m. INTO: this much nearer is met; OFF: this much further is no longer touched; NEAR: touches. Ten orders below what
  * is asked for, ten above rounding. */

@@ -5,7 +5,7 @@
 #ifndef TAHR_TRUTH_PLANE_H
 #define TAHR_TRUTH_PLANE_H
 
-#include "truth_scene.h"
+#include "truth_sweeps.h"
 
 /* m: half the length along z; beyond all that moves. */
 static const double DRAWN_OUT = 8;
