@@ -119,7 +119,8 @@ static real verify(const slide_scene *s)
     for (int i = 0; i < piece_count; i++) {
         const piece *p = &pieces[i];
         real doubt;
-        vec there = catch_to(&c, p->start, wide(s->u), p->duration, &doubt);
+        vec there = catch_to(&c, p->start, wide(s->u), p->duration, 8, &doubt);
+        if (doubt > (real)1e-12) there = catch_to(&c, p->start, wide(s->u), p->duration, 32, &doubt);
         vec off = vsub(there, piece_at(p, p->duration));
         sum += root(vdot(off, off)) + doubt;
     }

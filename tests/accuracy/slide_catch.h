@@ -133,14 +133,14 @@ static vec catch_up(const catch_scene *s, vec x, vec motion)
     return z;
 }
 
-/* Where it is after a time, from x: 8, 16, 32, ... steps, extrapolated to none. [out] doubt: what the last two
- * extrapolations differ by. */
-static vec catch_to(const catch_scene *s, vec x, vec u, real time, real *doubt)
+/* Where it is after a time, from x: `first` steps, twice as many, four times, ..., extrapolated to none. [out] doubt:
+ * what the last two extrapolations differ by. */
+static vec catch_to(const catch_scene *s, vec x, vec u, real time, int first, real *doubt)
 {
     vec table[LEVELS] = {{0, 0, 0}};
 
     for (int level = 0; level < LEVELS; level++) {
-        int steps = 8 << level;
+        int steps = first << level;
         vec at = x, last;
         for (int i = 0; i < steps; i++)
             at = catch_up(s, at, vmul(u, time / steps));
