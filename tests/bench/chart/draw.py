@@ -116,8 +116,7 @@ def lead_section(machine: Sequence[tuple[str, str]], command: str) -> str:
         "<p>What a step of Tahr costs, how wrong it is and where it fails, for each backend and setting. Both axes "
         "are logarithmic; down and to the left is better. Made by</p>"
         f"<pre>{escape(command)}</pre>"
-        "<p>on this machine:</p>"
-        + page.table(page.Table(["", "this machine"], pairs))
+        "<p>on this machine:</p>" + page.table(page.Table(["", "this machine"], pairs))
     )
 
 

@@ -94,6 +94,8 @@ SCENES = {
     "convex": "capsules and spheres against hulls and boxes",
     "hard": "capsules and spheres: slivers, tiny and huge triangles, sharp hulls, far from the origin",
     "boxes": "boxes against triangles, meshes, hulls and boxes",
+    "outlines": "all shapes in a plane against outlines and hulls, backends of two dimensions too",
+    "slides": "the exact slides: walls, edges, gutters, wedges",
     "playground": "the generated playground",
     "dungeon": "the level dungeon, of a shooter",
     "tiles_2d": "a side-scroller of 1002 bodies",
@@ -130,27 +132,16 @@ def _errors_and_counts(rows: Sequence[Row], work: Scale, count: Scale) -> Figure
     return figure
 
 
-PLANE_CAPTION = (
-    "Sweeps that wanderers ask for on the side-scroller, in two dimensions. Error: how far off its margin the shape is "
-    "where the answer stops it, by the distances of native in double (there is no stored truth of a plane). Time: mean "
-    "of a sweep without a cache, the least of five rounds. A red cross misses or hits nothing, more than 1 µm off."
-)
-
-
 def sweep_charts(rows: Sequence[Row]) -> list[Chart]:
     charts = []
     for scene in scenes_of(rows):
         own = [r for r in rows if r.scene == scene]
         caption = (
-            PLANE_CAPTION
-            if scene == "tiles_2d"
-            else (
-                f"Sweeps of {describe(scene)}, {own[0].samples} of them. Error: how far off its margin the shape is"
-                " where the answer stops it, against the stored truth (quad precision). Time: median over the sweeps,"
-                " each the least of some rounds, after the announcement that a step makes. Points of one curve differ"
-                " by the number beside them; a red cross fails as often as it says (missed, hit nothing, gave up, or a"
-                " normal more than 2 degrees off). Grey: the Pareto front. Errors below 1e-12 m are drawn there."
-            )
+            f"Sweeps of {describe(scene)}, {own[0].samples} of them. Error: how far off its margin the shape is"
+            " where the answer stops it, against the stored truth (quad precision). Time: median over the sweeps,"
+            " each the least of some rounds, after the announcement that a step makes. Points of one curve differ"
+            " by the number beside them; a red cross fails as often as it says (missed, hit nothing, gave up, or a"
+            " normal more than 2 degrees off). Grey: the Pareto front. Errors below 1e-12 m are drawn there."
         )
         figure = _errors_and_counts(own, NS_SWEEP, TESTS)
         charts.append(Chart(f"sweeps-{scene}", f"Sweeps: {describe(scene)}", caption, figure, own))
@@ -194,21 +185,33 @@ def _cost_chart(scene: str, rows: Sequence[Row]) -> Chart | None:
     )
 
 
+ERRORS = {
+    "slides": (
+        "the farthest that a character is from the exact path (tests/accuracy), flying without gravity, drag and steps;"
+        " of the skins along bare walls, whose path is right for none of them"
+    ),
+    "plane": "how far off the closed form of its numbers a character is, every 0.1 s of speeding up, braking and a jump",
+}
+WINDOWS = (
+    "the farthest that a character is from its reference path during a second of movement from rest (the same start and"
+    " numbers, all planes at once, on native in double; exact ones at 1920 Hz, stepped ones, whose law along walls is"
+    " another one, stepped at 7680 Hz)"
+)
+
+
 def _movement_caption(scene: str, topic: Topic, doubt: str) -> str:
-    error = (
-        "how far off the closed form of its numbers a character is, every 0.1 s of speeding up, braking and a jump"
-        if scene == "plane"
-        else (
-            "the farthest that a character is from its reference path during a second of movement from rest (the same"
-            " start and numbers, all planes at once, on native in double; exact ones at 1920 Hz, stepped ones, whose"
-            " law along walls is another one, stepped at 7680 Hz)"
-        )
+    error = ERRORS.get(scene, WINDOWS)
+    skin = "skin" in topic.curves and scene != "slides"
+    costs = (
+        "Time and queries: of these steps. A red cross reported that it was stuck, gave up or hit its cap of queries."
+        if scene == "slides"
+        else "Time and queries: wandering characters on the same level, each with a mover of its own. A red cross went"
+        " through something, ended more than 1 mm inside, or reported that it gave up or hit its cap of queries."
     )
-    skin = " The skin is no matter of accuracy but of what is right, and on no front." if "skin" in topic.curves else ""
+    last = " The skin is no matter of accuracy but of what is right, and on no front." if skin else ""
     return (
-        f"Whole movement on {describe(scene)}: {topic.title}. Error: {error}.{doubt} Time and queries: wandering "
-        "characters on the same level, each with a mover of its own. A red cross went through something, ended more "
-        f"than 1 mm inside, or reported that it gave up or hit its cap of queries. Grey: the Pareto front.{skin}"
+        f"Whole movement on {describe(scene)}: {topic.title}. Error: {error}.{doubt} {costs} Grey: the Pareto front."
+        f"{last}"
     )
 
 

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: MIT
- * movement.c: whole movement with every setting: errors by closed forms on the plane and by windows elsewhere, costs by
- * wanderers on the same level. */
+ * movement.c: whole movement with every setting: by exact slides, by closed forms on the plane and by windows elsewhere;
+ * costs, but those of slides, by wanderers on the same level. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "forms.h"
+#include "open_ground.h"
 #include "run.h"
+#include "slides.h"
 #include "walk.h"
 #include "window.h"
 
-static const char *const LEVELS[] = {"plane", "playground", "dungeon", "tiles_2d"};
+static const char *const LEVELS[] = {"slides", "plane", "playground", "dungeon", "tiles_2d"};
 enum { LEVEL_COUNT = sizeof LEVELS / sizeof LEVELS[0] };
 
 /* What all settings of a level share. */
@@ -25,11 +26,17 @@ static int is_plane(const char *name)
     return strcmp(name, "plane") == 0;
 }
 
+static int is_slides(const char *name)
+{
+    return strcmp(name, "slides") == 0;
+}
+
 /* On the plane nothing differs but how time is cut. */
 static int is_measured(const char *level, const chart_setting *s)
 {
     static const char *const curves[] = {"precise", "stepped", "unreal", "max_substep; stepped; 10 Hz",
                                          "max_substeps; stepped; 10 Hz"};
+    if (is_slides(level)) return chart_slides_concern(s);
     for (size_t i = 0; i < sizeof curves / sizeof curves[0]; i++) {
         if (strcmp(s->curve, curves[i]) == 0) return 1;
     }
@@ -39,12 +46,14 @@ static int is_measured(const char *level, const chart_setting *s)
 static int score(const place *p, const chart_setting *setting, chart_row *row, char *why)
 {
     return p->windows ? chart_windows_score(p->windows, setting, row, why)
-                      : chart_forms_score(&p->level, setting, row, why);
+                      : chart_open_ground_score(&p->level, setting, row, why);
 }
 
 static int place_make(place *p, const char *name, uint32_t windows, char *why)
 {
     memset(p, 0, sizeof *p);
+    p->level.name = name;
+    if (is_slides(name)) return 1; /* worlds of their own */
     chart_level_make(&p->level, name);
     if (p->level.missing[0]) {
         snprintf(why, 256, "%s", p->level.missing);
@@ -68,28 +77,36 @@ static void place_free(place *p)
     bench_world_free(&p->level);
 }
 
-static void measure(chart_run *run, const place *p, const chart_setting *setting)
+/* Errors and costs. */
+static int fill(const chart_run *run, const place *p, const chart_setting *setting, chart_row *row, char *why)
 {
-    char why[256] = "";
     chart_pace pace;
-    chart_row row;
     chart_walk walk = {.level = &p->level,
                        .setting = setting,
                        .solid = p->solid,
                        .walkers = run->budget->walkers,
                        .seconds = run->budget->walk_seconds * (setting->slow ? run->budget->slow : 1)};
+    if (is_slides(p->level.name)) return chart_slides_measure(setting, run->budget->slide_stride, row, why);
+    if (!chart_walk_run(&walk, &pace, why) || !score(p, setting, row, why)) return 0;
+    chart_walk_fill(row, &pace, setting->rate);
+    return 1;
+}
+
+static void measure(chart_run *run, const place *p, const chart_setting *setting)
+{
+    char why[256] = "";
+    chart_row row;
     chart_row_clear(&row);
     row.scene = p->level.name;
     row.curve = setting->curve;
     row.setting = setting->name;
-    row.role = setting->role;
+    row.role = is_slides(row.scene) && strcmp(setting->curve, "skin") == 0 ? CHART_KNOB : setting->role;
     row.value = setting->value;
-    if (!chart_walk_run(&walk, &pace, why) || !score(p, setting, &row, why)) {
+    if (fill(run, p, setting, &row, why)) {
+        chart_run_write(run, &row);
+    } else {
         chart_run_fail(run, setting->name, why);
-        return;
     }
-    chart_walk_fill(&row, &pace, setting->rate);
-    chart_run_write(run, &row);
 }
 
 /* How far the reference itself is to be trusted. */

@@ -214,7 +214,6 @@ def section(peers: Sequence[Peer], out: Path) -> str:
     said = worse(peers)
     parts.append(
         "<h3>What Tahr does worse</h3><p>Everything measured in which another controller beats the best of "
-        "Tahr's by more than 5 %:</p>"
-        + (page.bullets(said) if said else "<p>Nothing.</p>")
+        "Tahr's by more than 5 %:</p>" + (page.bullets(said) if said else "<p>Nothing.</p>")
     )
     return "\n".join(parts)

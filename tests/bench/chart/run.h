@@ -10,6 +10,7 @@ typedef struct chart_budget {
     const char *name;
     uint32_t sweep_rounds;   /* times every sweep is asked for its time */
     uint32_t sweep_stride;   /* every so manieth case of the truth */
+    uint32_t slide_stride;   /* every so manieth slide of the truth */
     uint32_t windows;        /* pieces of a walk that are compared with their reference */
     uint32_t walkers;        /* that a step is timed with */
     double walk_seconds;     /* simulated, timed, by every walker */

@@ -10,7 +10,6 @@
 
 #include "run.h"
 #include "subject.h"
-#include "sweeps.h"
 #include "truth_set.h"
 
 enum { ASKINGS = 16 }; /* per reading of the clock, which costs as much as a fast sweep */
@@ -66,7 +65,7 @@ static int ask_all(const chart_run *run, const chart_subject *subject, const cha
     void *self = NULL;
     for (uint32_t i = 0; i < chart_truth_count(set); i++) {
         int same;
-        const tahr_body_desc *body = chart_truth_body(set, i, &same);
+        const tahr_body_desc *body = chart_truth_body(set, i, subject->planar, &same);
         if (!same) {
             if (self) backend->close(self);
             self = NULL;
@@ -140,11 +139,11 @@ void chart_sweeps(chart_run *run)
         if (!set && !run->counting) chart_run_fail(run, chart_truth_name(s), "out of memory");
         const chart_subject *subject;
         for (uint32_t i = 0; (subject = chart_subject_at(i)) != NULL; i++) {
-            if (!subject->planar && chart_run_next(run, chart_truth_name(s), subject->setting) && set) {
+            if (subject->planar && !chart_truth_planar(s)) continue;
+            if (chart_run_next(run, chart_truth_name(s), subject->setting) && set) {
                 measure(run, subject, chart_truth_name(s), set);
             }
         }
         chart_truth_free(set);
     }
-    if (run->budget != &CHART_TINY) chart_plane_sweeps(run); /* records what wanderers ask: a third of a second */
 }

@@ -9,7 +9,7 @@
 #include "../../accuracy/truth_file.h"
 
 enum { MAX_FAMILIES = 24 };
-enum { ROUND, BOXES };
+enum { ROUND, BOXES, ALL };
 
 /* degrees: what the design allows the weakest backend (the strongest: 0.1) */
 static const double WORST_NORMAL = 2;
@@ -39,6 +39,7 @@ static const struct {
      {"generic", "dyadic", "lattice", "feature", "grazing", "long", "touching", "mesh_flat", "mesh_hills",
       "mesh_stairs", "mesh_corner", "mesh_fan", "mesh_soup", "convex_hull", "convex_box", "convex_exact",
       "convex_grazing", "convex_touching"}},
+    {"outlines", ALL, {"plane_chain", "plane_hull"}},
 };
 
 const char *chart_truth_name(int set)
@@ -71,6 +72,8 @@ static truth_body *copy_of(const truth_body *body)
     copy->judged.indices = copy->indices;
     if (copy->desc.vertices) copy->desc.vertices = copy->vertices;
     if (copy->desc.indices) copy->desc.indices = copy->indices;
+    if (copy->flat.vertices) copy->flat.vertices = copy->vertices;
+    if (copy->flat.indices) copy->flat.indices = copy->indices;
     return copy;
 }
 
@@ -85,7 +88,8 @@ static void keep(void *user, const truth_body *body, int is_new, const truth_cas
         if (s->failed) return;
         s->body_count++;
     }
-    if ((c->query.shape.type == TAHR_SHAPE_BOX) != (s->shapes == BOXES) || s->seen++ % s->stride) return;
+    if (s->shapes != ALL && (c->query.shape.type == TAHR_SHAPE_BOX) != (s->shapes == BOXES)) return;
+    if (s->seen++ % s->stride) return;
     s->cases[s->count] = *c;
     s->body_of[s->count++] = s->body_count - 1;
 }
@@ -126,10 +130,16 @@ const tahr_sweep *chart_truth_sweep(const chart_truth_set *s, uint32_t i)
     return &s->cases[i].query;
 }
 
-const tahr_body_desc *chart_truth_body(const chart_truth_set *s, uint32_t i, int *same)
+int chart_truth_planar(int set)
 {
+    return SETS[set].shapes == ALL;
+}
+
+const tahr_body_desc *chart_truth_body(const chart_truth_set *s, uint32_t i, int planar, int *same)
+{
+    const truth_body *body = s->bodies[s->body_of[i]];
     *same = i > 0 && s->body_of[i] == s->body_of[i - 1];
-    return &s->bodies[s->body_of[i]]->desc;
+    return planar ? &body->flat : &body->desc;
 }
 
 static double tolerance(const truth_case *c)

@@ -5,7 +5,7 @@
 
 #include <tahr/tahr.h>
 
-enum { CHART_TRUTH_SETS = 5 };
+enum { CHART_TRUTH_SETS = 6 };
 
 typedef struct chart_truth_set chart_truth_set;
 
@@ -20,7 +20,7 @@ typedef enum chart_verdict {
 } chart_verdict;
 
 /* Reads every stride-th case of a group: capsules and spheres against "triangles", "meshes", "convex" bodies and what
- * is "hard", or "boxes" against all of them. NULL: out of memory. */
+ * is "hard", "boxes" against all of them, or all shapes in a plane, "outlines". NULL: out of memory. */
 chart_truth_set *chart_truth_load(int set, uint32_t stride);
 void chart_truth_free(chart_truth_set *set);
 
@@ -28,8 +28,11 @@ const char *chart_truth_name(int set);
 uint32_t chart_truth_count(const chart_truth_set *set);
 const tahr_sweep *chart_truth_sweep(const chart_truth_set *set, uint32_t i);
 
-/* The body of a case; same is 1 where it is that of the case before. */
-const tahr_body_desc *chart_truth_body(const chart_truth_set *set, uint32_t i, int *same);
+/* Whether a group happens in the plane, where backends of two dimensions are asked too. */
+int chart_truth_planar(int set);
+
+/* The body of a case, for backends of two dimensions or of three; same is 1 where it is that of the case before. */
+const tahr_body_desc *chart_truth_body(const chart_truth_set *set, uint32_t i, int planar, int *same);
 
 /* Judges an answer backward: error, m, is how far from the margin (or, overlapping from the start, from the depth) the
  * shape is where it was stopped. A miss or a false hit counts beyond 1 um of distance, for ways beyond a metre a

@@ -1,42 +1,25 @@
 /* SPDX-License-Identifier: MIT
- * forms.c: the closed forms of a setting's own numbers, and the steps that are compared with them. Along x, from 0:
- * speeding up  v = a t, at most V;                    x = a t^2 / 2, beyond t = V / a at V
- * braking      v' = -b - k v from V;                  x = (V + b / k) (1 - e^-kt) / k - b t / k, until v = 0
- * a jump       z = v t + g t^2 / 2, until it lands (where then is the skin's matter). */
-#include "forms.h"
+ * open_ground.c: steps that are compared with the closed forms of a setting's own numbers: speeding up from rest,
+ * braking from the greatest speed, and a jump until it lands (where then is the skin's matter). */
+#include "open_ground.h"
 
 #include <math.h>
 #include <stdio.h>
+
+#include "../../accuracy/forms.h"
 
 enum { SAMPLES = 10, TASKS = 3 };
 enum { SPEED_UP, BRAKE, JUMP };
 
 static const double SAMPLE_RATE = 10; /* Hz */
 
-static double sped_up(const tahr_config *c, double t)
-{
-    double a = c->acceleration, v = c->max_speed, until = v / a;
-    return t < until ? a * t * t / 2 : a * until * until / 2 + v * (t - until);
-}
-
-static double braked(const tahr_config *c, double t)
-{
-    double b = c->braking_deceleration, k = c->braking_drag, v = c->max_speed;
-    double stop = k > 0 ? log(1 + k * v / b) / k : v / b;
-    t = fmin(t, stop);
-    return k > 0 ? (v + b / k) * (1 - exp(-k * t)) / k - b * t / k : v * t - b * t * t / 2;
-}
-
-/* NAN from the landing on. */
-static double jumped(const tahr_config *c, double t)
-{
-    double v = c->jump_speed, g = c->gravity.z;
-    return t < -2 * v / g ? v * t + g * t * t / 2 : NAN;
-}
-
+/* NAN: nothing is known; of a jump from the landing on. */
 static double expected(const tahr_config *c, int task, double t)
 {
-    return task == SPEED_UP ? sped_up(c, t) : task == BRAKE ? braked(c, t) : jumped(c, t);
+    if (task == SPEED_UP) return (double)form_capped(0, c->acceleration, c->max_speed, t).way;
+    if (task == BRAKE) return (double)form_brake(c->max_speed, c->braking_deceleration, c->braking_drag, t).way;
+    if (t >= form_landing_time(c->jump_speed, -c->gravity.z, 0)) return NAN;
+    return (double)form_thrown(c->jump_speed, -c->gravity.z, t).way;
 }
 
 /* Stands at the origin, for as long as it takes to stand still. */
@@ -70,7 +53,7 @@ static int run_task(tahr_mover *mover, const chart_setting *s, int task, const t
     return count;
 }
 
-int chart_forms_score(const bench_world *plane, const chart_setting *setting, chart_row *row, char *why)
+int chart_open_ground_score(const bench_world *plane, const chart_setting *setting, chart_row *row, char *why)
 {
     double errors[TASKS * SAMPLES];
     tahr_world *world = NULL;
