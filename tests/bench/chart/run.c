@@ -9,7 +9,7 @@
 enum { BAR = 24, CLOCK_SAMPLES = 2001 };
 
 /* FULL stays under 15 minutes and QUICK under 2 on two idle cores of a 2.2 GHz server. */
-const chart_budget CHART_TINY = {"tiny", 1, 32, 24, 2, 2, 0.25, 10, 2000, 0.5};
+const chart_budget CHART_TINY = {"tiny", 1, 32, 48, 2, 2, 0.25, 10, 2000, 0.5};
 const chart_budget CHART_QUICK = {"quick", 3, 2, 2, 64, 16, 10, 10000, 500000, 0.1};
 const chart_budget CHART_FULL = {"full", 15, 1, 1, 1000, 64, 30, 100000, 5000000, 0.05};
 
