@@ -10,7 +10,7 @@ if(chart_sources AND PROJECT_IS_TOP_LEVEL)
     list(APPEND chart_sources tests/bench/bench_world.c)
     add_executable(tahr_chart ${chart_sources})
     tahr_defaults(tahr_chart)
-    target_include_directories(tahr_chart PRIVATE tests/support tests/bench)
+    target_include_directories(tahr_chart PRIVATE tests/support tests/bench tests/accuracy)
     string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
     target_compile_definitions(tahr_chart PRIVATE TAHR_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
         TAHR_CHART_FLAGS="${CMAKE_C_FLAGS} ${CMAKE_C_FLAGS_${build_type}} -std=c11 -ffp-contract=off -fno-math-errno")

@@ -95,6 +95,7 @@ unresolved=$(
     for folder in tests/*/; do
         case $folder in
         tests/unit/) resolve tests/unit tests/unit tests/support src backends backends/common | grep -v '"layout.inc"' || true ;;
+        tests/bench/) resolve tests/bench tests/bench tests/support tests/accuracy ;; # what is charted is scored there
         tests/cli/) resolve tests/cli tests tests/support bindings/cli ;;
         *) resolve "${folder%/}" tests tests/support ;;
         esac

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "../../accuracy/forms.h"
+#include "forms.h"
 
 enum { SAMPLES = 10, TASKS = 3 };
 enum { SPEED_UP, BRAKE, JUMP };

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../accuracy/truth_file.h"
+#include "truth_file.h"
 #include "run.h"
 
 enum { MAX_SLIDES = 256, MAX_STEPS = 1 << 20 };

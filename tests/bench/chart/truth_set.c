@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../accuracy/truth_file.h"
+#include "truth_file.h"
 
 enum { MAX_FAMILIES = 24 };
 enum { ROUND, BOXES, ALL };
