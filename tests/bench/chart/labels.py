@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT
 """Puts names beside points so that none covers another: greedy, the important ones first."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy
 from matplotlib.axes import Axes
 from matplotlib.transforms import Bbox
 
@@ -46,29 +48,27 @@ def _candidate(at: Point, size: Point, way: Point, far: float) -> Bbox:
     return Bbox.from_bounds(x, y, width, height)
 
 
-def _overlap(box: Bbox, others: Sequence[Bbox]) -> float:
-    area = 0.0
-    for other in others:
-        width = min(box.x1, other.x1) - max(box.x0, other.x0)
-        height = min(box.y1, other.y1) - max(box.y0, other.y0)
-        if width > 0 and height > 0:
-            area += width * height
-    return area
+def _overlap(box: Bbox, others: numpy.ndarray) -> float:
+    """Area in common with all of them; others: x0, y0, x1, y1 each."""
+    width = numpy.minimum(box.x1, others[:, 2]) - numpy.maximum(box.x0, others[:, 0])
+    height = numpy.minimum(box.y1, others[:, 3]) - numpy.maximum(box.y0, others[:, 1])
+    return float(numpy.sum(numpy.where((width > 0) & (height > 0), width * height, 0.0)))
 
 
-def _best(at: Point, size: Point, taken: Sequence[Bbox], frame: Bbox, scale: float):
-    """The first free place, or the one that covers least: (covered area, distance, box)."""
-    found = None
+def _best(at: Point, size: Point, taken: Sequence[Bbox], frame: Bbox, scale: float) -> tuple[float, float, Bbox]:
+    """The first free place, or the one that covers least: covered area, distance, box."""
+    others = numpy.array([one.extents for one in taken]).reshape(-1, 4)
+    best = (math.inf, 0.0, frame)
     for far in DISTANCES:
         for way in DIRECTIONS:
             box = _candidate(at, size, way, far * scale)
             outside = box.x0 < frame.x0 or box.x1 > frame.x1 or box.y0 < frame.y0 or box.y1 > frame.y1
-            covered = _overlap(box, taken) + (1e6 if outside else 0)
+            covered = _overlap(box, others) + (1e6 if outside else 0)
             if covered == 0:
                 return 0.0, far, box
-            if found is None or covered < found[0]:
-                found = (covered, far, box)
-    return found
+            if covered < best[0]:
+                best = (covered, far, box)
+    return best
 
 
 def _obstacles(axes: Axes, points: Sequence[Point], lines: Sequence[Sequence[Point]]) -> list[Bbox]:
