@@ -96,6 +96,7 @@ SCENES = {
     "boxes": "boxes against triangles, meshes, hulls and boxes",
     "outlines": "all shapes in a plane against outlines and hulls, backends of two dimensions too",
     "slides": "the exact slides: walls, edges, gutters, wedges",
+    "bare slides": "the exact slides along bare walls",
     "playground": "the generated playground",
     "dungeon": "the level dungeon, of a shooter",
     "tiles_2d": "a side-scroller of 1002 bodies",
@@ -181,15 +182,18 @@ def _cost_chart(scene: str, rows: Sequence[Row]) -> Chart | None:
         "the same to the bit: see the table."
     )
     return Chart(
-        f"movement-{scene}-caches", f"Movement on {describe(scene)}: caches and switches", caption, figure, own
+        f"movement-{scene.replace(' ', '-')}-caches",
+        f"Movement on {describe(scene)}: caches and switches",
+        caption,
+        figure,
+        own,
     )
 
 
+SLIDE = "the farthest that a character is from the exact path (tests/accuracy), flying without gravity, drag and steps"
 ERRORS = {
-    "slides": (
-        "the farthest that a character is from the exact path (tests/accuracy), flying without gravity, drag and steps;"
-        " of the skins along bare walls, whose path is right for none of them"
-    ),
+    "slides": SLIDE,
+    "bare slides": SLIDE + "; the path touches the walls, so that every skin is off it",
     "plane": "how far off the closed form of its numbers a character is, every 0.1 s of speeding up, braking and a jump",
 }
 WINDOWS = (
@@ -201,10 +205,11 @@ WINDOWS = (
 
 def _movement_caption(scene: str, topic: Topic, doubt: str) -> str:
     error = ERRORS.get(scene, WINDOWS)
-    skin = "skin" in topic.curves and scene != "slides"
+    slides = scene in ("slides", "bare slides")
+    skin = "skin" in topic.curves and not slides
     costs = (
         "Time and queries: of these steps. A red cross reported that it was stuck, gave up or hit its cap of queries."
-        if scene == "slides"
+        if slides
         else "Time and queries: wandering characters on the same level, each with a mover of its own. A red cross went"
         " through something, ended more than 1 mm inside, or reported that it gave up or hit its cap of queries."
     )
@@ -227,7 +232,7 @@ def movement_charts(rows: Sequence[Row]) -> list[Chart]:
             figure = _errors_and_counts(own, topic.work, topic.count)
             charts.append(
                 Chart(
-                    f"movement-{scene}-{topic.name}",
+                    f"movement-{scene.replace(' ', '-')}-{topic.name}",
                     f"Movement on {describe(scene)}: {topic.title}",
                     caption,
                     figure,

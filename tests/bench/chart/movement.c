@@ -100,8 +100,12 @@ static void measure(chart_run *run, const place *p, const chart_setting *setting
     row.scene = p->level.name;
     row.curve = setting->curve;
     row.setting = setting->name;
-    row.role = is_slides(row.scene) && strcmp(setting->curve, "skin") == 0 ? CHART_KNOB : setting->role;
+    row.role = setting->role;
     row.value = setting->value;
+    if (is_slides(row.scene) && strcmp(setting->curve, "skin") == 0) { /* here the path does not change with it */
+        row.scene = "bare slides";
+        row.role = CHART_KNOB;
+    }
     if (fill(run, p, setting, &row, why)) {
         chart_run_write(run, &row);
     } else {
