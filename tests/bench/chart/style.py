@@ -47,7 +47,7 @@ def panels(count: int, width: float = 4.5, height: float = 4.2, left: float = 0.
     """A figure of panels side by side in some lines, laid out for good, and its axes. width, height, left: inches, of
     one panel with what stands around it, and of what stands left of it."""
     figure, axes = pyplot.subplots(lines, count, figsize=(width * count, height * lines), squeeze=False)
-    right, bottom, top = 0.15, 0.5, 0.35
+    right, bottom, top = 0.22, 0.5, 0.35
     figure.subplots_adjust(
         left=left / (width * count),
         right=1 - right / (width * count),
