@@ -13,7 +13,7 @@ ARGS ?=
 WERROR ?=
 CMAKE_ARGS ?=
 
-.PHONY: build setup setup-run run run-2d test test-full asan fuzz bench peers install clean format help
+.PHONY: build setup setup-run run run-2d test test-full asan fuzz bench chart peers install clean format help
 
 # Ninja if it is there and the folder is not configured yet; a configured folder keeps its generator.
 # Of its talk only what is left out and why is shown, unless it fails.
@@ -91,6 +91,27 @@ peers: setup
 	@JOBS=$(JOBS) sh tests/bench/peers/build.sh $(BUILD)/peers $(box2d_3) $(CMAKE_ARGS)
 	$(BUILD)/peers/tahr_peers --peers $(BUILD)/peers/lib --csv $(BUILD)/peers.csv $(if $(QUICK),--quick) $(ARGS)
 
+# Under 15 minutes on two idle cores, QUICK=1: under 2. Python's libraries go into $(BUILD)/venv.
+QUICK ?=
+PYTHON ?= python3
+chart_python = $(BUILD)/venv/bin/python
+$(BUILD)/venv/made: tests/bench/chart/requirements.txt
+	@$(PYTHON) -m venv $(BUILD)/venv
+	@$(chart_python) -m pip install --quiet --disable-pip-version-check -r $< || { \
+		echo "chart: pip could not install what $< lists into $(BUILD)/venv"; exit 1; }
+	@touch $@
+
+chart:
+	@sh .ci/setup chart
+	@sh .ci/fetch_box2d3 $(BUILD)/box2d3
+	@$(MAKE) --no-print-directory $(BUILD)/venv/made
+	@$(call configure,$(BUILD),)
+	@$(call compile,$(BUILD)) --target tahr_chart
+	@mkdir -p $(BUILD)/chart
+	$(BUILD)/bin/tahr_chart --budget $(if $(QUICK),quick,full) --out $(BUILD)/chart $(ARGS)
+	@$(chart_python) -B tests/bench/chart/draw.py --in $(BUILD)/chart --out $(BUILD)/chart --peers $(BUILD)/peers.csv \
+		--command "make chart$(if $(QUICK), QUICK=1)"
+
 install: build
 	cmake --install $(BUILD) --prefix "$(abspath $(PREFIX))"
 
@@ -113,6 +134,7 @@ help:
 	@echo "make fuzz         every fuzzer for TIME=60 seconds each (clang), what they find in $(BUILD)/fuzz/found"
 	@echo "make bench        the benchmark; ARGS='options'"
 	@echo "make peers        Tahr beside other engines' controllers on the same courses; QUICK=1  ARGS='options'"
+	@echo "make chart        speed against accuracy: $(BUILD)/chart/index.html; QUICK=1: less of it; with $(BUILD)/peers.csv, if there"
 	@echo "make install      PREFIX=/usr/local"
 	@echo "make setup        install what is missing through apt-get (run, test and the others do it too)"
 	@echo "make format       clang-format over all sources"

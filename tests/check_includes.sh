@@ -67,6 +67,7 @@ for backend in backends/*/; do
     ccd) third='|<ccd/[a-z0-9_]+\.h>' ;;
     fcl) third='|<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>' ;;
     box2d) third='|<box2d/[a-z0-9_]+\.h>|<[a-z_]+>' ;;
+    threads) third='|<(pthread|unistd)\.h>' ;;
     native) third='|<[ei]mmintrin\.h>' ;; # the processor's own vectors
     *) third= ;;
     esac
@@ -96,7 +97,7 @@ unresolved=$(
     for folder in tests/*/; do
         case $folder in
         tests/unit/) resolve tests/unit tests/unit tests/support tests/bench src backends backends/common | grep -v '"layout.inc"' || true ;;
-        tests/bench/) resolve tests/bench tests/bench tests/support ;;
+        tests/bench/) resolve tests/bench tests/bench tests/support tests/accuracy ;; # what is charted is scored there
         tests/cli/) resolve tests/cli tests tests/support bindings/cli ;;
         *) resolve "${folder%/}" tests tests/support ;;
         esac

@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: MIT
+ * crowd.c: one tick of many characters.
+ *
+ * First every character is copied as the others see it, then each takes its step against those copies: no step reads
+ * what another one writes, so that neither order nor threads change a bit. A step that went farther than was foreseen,
+ * which a push out of a deep overlap may, did not look far enough around: it is taken again, against everybody. */
+#include "crowd.h"
+#include "crowd_delay.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "message.h"
+
+/* Below this many characters a part is not worth a task. */
+enum { LEAST_PART = 16 };
+
+static void run(const tahr__tick *t, tahr_task_fn task)
+{
+    const tahr_crowd *c = t->crowd;
+    if (c->run_tasks && t->tasks > 1) {
+        c->run_tasks(c->run_user, task, (void *)(uintptr_t)t, t->tasks);
+        return;
+    }
+    for (uint32_t i = 0; i < t->tasks; i++) {
+        task((void *)(uintptr_t)t, i);
+    }
+}
+
+static uint32_t part_begin(const tahr__tick *t, uint32_t part)
+{
+    return (uint32_t)((uint64_t)t->asked->count * part / t->tasks);
+}
+
+static void use_kind(tahr_crowd *c, uint32_t i, uint32_t kind)
+{
+    if (c->kind_of[i] != kind) {
+        tahr_mover *m = c->movers[i];
+        m->config = c->kinds[kind]->config;
+        m->limits = c->kinds[kind]->limits;
+        m->plain = c->kinds[kind]->plain;
+        m->sleep.noted = 0;
+        c->kind_of[i] = kind;
+    }
+}
+
+static void look_at_part(void *argument, uint32_t index)
+{
+    const tahr__tick *t = argument;
+    tahr_crowd *c = t->crowd;
+    tahr__part *part = &c->parts[index];
+    memset(part, 0, sizeof *part);
+    part->bad = ~0u;
+    tahr__spread_begin(&part->spread, c->grid.axis);
+    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
+        part->field = tahr__tick_check_one(t, i, &part->status, &part->why);
+        if (part->field) {
+            part->bad = i;
+            return;
+        }
+        const tahr_member member = tick_member(t, i);
+        use_kind(c, i, member.config);
+        tahr__figure *f = &c->figures[i];
+        tahr__figure_of(f, c->movers[i], &member, tick_input(t, i), &t->asked->states[i], t->asked->dt);
+        tahr__spread_add(&part->spread, f);
+    }
+}
+
+static void place_part(void *argument, uint32_t index)
+{
+    const tahr__tick *t = argument;
+    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
+        tahr__grid_place(&t->crowd->grid, i);
+    }
+}
+
+/* Is anybody near? */
+static int has_company(const tahr_crowd *c, uint32_t i)
+{
+    const tahr__figure *f = &c->figures[i];
+    uint32_t begin[6], end[6];
+    const int runs = tahr__grid_around(&c->grid, i, begin, end);
+    for (int k = 0; k < runs; k++) {
+        for (uint32_t at = begin[k]; at < end[k]; at++) {
+            const tahr__figure *o = &c->figures[c->grid.order[at]];
+            if (figures_near(f, o, 0) && o != f && figures_meet(f, o)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+static void meet_part(void *argument, uint32_t index)
+{
+    const tahr__tick *t = argument;
+    tahr_crowd *c = t->crowd;
+    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
+        tahr__figure *f = &c->figures[i];
+        if (f->flags & TAHR__FIGURE_THERE && has_company(c, i)) {
+            f->flags |= TAHR__FIGURE_BESIDE;
+            tahr__look_of(&c->looks[i], c->movers[i], &t->asked->states[i], t->asked->dt);
+        }
+    }
+}
+
+/* Sorted by body; of more than there is room for those that are farthest are left out. */
+typedef struct gathering {
+    tahr__neighbours found;
+    tahr__neighbour planes[TAHR__NEIGHBOURS];
+    int truncated;
+} gathering;
+
+static void leave_out_farthest(gathering *g, const tahr__look *look)
+{
+    uint32_t farthest = 0;
+    for (uint32_t i = 1; i < g->found.count; i++) {
+        int more = tahr__figure_away(look, &g->planes[i]) > tahr__figure_away(look, &g->planes[farthest]);
+        farthest = more ? i : farthest;
+    }
+    g->found.count--;
+    memmove(&g->planes[farthest], &g->planes[farthest + 1], (g->found.count - farthest) * sizeof g->planes[0]);
+    g->truncated = 1;
+}
+
+static void add_neighbour(gathering *g, const tahr__look *look, const tahr__neighbour *plane)
+{
+    uint32_t at = g->found.count++;
+    for (; at > 0 && g->planes[at - 1].body > plane->body; at--) {
+        g->planes[at] = g->planes[at - 1];
+    }
+    g->planes[at] = *plane;
+    if (g->found.count == TAHR__NEIGHBOURS) {
+        leave_out_farthest(g, look);
+    }
+}
+
+/* Returns 0 if they cannot meet. */
+static int plane_between(const tahr__tick *t, uint32_t i, uint32_t j, tahr__neighbour *plane)
+{
+    const tahr_crowd *c = t->crowd;
+    const tahr__party self = {&c->figures[i], &c->looks[i]}, other = {&c->figures[j], &c->looks[j]};
+    const int again = (self.figure->flags & TAHR__FIGURE_STRAYED) != 0;
+    if (again && !(other.figure->flags & TAHR__FIGURE_STRAYED) && !figures_near(self.figure, other.figure, 0)) {
+        tahr__figure_wall(self, other.figure, t->flat, plane);
+        return 1;
+    }
+    return tahr__figure_plane(self, other, again, t->flat, plane);
+}
+
+static void gather(const tahr__tick *t, uint32_t i, gathering *g)
+{
+    const tahr_crowd *c = t->crowd;
+    const tahr__figure *f = &c->figures[i];
+    uint32_t begin[6], end[6];
+    g->found = (tahr__neighbours){.anchor = f->range.at, .walkable_rule = c->walkable_rule, .planes = g->planes};
+    g->truncated = 0;
+    const int runs = tahr__grid_around(&c->grid, i, begin, end);
+    for (int k = 0; k < runs; k++) {
+        for (uint32_t at = begin[k]; at < end[k]; at++) {
+            const uint32_t j = c->grid.order[at];
+            const tahr__figure *o = &c->figures[j];
+            tahr__neighbour plane;
+            if (figures_near(f, o, f->range.extra + o->range.extra) && o != f && figures_meet(f, o) &&
+                plane_between(t, i, j, &plane)) {
+                add_neighbour(g, &c->looks[i], &plane);
+            }
+        }
+    }
+}
+
+/* The step itself. company: who is there. Returns its status, or TAHR__STRAYED. */
+static tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__company *company, tahr__part *part)
+{
+    tahr_crowd *c = t->crowd;
+    const tahr_member *member = t->asked->members ? &t->asked->members[i] : NULL;
+    const tahr__turn turn = {.mover = c->movers[i],
+                             .input = tick_input(t, i),
+                             .dt = t->asked->dt,
+                             .state = &t->asked->states[i],
+                             .report = tick_report(t, i),
+                             .company = company,
+                             .counts = &part->counts};
+    tahr_status status = member && member->budget > 0 ? tahr__turn_delayed(&turn, member, &t->asked->delays[i])
+                                                      : tahr__turn_step(&turn);
+    if (status == TAHR__STRAYED) {
+        c->strayed[i] = company->strayed;
+    } else if (turn.state->floor.body >= TAHR_CHARACTER_BODY && turn.state->floor.body != TAHR_NO_BODY) {
+        turn.state->floor_revision = 0; /* it may be elsewhere when it is looked at again */
+    }
+    return status;
+}
+
+/* The same among others. */
+static tahr_status take_step_among(const tahr__tick *t, uint32_t i, tahr__part *part)
+{
+    gathering g;
+    tahr__company company = {.neighbours = &g.found, .range = &t->crowd->figures[i].range};
+    gather(t, i, &g);
+    company.neighbours = g.found.count > 0 ? &g.found : NULL;
+    part->counts.beside += g.found.count > 0;
+    if (g.found.count > part->counts.most_neighbours) {
+        part->counts.most_neighbours = g.found.count;
+    }
+    tahr_status status = take_step(t, i, &company, part);
+    if (g.truncated && status >= 0 && status != TAHR__STRAYED) {
+        tahr_report *report = tick_report(t, i);
+        if (report) {
+            report->flags |= TAHR_REPORT_TRUNCATED;
+        }
+        status = status > TAHR_TRUNCATED ? status : TAHR_TRUNCATED;
+    }
+    return status;
+}
+
+static void step_part(void *argument, uint32_t index)
+{
+    const tahr__tick *t = argument;
+    tahr_crowd *c = t->crowd;
+    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
+        tahr__company company = {.range = &c->figures[i].range};
+        c->statuses[i] = c->figures[i].flags & TAHR__FIGURE_BESIDE ? take_step_among(t, i, &c->parts[index])
+                                                                   : take_step(t, i, &company, &c->parts[index]);
+    }
+    c->parts[index].counts.steps += part_begin(t, index + 1) - part_begin(t, index);
+}
+
+/* A second time too far: it stays where it is, which no plane forbids. */
+static tahr_status hold(const tahr__tick *t, uint32_t i)
+{
+    tahr_report *report = tick_report(t, i);
+    if (report) {
+        report->flags |= TAHR_REPORT_QUERY_CAP;
+        report->time_lost = t->asked->dt;
+    }
+    return TAHR_QUERY_CAP;
+}
+
+static void step_again(const tahr__tick *t)
+{
+    tahr_crowd *c = t->crowd;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < t->asked->count; i++) {
+        if (c->statuses[i] == TAHR__STRAYED) {
+            c->figures[i].flags |= TAHR__FIGURE_STRAYED;
+            c->figures[i].range.extra = 2 * c->strayed[i];
+            tahr__look_of(&c->looks[i], c->movers[i], &t->asked->states[i], t->asked->dt);
+            count++;
+        }
+    }
+    for (uint32_t i = 0; i < t->asked->count && count > 0; i++) {
+        if (c->figures[i].flags & TAHR__FIGURE_STRAYED) {
+            tahr_status status = take_step_among(t, i, &c->parts[0]);
+            c->statuses[i] = status == TAHR__STRAYED ? hold(t, i) : status;
+        }
+    }
+    c->counts.again += count;
+}
+
+/* Returns what the tick came to. */
+static tahr_status finish(const tahr__tick *t)
+{
+    tahr_crowd *c = t->crowd;
+    tahr_status worst = TAHR_OK;
+    uint32_t failed = ~0u;
+    for (uint32_t i = 0; i < t->asked->count; i++) {
+        tahr_status status = c->statuses[i];
+        if (t->asked->statuses) {
+            t->asked->statuses[i] = status;
+        }
+        if (status < 0 && (failed == ~0u || c->figures[i].id < c->figures[failed].id)) {
+            failed = i;
+        }
+        worst = status > worst ? status : worst;
+    }
+    for (uint32_t i = 0; i < t->tasks; i++) {
+        const tahr_crowd_counts *one = &c->parts[i].counts;
+        c->counts.steps += one->steps;
+        c->counts.beside += one->beside;
+        c->counts.deferred += one->deferred;
+        c->counts.ahead += one->ahead;
+        if (one->most_neighbours > c->counts.most_neighbours) {
+            c->counts.most_neighbours = one->most_neighbours;
+        }
+    }
+    c->counts.ticks++;
+    if (failed == ~0u) {
+        return worst;
+    }
+    char text[128];
+    snprintf(text, sizeof text, "character %u, at index %u, is left as it was: %s", c->figures[failed].id, failed,
+             tahr_status_message(c->statuses[failed]));
+    tahr__say(&c->world->log, TAHR_LOG_ERROR, "tahr_crowd_step", text);
+    return c->statuses[failed];
+}
+
+/* The first character, by index, with something wrong that stops the tick. */
+static tahr_status find_bad(const tahr__tick *t)
+{
+    const tahr_crowd *c = t->crowd;
+    for (uint32_t i = 0; i < t->tasks; i++) {
+        const tahr__part *part = &c->parts[i];
+        if (part->bad != ~0u) {
+            char field[64];
+            const char *dot_at = strchr(part->field, '.');
+            snprintf(field, sizeof field, "%.*s[%u]%s", (int)(dot_at - part->field), part->field, part->bad, dot_at);
+            return tahr__complain(&c->world->log, part->status, "tahr_crowd_step", field, part->why);
+        }
+    }
+    return tahr__tick_check_ids(t);
+}
+
+static void look_around(tahr__tick *t)
+{
+    tahr_crowd *c = t->crowd;
+    tahr__spread *all = &c->parts[0].spread;
+    for (uint32_t i = 1; i < t->tasks; i++) {
+        tahr__spread_merge(all, &c->parts[i].spread);
+    }
+    c->grid.count = t->asked->count;
+    tahr__grid_begin(&c->grid, all);
+    run(t, place_part);
+    tahr__grid_sort(&c->grid);
+}
+
+tahr_status tahr_crowd_step(tahr_crowd *crowd, const tahr_crowd_tick *asked)
+{
+    tahr__tick t;
+    if (!crowd) {
+        return TAHR_E_NULL;
+    }
+    tahr_status status = tahr__tick_check(crowd, asked, &t);
+    if (status < 0 || asked->count == 0) {
+        return status;
+    }
+    const uint32_t parts = asked->count / LEAST_PART;
+    t.tasks = parts < 1 ? 1 : (parts < crowd->tasks ? parts : crowd->tasks);
+    crowd->busy = 1;
+    run(&t, look_at_part);
+    status = find_bad(&t);
+    if (status >= 0) {
+        look_around(&t);
+        run(&t, meet_part);
+        run(&t, step_part);
+        step_again(&t);
+        status = finish(&t);
+    }
+    crowd->busy = 0;
+    return status;
+}

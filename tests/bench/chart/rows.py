@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: MIT
+"""Reads what tahr_chart wrote: measured points, one CSV per family, and the machine."""
+
+import csv
+import math
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+
+class ChartError(Exception):
+    """Wrong input: says the file, the line and what was expected."""
+
+
+@dataclass(frozen=True)
+class Row:
+    """One point. Numbers that were not measured are NaN. Names and units are those of row.h."""
+
+    family: str
+    scene: str
+    curve: str
+    setting: str
+    value: float
+    rate_hz: float
+    role: str
+    reference: str
+    samples: int
+    failed: int
+    why: str
+    error_p50_m: float
+    error_p99_m: float
+    error_max_m: float
+    penetration_m: float
+    ns_p50: float
+    ns_p99: float
+    ns_mean: float
+    ns_per_second: float
+    queries: float
+    tests: float
+    iterations: float
+    bytes: float
+    build_s: float
+    threads: float
+
+    @property
+    def failure_rate(self) -> float:
+        return self.failed / self.samples if self.samples else 0.0
+
+    @property
+    def work(self) -> float:
+        """ns: the median of a call; of steps that of as many as 1/60 s takes, whatever their rate."""
+        return self.ns_p50 if math.isnan(self.rate_hz) else self.ns_p50 * self.rate_hz / 60
+
+    @property
+    def tests_and_iterations(self) -> float:
+        return self.tests + self.iterations
+
+    @property
+    def queries_per_second(self) -> float:
+        return self.queries * self.rate_hz
+
+
+COLUMNS = [f.name for f in fields(Row)]
+TEXTS = {"family", "scene", "curve", "setting", "role", "reference", "why"}
+COUNTS = {"samples", "failed"}
+
+
+def _field(name: str, text: str, where: str):
+    if name in TEXTS:
+        return text
+    try:
+        if name in COUNTS:
+            return int(text)
+        return float(text) if text else math.nan
+    except ValueError:
+        kind = "a whole number" if name in COUNTS else "a number or nothing"
+        raise ChartError(f"{where}: {name} is '{text}', expected {kind}") from None
+
+
+def _lines(path: Path) -> list[tuple[int, list[str]]]:
+    try:
+        with path.open(newline="") as file:
+            reader = csv.reader(file)
+            return [(reader.line_num, line) for line in reader]
+    except FileNotFoundError:
+        raise ChartError(f"{path}: is not there; tahr_chart --out writes it") from None
+    except OSError as error:
+        raise ChartError(f"{path}: cannot be read: {error.strerror}") from None
+
+
+def read_rows(path: Path) -> list[Row]:
+    """All points of one family."""
+    lines = _lines(path)
+    if not lines or lines[0][1] != COLUMNS:
+        raise ChartError(f"{path}:1: expected the columns {','.join(COLUMNS)}")
+    rows = []
+    for number, line in lines[1:]:
+        where = f"{path}:{number}"
+        if len(line) != len(COLUMNS):
+            raise ChartError(f"{where}: {len(line)} fields, expected {len(COLUMNS)}")
+        rows.append(Row(**{name: _field(name, text, where) for name, text in zip(COLUMNS, line)}))
+    return rows
+
+
+def read_machine(path: Path) -> list[tuple[str, str]]:
+    """What was measured on, as pairs of name and text."""
+    lines = _lines(path)
+    if not lines or lines[0][1] != ["key", "value"]:
+        raise ChartError(f"{path}:1: expected the columns key,value")
+    pairs = []
+    for number, line in lines[1:]:
+        if len(line) != 2:
+            raise ChartError(f"{path}:{number}: {len(line)} fields, expected 2")
+        pairs.append((line[0], line[1]))
+    return pairs
