@@ -89,6 +89,12 @@ tahr_status tahr__body_motion(const tahr_world *world, uint32_t body, tahr_body_
         motion_of_note(world, &world->bodies[body], motion);
         return TAHR_OK;
     }
+    if (world_is_character(world, body)) { /* neither carries nor is pushed: at rest, as far as it concerns others */
+        memset(motion, 0, sizeof *motion);
+        motion->pose.orientation.w = 1;
+        motion->flags = TAHR__CHARACTER_FLAGS;
+        return TAHR_OK;
+    }
     return tahr__answer_motion(world, body, motion);
 }
 

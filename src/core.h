@@ -5,6 +5,7 @@
 #define TAHR_CORE_H
 
 #include <tahr/backend.h>
+#include <tahr/crowd.h>
 #include <tahr/tahr.h>
 
 #include "cone.h"
@@ -60,6 +61,7 @@ struct tahr_world {
                              * motion */
     tahr__body_note *bodies;
     uint32_t record_round; /* number of the last recording */
+    uint32_t crowds;       /* open on it: then numbers from TAHR_CHARACTER_BODY on are characters */
     uint32_t derived;      /* the most sweeps that a contacts query is made of (derived.c); 0: it is none */
 };
 
@@ -138,6 +140,7 @@ struct tahr_mover {
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
     uint32_t is_recorded;   /* 1: the step under way has been told of */
+    const struct tahr__neighbours *neighbours; /* in a crowd: who is near in this tick, or NULL */
     tahr__sleep sleep;
 };
 
@@ -155,6 +158,8 @@ struct tahr__step {
     tahr_state state;
     tahr_report report;
     struct tahr__trail *trail; /* NULL in a world without sensors (trail.h) */
+    const struct tahr__neighbours *around;     /* other characters of a crowd that are near, or NULL, */
+    const struct tahr__neighbours *neighbours; /* and whether they are there already: this step has been carried */
     tahr_query_context context;
     tahr__limits own_limits;  /* what limits points to while the shape is not the config's */
     tahr_input own_input;     /* what input points to while it is held in a plane, */
@@ -211,10 +216,22 @@ static inline int world_is_planar(const tahr_world *world)
 /* What is said of a vector that leaves such a world. */
 #define TAHR__NO_Z "must have no z: the world has two dimensions, x and y"
 
-/* TAHR_BODY_* of a body that the core described, else 0. */
+/* What another character of a crowd is to who meets it. */
+enum { TAHR__CHARACTER_FLAGS = TAHR_BODY_CHARACTER | TAHR_BODY_MOVABLE | TAHR_BODY_NO_BASE | TAHR_BODY_NO_STEP };
+
+/* Does this number name one? */
+static inline int world_is_character(const tahr_world *world, uint32_t body)
+{
+    return world->crowds > 0 && body >= TAHR_CHARACTER_BODY && body != TAHR_NO_BODY;
+}
+
+/* TAHR_BODY_* of a body that the core described or of a character, else 0. */
 static inline uint32_t world_body_flags(const tahr_world *world, uint32_t body)
 {
-    return body < world->body_count && world->bodies ? world->bodies[body].flags : 0;
+    if (body < world->body_count && world->bodies) {
+        return world->bodies[body].flags;
+    }
+    return world_is_character(world, body) ? (uint32_t)TAHR__CHARACTER_FLAGS : 0;
 }
 
 #endif

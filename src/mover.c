@@ -12,6 +12,7 @@
 #include "limits.h"
 #include "message.h"
 #include "modes.h"
+#include "neighbours.h"
 #include "overlap.h"
 #include "plane.h"
 #include "query.h"
@@ -125,6 +126,9 @@ static void prepare_body(tahr__step *step, double dt)
 static void answer_requests(tahr__step *step, double dt, int stance)
 {
     tahr__follow_base(step, dt);
+    if (step->around) {
+        tahr__meet_neighbours(step);
+    }
     if (stance) {
         tahr__take_stance(step);
     }
@@ -312,7 +316,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
             return status;
         }
     }
-    if (mover->sleep.noted && tahr__sleeps_on(mover, input, dt, state, report)) {
+    if (mover->sleep.noted && !mover->neighbours && tahr__sleeps_on(mover, input, dt, state, report)) {
         if (report) {
             tahr__sleep_report(mover, report);
         }
@@ -347,12 +351,14 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.error = TAHR_OK;
     step.iterations = step.apexes = 0;
     step.trail = NULL;
+    step.around = mover->neighbours;
+    step.neighbours = NULL;
     if (step.world->has & TAHR__HAS_SENSORS) {
         tahr__trail_begin(&trail, &step);
     }
     if (dt > 0) {
         mover->busy = 1;
-        const int plain = blank && usual && mover->plain; /* and nothing will be remembered */
+        const int plain = blank && usual && mover->plain && !mover->neighbours; /* and nothing will be remembered */
         run(&step, dt, plain);
         mover->busy = 0;
         if (step.error < 0) {
@@ -365,7 +371,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         if (vec_equal(step.state.position, state->position)) {
             const tahr_state before = *state;
             hand_over(&step, !plain, state);
-            tahr__sleep_note(mover, &step, dt, state, memcmp(&before, state, sizeof before) != 0);
+            tahr__sleep_note(mover, &step, dt, state, mover->neighbours || memcmp(&before, state, sizeof before) != 0);
         } else {
             hand_over(&step, !plain, state);
             mover->sleep.noted = 0;

@@ -292,7 +292,7 @@ void tahr__meet_bodies(tahr__step *step, vec3 from, double dt)
 
 static int is_fixed(const tahr__step *step, uint32_t body)
 {
-    return body >= step->world->body_count || !(step->world->bodies[body].flags & TAHR_BODY_MOVABLE);
+    return !(world_body_flags(step->world, body) & TAHR_BODY_MOVABLE);
 }
 
 double tahr__fixed_depth(const tahr__step *step, const tahr_contact *contacts, uint32_t count)

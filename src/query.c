@@ -8,6 +8,7 @@
 #include "backend_check.h"
 #include "drop.h"
 #include "message.h"
+#include "neighbours.h"
 #include "plane.h"
 #include "query_record.h"
 #include "trail.h"
@@ -97,6 +98,9 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
                              : answer_sweep(step->world, &step->context, &q, hit, 1, &count);
     if (status >= 0 && count > 0 && hit->start_overlap && hit->depth <= TOUCHING) {
         status = touch(step, shape, &q, hit, &count);
+    }
+    if (step->neighbours && status >= 0) {
+        tahr__neighbours_sweep(step->neighbours, &q, hit, &count);
     }
     if (status < 0) {
         step->error = status;
@@ -189,6 +193,9 @@ uint32_t tahr__contacts_of(tahr__step *step, const tahr_shape *shape, vec3 posit
         if (!contacts[i].sensor) {
             contacts[kept++] = contacts[i];
         }
+    }
+    if (step->neighbours) {
+        kept = tahr__neighbours_contacts(step->neighbours, &q, contacts, capacity, kept);
     }
     if (step->report.queries) {
         tahr__record_contacts(step, &q, contacts, kept);

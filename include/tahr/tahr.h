@@ -10,6 +10,7 @@
 #include <tahr/state.h>
 #include <tahr/report.h>
 #include <tahr/mover.h>
+#include <tahr/crowd.h>
 #include <tahr/custom_mode.h>
 
 #endif

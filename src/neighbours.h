@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: MIT
+ * neighbours.h: the other characters around one of a crowd, as obstacles of its step: a half-space for each. */
+#ifndef TAHR_NEIGHBOURS_H
+#define TAHR_NEIGHBOURS_H
+
+#include "core.h"
+
+/* Everything with normal . (x - anchor) < offset is the other's. */
+typedef struct tahr__neighbour {
+    vec3 normal; /* unit, from the other to this one */
+    double offset;
+    uint32_t body; /* TAHR_CHARACTER_BODY + the other's id */
+    uint32_t reserved;
+} tahr__neighbour;
+
+/* Sorted by body. Fixed during a step. */
+typedef struct tahr__neighbours {
+    vec3 anchor; /* where the character is, once what it stands on has carried it */
+    uint32_t count;
+    uint32_t walkable_rule; /* TAHR_WALKABLE_* of heads */
+    tahr__neighbour *planes;
+} tahr__neighbours;
+
+/* From here on the step's neighbours are there: it has been carried. Pushes it out of those that it overlaps. */
+void tahr__meet_neighbours(tahr__step *step);
+
+/* Corrects the answer of the world to a sweep by what the neighbours stop. */
+void tahr__neighbours_sweep(const tahr__neighbours *neighbours, const tahr_sweep *query, tahr_hit *hit,
+                            uint32_t *count);
+
+/* Adds the neighbours to a list of contacts, which stays sorted; the last ones go if there is no room. Returns the new
+ * count. */
+uint32_t tahr__neighbours_contacts(const tahr__neighbours *neighbours, const tahr_contact_query *query,
+                                   tahr_contact *contacts, uint32_t capacity, uint32_t count);
+
+#endif
