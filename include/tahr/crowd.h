@@ -34,7 +34,6 @@ typedef struct tahr_crowd_desc {
     uint32_t capacity;                /* 1..2^22 characters, for which memory is taken */
     uint32_t config_count;            /* 1..65536 */
     const tahr_config *configs;       /* what members choose from; all of one struct_size */
-    const tahr_allocator *allocator;  /* NULL: that of the world */
     tahr_run_tasks_fn run_tasks;      /* NULL: everything on the calling thread */
     void *run_user;                   /* handed to it; must stay valid until the crowd is destroyed */
     uint32_t tasks;                   /* [0: 32] parts that a tick is cut into, up to 4096: changes no result */
@@ -102,7 +101,8 @@ typedef struct tahr_crowd_counts {
 TAHR_API tahr_status tahr_crowd_desc_init(tahr_crowd_desc *desc, size_t size);
 TAHR_API tahr_status tahr_crowd_tick_init(tahr_crowd_tick *tick, size_t size);
 
-/* Memory for a crowd: a mover for each of its characters, and what finds neighbours.
+/* Memory for a crowd: a mover for each of its characters, and what finds neighbours; from the world's
+ * allocator.
  * [in] world, which must outlive the crowd; desc, copied. [out] crowd, untouched on error; destroy it with
  * tahr_crowd_destroy. Needs exclusive access to the world. Allocates.
  * Returns TAHR_OK, TAHR_E_NULL (world, desc, crowd, desc.configs), TAHR_E_STRUCT_SIZE, TAHR_E_ARGUMENT (capacity,

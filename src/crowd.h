@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT
+ * crowd.h: a crowd behind its handle, and the tick in progress. */
+#ifndef TAHR__CROWD_H
+#define TAHR__CROWD_H
+
+#include "crowd_grid.h"
+
+/* Of one character: more are as good as none, for so many do not fit around one that is not far larger. */
+enum { TAHR__NEIGHBOURS = 128 };
+
+/* What a part of a tick counts, on a line of memory of its own. */
+typedef struct tahr__part {
+    tahr__spread spread;
+    tahr_crowd_counts counts;
+    uint32_t bad; /* first character with something wrong that stops the tick, or ~0u, */
+    uint32_t reserved;
+    const char *field; /* and what */
+    const char *why;
+    tahr_status status;
+} tahr__part;
+
+struct tahr_crowd {
+    tahr_world *world;
+    tahr_allocator allocator;
+    void *memory;
+    size_t size;
+    uint32_t capacity, kind_count, tasks, busy;
+    uint32_t walkable_rule; /* of heads */
+    uint32_t key_mask;      /* of keys */
+    tahr_run_tasks_fn run_tasks;
+    void *run_user;
+    tahr_mover **kinds;  /* one for each config, which nobody steps */
+    tahr_mover **movers; /* one for each place in the arrays of a tick */
+    uint32_t *kind_of;   /* whose config it has now */
+    tahr__figure *figures;
+    tahr_status *statuses;
+    double *farther; /* m, of who went too far: how much farther a second step may go */
+    uint32_t *keys;  /* ids of a tick, to find one that is there twice */
+    tahr__part *parts;
+    tahr__grid grid;
+    tahr_crowd_counts counts;
+};
+
+/* A tick in progress. */
+typedef struct tahr__tick {
+    tahr_crowd *crowd;
+    const tahr_crowd_tick *asked;
+    size_t input_stride, report_stride;
+    uint32_t tasks;
+    int flat; /* 1: a world of two dimensions */
+} tahr__tick;
+
+static inline tahr_member tick_member(const tahr__tick *t, uint32_t i)
+{
+    tahr_member simple = {.id = i};
+    return t->asked->members ? t->asked->members[i] : simple;
+}
+
+static inline const tahr_input *tick_input(const tahr__tick *t, uint32_t i)
+{
+    return (const tahr_input *)(const void *)((const char *)t->asked->inputs + i * t->input_stride);
+}
+
+static inline tahr_report *tick_report(const tahr__tick *t, uint32_t i)
+{
+    return t->asked->reports ? (tahr_report *)(void *)((char *)t->asked->reports + i * t->report_stride) : NULL;
+}
+
+/* What is wrong with a tick as a whole; TAHR_OK if nothing is. Says it. */
+tahr_status tahr__tick_check(tahr_crowd *crowd, const tahr_crowd_tick *asked, tahr__tick *tick);
+/* What is wrong with one character's part of it that stops all: the field, or NULL. */
+const char *tahr__tick_check_one(const tahr__tick *tick, uint32_t i, tahr_status *status, const char **why);
+/* Finds an id that is there twice. Returns TAHR_OK, or says it. */
+tahr_status tahr__tick_check_ids(const tahr__tick *tick);
+
+#endif

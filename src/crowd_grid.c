@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT
+ * crowd_grid.c: a grid with cells twice as wide as two characters can be apart and still meet: then only the four cells
+ * around the nearest corner count. The few that are much larger than the others would make all cells as wide as they
+ * are: they are in none, and everybody looks at each of them. */
+#include "crowd_grid.h"
+
+#include <string.h>
+
+/* Of the crowd, that may be taken for much larger than the others. */
+static uint32_t most_wide(uint32_t count)
+{
+    return 4 + count / 1024;
+}
+
+static double half_width(const tahr__figure *f)
+{
+    return max_of(f->box.x, max_of(f->box.y, f->box.z));
+}
+
+/* The exponent of a double, from 2^-20. */
+static int size_of(double width)
+{
+    uint64_t bits;
+    memcpy(&bits, &width, sizeof bits);
+    int size = (int)(bits >> 52) - (1023 - 20);
+    return size < 0 ? 0 : (size >= TAHR__SIZES ? TAHR__SIZES - 1 : size);
+}
+
+void tahr__spread_begin(tahr__spread *s)
+{
+    memset(s, 0, sizeof *s);
+    s->min = vec(INFINITY, INFINITY, INFINITY);
+    s->max = vec(-INFINITY, -INFINITY, -INFINITY);
+}
+
+void tahr__spread_add(tahr__spread *s, const tahr__figure *f)
+{
+    if (f->box.x < 0) {
+        return;
+    }
+    const double width = half_width(f);
+    const int size = size_of(width);
+    s->min = vec(min_of(s->min.x, f->at.x), min_of(s->min.y, f->at.y), min_of(s->min.z, f->at.z));
+    s->max = vec(max_of(s->max.x, f->at.x), max_of(s->max.y, f->at.y), max_of(s->max.z, f->at.z));
+    s->largest[size] = max_of(s->largest[size], width);
+    s->count[size]++;
+}
+
+void tahr__spread_merge(tahr__spread *s, const tahr__spread *o)
+{
+    s->min = vec(min_of(s->min.x, o->min.x), min_of(s->min.y, o->min.y), min_of(s->min.z, o->min.z));
+    s->max = vec(max_of(s->max.x, o->max.x), max_of(s->max.y, o->max.y), max_of(s->max.z, o->max.z));
+    for (int i = 0; i < TAHR__SIZES; i++) {
+        s->largest[i] = max_of(s->largest[i], o->largest[i]);
+        s->count[i] += o->count[i];
+    }
+}
+
+static double component(vec3 v, int axis)
+{
+    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
+}
+
+void tahr__grid_begin(tahr__grid *g, const tahr__spread *s)
+{
+    uint32_t wide = 0;
+    int size = TAHR__SIZES - 1, narrow = 0;
+    while (size > 0 && wide + s->count[size] <= most_wide(g->count)) {
+        wide += s->count[size--];
+    }
+    g->wide = s->largest[size] > 0 ? s->largest[size] : 1;
+    g->cell = 4 * g->wide;
+    vec3 across = sub(s->max, s->min);
+    for (int axis = 1; axis < 3; axis++) {
+        narrow = component(across, axis) <= component(across, narrow) ? axis : narrow;
+    }
+    g->axis[0] = narrow == 0 ? 1 : 0;
+    g->axis[1] = narrow == 2 ? 1 : 2;
+}
+
+static uint32_t hash(const tahr__grid *g, int64_t x, int64_t y)
+{
+    uint64_t h = (uint64_t)x * 0x9E3779B97F4A7C15u + (uint64_t)y * 0xC2B2AE3D27D4EB4Fu;
+    return (uint32_t)(h >> 32) & g->mask;
+}
+
+/* Rounds down, within what an int64_t holds: places are within 2e7 m, cells no smaller than 1e-6 m. */
+static int64_t cell_of(double x)
+{
+    int64_t i = (int64_t)x;
+    return (double)i > x ? i - 1 : i;
+}
+
+void tahr__grid_place(tahr__grid *g, uint32_t i)
+{
+    const tahr__figure *f = &g->figures[i];
+    if (f->box.x < 0) {
+        g->bucket[i] = g->mask + 2; /* behind all buckets: in no run */
+    } else if (half_width(f) > g->wide) {
+        g->bucket[i] = 0;
+    } else {
+        int64_t x = cell_of(component(f->at, g->axis[0]) / g->cell), y = cell_of(component(f->at, g->axis[1]) / g->cell);
+        g->bucket[i] = 1 + hash(g, x, y);
+    }
+}
+
+void tahr__grid_sort(tahr__grid *g)
+{
+    const uint32_t buckets = g->mask + 3;
+    memset(g->start, 0, (buckets + 1) * sizeof *g->start);
+    for (uint32_t i = 0; i < g->count; i++) {
+        g->start[g->bucket[i] + 1]++;
+    }
+    g->wide_count = g->start[1];
+    for (uint32_t b = 0; b < buckets; b++) {
+        g->start[b + 1] += g->start[b];
+    }
+    /* Each bucket is filled from its end, which leaves start[b + 1] at its begin; then all move down by one. */
+    for (uint32_t i = g->count; i-- > 0;) {
+        g->order[--g->start[g->bucket[i] + 1]] = i;
+    }
+    memmove(g->start, g->start + 1, buckets * sizeof *g->start);
+    g->start[buckets] = g->count;
+}
+
+int tahr__grid_around(const tahr__grid *g, uint32_t i, uint32_t begin[5], uint32_t end[5])
+{
+    const tahr__figure *f = &g->figures[i];
+    if (half_width(f) > g->wide || f->escaped) {
+        begin[0] = 0;
+        end[0] = g->start[g->mask + 2];
+        return 1;
+    }
+    uint32_t seen[4];
+    int runs = 0, kept = 0;
+    const double x = component(f->at, g->axis[0]) / g->cell, y = component(f->at, g->axis[1]) / g->cell;
+    const int64_t cx = cell_of(x - 0.5), cy = cell_of(y - 0.5);
+    if (g->wide_count > 0) {
+        begin[runs] = 0;
+        end[runs++] = g->wide_count;
+    }
+    for (int k = 0; k < 4; k++) {
+        uint32_t b = 1 + hash(g, cx + (k & 1), cy + (k >> 1));
+        int known = 0;
+        for (int j = 0; j < kept; j++) {
+            known |= seen[j] == b;
+        }
+        if (!known) {
+            seen[kept++] = b;
+            if (g->start[b] < g->start[b + 1]) {
+                begin[runs] = g->start[b];
+                end[runs++] = g->start[b + 1];
+            }
+        }
+    }
+    return runs;
+}
