@@ -43,6 +43,10 @@ foreach(backend ${backends})
     tahr_pc(tahr_${backend} "Backend ${backend} of tahr" tahr "${private} ${pc_libm}")
 endforeach()
 
+if(with_threads)
+    tahr_pc(tahr_threads "Pool of threads for the crowds of tahr" tahr "${CMAKE_THREAD_LIBS_INIT}")
+endif()
+
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tahr)
 configure_package_config_file(.cmake/tahr-config.cmake.in tahr-config.cmake INSTALL_DESTINATION ${package_dir})
 # Before 1.0 the minor number is the compatible range.
@@ -50,6 +54,9 @@ write_basic_package_version_file(tahr-config-version.cmake COMPATIBILITY SameMin
 install(FILES ${PROJECT_BINARY_DIR}/tahr-config.cmake ${PROJECT_BINARY_DIR}/tahr-config-version.cmake
     DESTINATION ${package_dir})
 install(EXPORT tahr-targets NAMESPACE tahr:: DESTINATION ${package_dir})
+if(with_threads)
+    install(EXPORT tahr-threads-targets NAMESPACE tahr:: DESTINATION ${package_dir})
+endif()
 foreach(backend ${backends})
     install(EXPORT tahr-${backend}-targets NAMESPACE tahr:: DESTINATION ${package_dir})
 endforeach()

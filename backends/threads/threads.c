@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: MIT
+ * threads.c: a pool that sleeps on a condition and shares out the numbers of tasks by one atomic counter.
+ *
+ * A round is what one call of tahr_threads_run hands out. Who takes part in one is known: all threads; so that the next
+ * round cannot begin while a slow one still looks at the last. */
+#include <tahr/threads.h>
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { MOST = 256 };
+
+struct tahr_threads {
+    tahr_allocator allocator;
+    pthread_mutex_t lock;
+    pthread_cond_t begun, done; /* a round, or the end of all; the round for all */
+    pthread_t thread[MOST];
+    uint32_t started; /* of thread */
+    uint32_t at_work; /* of them, in this round */
+    uint32_t busy;    /* 1: a round is under way */
+    uint32_t ends;
+    uint64_t round;
+    tahr_task_fn task;
+    void *argument;
+    uint32_t count;
+    atomic_uint_fast64_t next; /* wider than count: each thread goes beyond it once */
+};
+
+static void work(tahr_threads *t, tahr_task_fn task, void *argument, uint32_t count)
+{
+    for (;;) {
+        uint64_t i = atomic_fetch_add_explicit(&t->next, 1, memory_order_relaxed);
+        if (i >= count) return;
+        task(argument, (uint32_t)i);
+    }
+}
+
+static void *live(void *user)
+{
+    tahr_threads *t = user;
+    uint64_t seen = 0;
+    pthread_mutex_lock(&t->lock);
+    for (;;) {
+        while (t->round == seen && !t->ends) pthread_cond_wait(&t->begun, &t->lock);
+        if (t->ends) break;
+        seen = t->round;
+        tahr_task_fn task = t->task;
+        void *argument = t->argument;
+        uint32_t count = t->count;
+        pthread_mutex_unlock(&t->lock);
+        work(t, task, argument, count);
+        pthread_mutex_lock(&t->lock);
+        if (--t->at_work == 0) pthread_cond_signal(&t->done);
+    }
+    pthread_mutex_unlock(&t->lock);
+    return NULL;
+}
+
+static void *plain_alloc(void *user, size_t size, size_t alignment)
+{
+    (void)user, (void)alignment;
+    return malloc(size);
+}
+
+static void plain_free(void *user, void *memory, size_t size, size_t alignment)
+{
+    (void)user, (void)size, (void)alignment;
+    free(memory);
+}
+
+static uint32_t processors(void)
+{
+    long n = sysconf(_SC_NPROCESSORS_ONLN);
+    return n < 1 ? 1 : (n > MOST ? MOST : (uint32_t)n);
+}
+
+tahr_status tahr_threads_create(const tahr_allocator *allocator, uint32_t count, tahr_threads **threads)
+{
+    const tahr_allocator plain = {NULL, plain_alloc, plain_free};
+    if (!threads) return TAHR_E_NULL;
+    if (count > MOST) return TAHR_E_ARGUMENT;
+    const tahr_allocator a = allocator ? *allocator : plain;
+    tahr_threads *t = a.alloc(a.user, sizeof *t, 16);
+    if (!t) return TAHR_E_MEMORY;
+    memset(t, 0, sizeof *t);
+    t->allocator = a;
+    atomic_init(&t->next, 0);
+    pthread_mutex_init(&t->lock, NULL); /* of the default kind: cannot fail where there is memory for it, and there is */
+    pthread_cond_init(&t->begun, NULL);
+    pthread_cond_init(&t->done, NULL);
+    const uint32_t wanted = (count ? count : processors()) - 1;
+    while (t->started < wanted && pthread_create(&t->thread[t->started], NULL, live, t) == 0) t->started++;
+    if (t->started < wanted) {
+        tahr_threads_destroy(t);
+        return TAHR_E_MEMORY;
+    }
+    *threads = t;
+    return TAHR_OK;
+}
+
+void tahr_threads_destroy(tahr_threads *t)
+{
+    if (!t) return;
+    pthread_mutex_lock(&t->lock);
+    t->ends = 1;
+    pthread_cond_broadcast(&t->begun);
+    pthread_mutex_unlock(&t->lock);
+    for (uint32_t i = 0; i < t->started; i++) pthread_join(t->thread[i], NULL);
+    pthread_cond_destroy(&t->done);
+    pthread_cond_destroy(&t->begun);
+    pthread_mutex_destroy(&t->lock);
+    const tahr_allocator a = t->allocator;
+    a.free(a.user, t, sizeof *t, 16);
+}
+
+uint32_t tahr_threads_count(const tahr_threads *t)
+{
+    return t ? t->started + 1 : 0;
+}
+
+/* Returns 0 if the pool is at work already. */
+static int begin(tahr_threads *t, tahr_task_fn task, void *argument, uint32_t count)
+{
+    pthread_mutex_lock(&t->lock);
+    const int is_free = !t->busy;
+    if (is_free) {
+        t->busy = 1;
+        t->task = task;
+        t->argument = argument;
+        t->count = count;
+        t->at_work = t->started;
+        t->round++;
+        atomic_store_explicit(&t->next, 0, memory_order_relaxed);
+        pthread_cond_broadcast(&t->begun);
+    }
+    pthread_mutex_unlock(&t->lock);
+    return is_free;
+}
+
+void tahr_threads_run(void *threads, tahr_task_fn task, void *argument, uint32_t count)
+{
+    tahr_threads *t = threads;
+    if (!t || t->started == 0 || count < 2 || !begin(t, task, argument, count)) {
+        for (uint32_t i = 0; i < count; i++) task(argument, i);
+        return;
+    }
+    work(t, task, argument, count);
+    pthread_mutex_lock(&t->lock);
+    while (t->at_work > 0) pthread_cond_wait(&t->done, &t->lock);
+    t->busy = 0;
+    pthread_mutex_unlock(&t->lock);
+}
