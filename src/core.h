@@ -140,7 +140,7 @@ struct tahr_mover {
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
     uint32_t is_recorded;   /* 1: the step under way has been told of */
-    const struct tahr__neighbours *neighbours; /* in a crowd: who is near in this tick, or NULL */
+    struct tahr__company *company; /* in a step of a crowd: who else is there (neighbours.h), else NULL */
     tahr__sleep sleep;
 };
 

@@ -9,15 +9,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "arguments.h"
 #include "message.h"
-#include "support.h"
 
 /* Below this many characters a part is not worth a task. */
 enum { LEAST_PART = 16 };
-
-/* Stands for a step that must be taken again. */
-enum { AGAIN = 1000 };
 
 static void run(const tahr__tick *t, tahr_task_fn task)
 {
@@ -34,16 +29,6 @@ static void run(const tahr__tick *t, tahr_task_fn task)
 static uint32_t part_begin(const tahr__tick *t, uint32_t part)
 {
     return (uint32_t)((uint64_t)t->asked->count * part / t->tasks);
-}
-
-/* Is the state good enough to be seen by others? Comparisons with a NaN are false. */
-static int is_visible(const tahr_state *s)
-{
-    const tahr_quat q = s->orientation;
-    const double up = length_squared(s->up) - 1, turn = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w) - 1;
-    return length_squared(s->position) <= 4e14 && length_squared(s->velocity) <= 1e10 && up * up < 1e-12 &&
-           turn * turn < 1e-12 && s->radius >= 0 && s->radius <= 1e4 && s->half_height > 0 && s->half_height <= 1e4 &&
-           length_squared(s->base.velocity) <= 1e12;
 }
 
 static void use_kind(tahr_crowd *c, uint32_t i, uint32_t kind)
@@ -65,7 +50,7 @@ static void look_at_part(void *argument, uint32_t index)
     tahr__part *part = &c->parts[index];
     memset(part, 0, sizeof *part);
     part->bad = ~0u;
-    tahr__spread_begin(&part->spread);
+    tahr__spread_begin(&part->spread, c->grid.axis);
     for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
         part->field = tahr__tick_check_one(t, i, &part->status, &part->why);
         if (part->field) {
@@ -73,16 +58,9 @@ static void look_at_part(void *argument, uint32_t index)
             return;
         }
         const tahr_member member = tick_member(t, i);
-        const tahr_state *state = &t->asked->states[i];
-        tahr__figure *f = &c->figures[i];
         use_kind(c, i, member.config);
-        if (is_visible(state)) {
-            tahr__figure_of(f, c->movers[i], &member, tick_input(t, i), state, t->asked->dt);
-        }
-        if (!is_visible(state) || !vec_is_finite(f->at) || !vec_is_finite(f->box)) {
-            f->id = member.id;
-            f->box.x = -1;
-        }
+        tahr__figure *f = &c->figures[i];
+        tahr__figure_of(f, c->movers[i], &member, tick_input(t, i), &t->asked->states[i], t->asked->dt);
         tahr__spread_add(&part->spread, f);
     }
 }
@@ -95,32 +73,56 @@ static void place_part(void *argument, uint32_t index)
     }
 }
 
-/* Sorted by body; more than there is room for: those that are farthest are left out. */
+/* Is anybody near? */
+static int has_company(const tahr_crowd *c, uint32_t i)
+{
+    const tahr__figure *f = &c->figures[i];
+    uint32_t begin[6], end[6];
+    const int runs = tahr__grid_around(&c->grid, i, begin, end);
+    for (int k = 0; k < runs; k++) {
+        for (uint32_t at = begin[k]; at < end[k]; at++) {
+            const tahr__figure *o = &c->figures[c->grid.order[at]];
+            if (figures_near(f, o, 0) && o != f && figures_meet(f, o)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+static void meet_part(void *argument, uint32_t index)
+{
+    const tahr__tick *t = argument;
+    tahr_crowd *c = t->crowd;
+    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
+        tahr__figure *f = &c->figures[i];
+        if (f->flags & TAHR__FIGURE_THERE && has_company(c, i)) {
+            f->flags |= TAHR__FIGURE_BESIDE;
+            tahr__look_of(&c->looks[i], c->movers[i], &t->asked->states[i], t->asked->dt);
+        }
+    }
+}
+
+/* Sorted by body; of more than there is room for those that are farthest are left out. */
 typedef struct gathering {
     tahr__neighbours found;
     tahr__neighbour planes[TAHR__NEIGHBOURS];
     int truncated;
 } gathering;
 
-/* m, from the character to a plane. */
-static double away(const tahr__figure *f, const tahr__neighbour *plane)
-{
-    const tahr__solid solid = {&f->shape, f->up, f->orientation};
-    return -tahr__support(&solid, scale(plane->normal, -1)) - plane->offset;
-}
-
-static void leave_out_farthest(gathering *g, const tahr__figure *f)
+static void leave_out_farthest(gathering *g, const tahr__look *look)
 {
     uint32_t farthest = 0;
     for (uint32_t i = 1; i < g->found.count; i++) {
-        farthest = away(f, &g->planes[i]) > away(f, &g->planes[farthest]) ? i : farthest;
+        int more = tahr__figure_away(look, &g->planes[i]) > tahr__figure_away(look, &g->planes[farthest]);
+        farthest = more ? i : farthest;
     }
     g->found.count--;
     memmove(&g->planes[farthest], &g->planes[farthest + 1], (g->found.count - farthest) * sizeof g->planes[0]);
     g->truncated = 1;
 }
 
-static void add_neighbour(gathering *g, const tahr__figure *f, const tahr__neighbour *plane)
+static void add_neighbour(gathering *g, const tahr__look *look, const tahr__neighbour *plane)
 {
     uint32_t at = g->found.count++;
     for (; at > 0 && g->planes[at - 1].body > plane->body; at--) {
@@ -128,78 +130,75 @@ static void add_neighbour(gathering *g, const tahr__figure *f, const tahr__neigh
     }
     g->planes[at] = *plane;
     if (g->found.count == TAHR__NEIGHBOURS) {
-        leave_out_farthest(g, f);
+        leave_out_farthest(g, look);
     }
+}
+
+/* Returns 0 if they cannot meet. */
+static int plane_between(const tahr__tick *t, uint32_t i, uint32_t j, tahr__neighbour *plane)
+{
+    const tahr_crowd *c = t->crowd;
+    const tahr__party self = {&c->figures[i], &c->looks[i]}, other = {&c->figures[j], &c->looks[j]};
+    const int again = (self.figure->flags & TAHR__FIGURE_STRAYED) != 0;
+    if (again && !(other.figure->flags & TAHR__FIGURE_STRAYED) && !figures_near(self.figure, other.figure, 0)) {
+        tahr__figure_wall(self, other.figure, t->flat, plane);
+        return 1;
+    }
+    return tahr__figure_plane(self, other, again, t->flat, plane);
 }
 
 static void gather(const tahr__tick *t, uint32_t i, gathering *g)
 {
     const tahr_crowd *c = t->crowd;
     const tahr__figure *f = &c->figures[i];
-    uint32_t begin[5], end[5];
-    g->found = (tahr__neighbours){.anchor = f->at, .walkable_rule = c->walkable_rule, .planes = g->planes};
+    uint32_t begin[6], end[6];
+    g->found = (tahr__neighbours){.anchor = f->range.at, .walkable_rule = c->walkable_rule, .planes = g->planes};
     g->truncated = 0;
-    if (f->box.x < 0 || f->mask == 0) {
-        return;
-    }
     const int runs = tahr__grid_around(&c->grid, i, begin, end);
     for (int k = 0; k < runs; k++) {
         for (uint32_t at = begin[k]; at < end[k]; at++) {
-            const tahr__figure *o = &c->figures[c->grid.order[at]];
+            const uint32_t j = c->grid.order[at];
+            const tahr__figure *o = &c->figures[j];
             tahr__neighbour plane;
-            if (figures_near(f, o, f->extra + o->extra) && o != f && figures_meet(f, o) &&
-                tahr__figure_plane(f, o, f->escaped != 0, t->flat, &plane)) {
-                add_neighbour(g, f, &plane);
+            if (figures_near(f, o, f->range.extra + o->range.extra) && o != f && figures_meet(f, o) &&
+                plane_between(t, i, j, &plane)) {
+                add_neighbour(g, &c->looks[i], &plane);
             }
         }
     }
 }
 
-static double largest(vec3 v)
-{
-    return max_of(fabs(v.x), max_of(fabs(v.y), fabs(v.z)));
-}
-
-/* m that it went farther than was foreseen; 0 or less: it did not. */
-static double beyond(const tahr__figure *f, const tahr_state *s)
-{
-    vec3 way = sub(s->position, f->at);
-    double x = fabs(way.x) - f->reach.x, y = fabs(way.y) - f->reach.y, z = fabs(way.z) - f->reach.z;
-    return max_of(x, max_of(y, z)) - f->extra;
-}
-
-static void note(tahr__part *part, const gathering *g)
-{
-    part->counts.steps++;
-    part->counts.beside += g->found.count > 0;
-    if (g->found.count > part->counts.most_neighbours) {
-        part->counts.most_neighbours = g->found.count;
-    }
-}
-
-/* The step itself, with who is near. Returns its status; AGAIN: it went too far, and nothing is written. */
-static tahr_status take_step(const tahr__tick *t, uint32_t i, const gathering *g)
+/* The step itself. company: who is there. Returns its status, or TAHR__STRAYED. */
+static tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__company *company)
 {
     tahr_crowd *c = t->crowd;
-    const tahr__figure *f = &c->figures[i];
     tahr_mover *mover = c->movers[i];
-    tahr_report *report = tick_report(t, i);
-    tahr_state *state = &t->asked->states[i], s = *state;
-    mover->neighbours = g->found.count > 0 ? &g->found : NULL;
-    tahr_status status = tahr_mover_step(mover, tick_input(t, i), t->asked->dt, &s, report);
-    mover->neighbours = NULL;
-    if (status < 0) {
-        return status;
+    tahr_state *state = &t->asked->states[i];
+    mover->company = company;
+    tahr_status status = tahr_mover_step(mover, tick_input(t, i), t->asked->dt, state, tick_report(t, i));
+    mover->company = NULL;
+    if (status == TAHR__STRAYED) {
+        c->strayed[i] = company->strayed;
+    } else if (state->floor.body >= TAHR_CHARACTER_BODY && state->floor.body != TAHR_NO_BODY) {
+        state->floor_revision = 0; /* it may be elsewhere when it is looked at again */
     }
-    if (f->box.x >= 0 && f->mask != 0 && beyond(f, &s) > 0 && t->asked->count > 1 && t->asked->dt > 0) {
-        c->farther[i] = 2 * largest(sub(s.position, f->at));
-        return AGAIN;
+    return status;
+}
+
+/* The same among others. */
+static tahr_status take_step_among(const tahr__tick *t, uint32_t i, tahr__part *part)
+{
+    gathering g;
+    tahr__company company = {.neighbours = &g.found, .range = &t->crowd->figures[i].range};
+    gather(t, i, &g);
+    company.neighbours = g.found.count > 0 ? &g.found : NULL;
+    part->counts.beside += g.found.count > 0;
+    if (g.found.count > part->counts.most_neighbours) {
+        part->counts.most_neighbours = g.found.count;
     }
-    if (world_is_character(c->world, s.floor.body)) {
-        s.floor_revision = 0; /* it may be elsewhere when it is looked at again */
-    }
-    *state = s;
-    if (g->truncated) {
+    tahr_status status = take_step(t, i, &company);
+    if (g.truncated && status >= 0 && status != TAHR__STRAYED) {
+        tahr_report *report = tick_report(t, i);
         if (report) {
             report->flags |= TAHR_REPORT_TRUNCATED;
         }
@@ -213,11 +212,11 @@ static void step_part(void *argument, uint32_t index)
     const tahr__tick *t = argument;
     tahr_crowd *c = t->crowd;
     for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
-        gathering g;
-        gather(t, i, &g);
-        note(&c->parts[index], &g);
-        c->statuses[i] = take_step(t, i, &g);
+        tahr__company company = {.range = &c->figures[i].range};
+        c->statuses[i] = c->figures[i].flags & TAHR__FIGURE_BESIDE ? take_step_among(t, i, &c->parts[index])
+                                                                   : take_step(t, i, &company);
     }
+    c->parts[index].counts.steps += part_begin(t, index + 1) - part_begin(t, index);
 }
 
 /* A second time too far: it stays where it is, which no plane forbids. */
@@ -236,18 +235,17 @@ static void step_again(const tahr__tick *t)
     tahr_crowd *c = t->crowd;
     uint32_t count = 0;
     for (uint32_t i = 0; i < t->asked->count; i++) {
-        if (c->statuses[i] == AGAIN) {
-            c->figures[i].escaped = 1;
-            c->figures[i].extra = c->farther[i];
+        if (c->statuses[i] == TAHR__STRAYED) {
+            c->figures[i].flags |= TAHR__FIGURE_STRAYED;
+            c->figures[i].range.extra = 2 * c->strayed[i];
+            tahr__look_of(&c->looks[i], c->movers[i], &t->asked->states[i], t->asked->dt);
             count++;
         }
     }
     for (uint32_t i = 0; i < t->asked->count && count > 0; i++) {
-        if (c->figures[i].escaped) {
-            gathering g;
-            gather(t, i, &g);
-            tahr_status status = take_step(t, i, &g);
-            c->statuses[i] = status == AGAIN ? hold(t, i) : status;
+        if (c->figures[i].flags & TAHR__FIGURE_STRAYED) {
+            tahr_status status = take_step_among(t, i, &c->parts[0]);
+            c->statuses[i] = status == TAHR__STRAYED ? hold(t, i) : status;
         }
     }
     c->counts.again += count;
@@ -336,6 +334,7 @@ tahr_status tahr_crowd_step(tahr_crowd *crowd, const tahr_crowd_tick *asked)
     status = find_bad(&t);
     if (status >= 0) {
         look_around(&t);
+        run(&t, meet_part);
         run(&t, step_part);
         step_again(&t);
         status = finish(&t);

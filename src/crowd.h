@@ -33,8 +33,9 @@ struct tahr_crowd {
     tahr_mover **movers; /* one for each place in the arrays of a tick */
     uint32_t *kind_of;   /* whose config it has now */
     tahr__figure *figures;
+    tahr__look *looks;
     tahr_status *statuses;
-    double *farther; /* m, of who went too far: how much farther a second step may go */
+    double *strayed; /* m, of who would have gone farther than foreseen */
     uint32_t *keys;  /* ids of a tick, to find one that is there twice */
     tahr__part *parts;
     tahr__grid grid;

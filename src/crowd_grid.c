@@ -12,9 +12,14 @@ static uint32_t most_wide(uint32_t count)
     return 4 + count / 1024;
 }
 
-static double half_width(const tahr__figure *f)
+static double component(vec3 v, int axis)
 {
-    return max_of(f->box.x, max_of(f->box.y, f->box.z));
+    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
+}
+
+static double half_width(const tahr__figure *f, const int axis[2])
+{
+    return max_of(component(f->box, axis[0]), component(f->box, axis[1]));
 }
 
 /* The exponent of a double, from 2^-20. */
@@ -26,22 +31,25 @@ static int size_of(double width)
     return size < 0 ? 0 : (size >= TAHR__SIZES ? TAHR__SIZES - 1 : size);
 }
 
-void tahr__spread_begin(tahr__spread *s)
+void tahr__spread_begin(tahr__spread *s, const int axis[2])
 {
     memset(s, 0, sizeof *s);
+    s->axis[0] = axis[0];
+    s->axis[1] = axis[1];
     s->min = vec(INFINITY, INFINITY, INFINITY);
     s->max = vec(-INFINITY, -INFINITY, -INFINITY);
 }
 
 void tahr__spread_add(tahr__spread *s, const tahr__figure *f)
 {
-    if (f->box.x < 0) {
+    if (!(f->flags & TAHR__FIGURE_THERE)) {
         return;
     }
-    const double width = half_width(f);
+    const vec3 at = f->range.at;
+    const double width = half_width(f, s->axis);
     const int size = size_of(width);
-    s->min = vec(min_of(s->min.x, f->at.x), min_of(s->min.y, f->at.y), min_of(s->min.z, f->at.z));
-    s->max = vec(max_of(s->max.x, f->at.x), max_of(s->max.y, f->at.y), max_of(s->max.z, f->at.z));
+    s->min = vec(min_of(s->min.x, at.x), min_of(s->min.y, at.y), min_of(s->min.z, at.z));
+    s->max = vec(max_of(s->max.x, at.x), max_of(s->max.y, at.y), max_of(s->max.z, at.z));
     s->largest[size] = max_of(s->largest[size], width);
     s->count[size]++;
 }
@@ -54,11 +62,6 @@ void tahr__spread_merge(tahr__spread *s, const tahr__spread *o)
         s->largest[i] = max_of(s->largest[i], o->largest[i]);
         s->count[i] += o->count[i];
     }
-}
-
-static double component(vec3 v, int axis)
-{
-    return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
 }
 
 void tahr__grid_begin(tahr__grid *g, const tahr__spread *s)
@@ -78,10 +81,17 @@ void tahr__grid_begin(tahr__grid *g, const tahr__spread *s)
     g->axis[1] = narrow == 2 ? 1 : 2;
 }
 
-static uint32_t hash(const tahr__grid *g, int64_t x, int64_t y)
+/* Of a cell's numbers: sums of odd multiples, so that the cells beside one are an addition away. */
+static const uint64_t ALONG = 0x9E3779B97F4A7C15u, ACROSS = 0xC2B2AE3D27D4EB4Fu;
+
+static uint64_t mix(int64_t x, int64_t y)
 {
-    uint64_t h = (uint64_t)x * 0x9E3779B97F4A7C15u + (uint64_t)y * 0xC2B2AE3D27D4EB4Fu;
-    return (uint32_t)(h >> 32) & g->mask;
+    return (uint64_t)x * ALONG + (uint64_t)y * ACROSS;
+}
+
+static uint32_t bucket_of(const tahr__grid *g, uint64_t h)
+{
+    return 1 + ((uint32_t)(h >> 32) & g->mask);
 }
 
 /* Rounds down, within what an int64_t holds: places are within 2e7 m, cells no smaller than 1e-6 m. */
@@ -94,13 +104,13 @@ static int64_t cell_of(double x)
 void tahr__grid_place(tahr__grid *g, uint32_t i)
 {
     const tahr__figure *f = &g->figures[i];
-    if (f->box.x < 0) {
+    if (!(f->flags & TAHR__FIGURE_THERE)) {
         g->bucket[i] = g->mask + 2; /* behind all buckets: in no run */
-    } else if (half_width(f) > g->wide) {
+    } else if (half_width(f, g->axis) > g->wide) {
         g->bucket[i] = 0;
     } else {
-        int64_t x = cell_of(component(f->at, g->axis[0]) / g->cell), y = cell_of(component(f->at, g->axis[1]) / g->cell);
-        g->bucket[i] = 1 + hash(g, x, y);
+        int64_t x = cell_of(component(f->range.at, g->axis[0]) / g->cell), y = cell_of(component(f->range.at, g->axis[1]) / g->cell);
+        g->bucket[i] = bucket_of(g, mix(x, y));
     }
 }
 
@@ -123,35 +133,38 @@ void tahr__grid_sort(tahr__grid *g)
     g->start[buckets] = g->count;
 }
 
-int tahr__grid_around(const tahr__grid *g, uint32_t i, uint32_t begin[5], uint32_t end[5])
+static int add_run(const tahr__grid *g, uint32_t bucket, uint32_t *begin, uint32_t *end, int runs)
+{
+    begin[runs] = g->start[bucket];
+    end[runs] = g->start[bucket + 1];
+    return runs + (begin[runs] < end[runs]);
+}
+
+int tahr__grid_around(const tahr__grid *g, uint32_t i, uint32_t begin[6], uint32_t end[6])
 {
     const tahr__figure *f = &g->figures[i];
-    if (half_width(f) > g->wide || f->escaped) {
+    if (half_width(f, g->axis) > g->wide || (f->flags & TAHR__FIGURE_STRAYED)) {
         begin[0] = 0;
         end[0] = g->start[g->mask + 2];
         return 1;
     }
-    uint32_t seen[4];
-    int runs = 0, kept = 0;
-    const double x = component(f->at, g->axis[0]) / g->cell, y = component(f->at, g->axis[1]) / g->cell;
-    const int64_t cx = cell_of(x - 0.5), cy = cell_of(y - 0.5);
+    const double x = component(f->range.at, g->axis[0]) / g->cell, y = component(f->range.at, g->axis[1]) / g->cell;
+    const uint64_t h = mix(cell_of(x - 0.5), cell_of(y - 0.5));
+    const uint32_t a = bucket_of(g, h), b = bucket_of(g, h + ALONG), c = bucket_of(g, h + ACROSS);
+    const uint32_t d = bucket_of(g, h + ALONG + ACROSS);
+    int runs = 0;
     if (g->wide_count > 0) {
-        begin[runs] = 0;
-        end[runs++] = g->wide_count;
+        runs = add_run(g, 0, begin, end, runs);
     }
-    for (int k = 0; k < 4; k++) {
-        uint32_t b = 1 + hash(g, cx + (k & 1), cy + (k >> 1));
-        int known = 0;
-        for (int j = 0; j < kept; j++) {
-            known |= seen[j] == b;
-        }
-        if (!known) {
-            seen[kept++] = b;
-            if (g->start[b] < g->start[b + 1]) {
-                begin[runs] = g->start[b];
-                end[runs++] = g->start[b + 1];
-            }
-        }
+    runs = add_run(g, a, begin, end, runs);
+    if (b != a) {
+        runs = add_run(g, b, begin, end, runs);
+    }
+    if (c != a && c != b) {
+        runs = add_run(g, c, begin, end, runs);
+    }
+    if (d != a && d != b && d != c) {
+        runs = add_run(g, d, begin, end, runs);
     }
     return runs;
 }

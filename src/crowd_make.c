@@ -77,7 +77,7 @@ static size_t take(size_t *used, size_t count, size_t size)
 }
 
 typedef struct plan {
-    size_t kinds, movers, kind_of, figures, statuses, farther, keys, parts, bucket, start, order, size;
+    size_t kinds, movers, kind_of, figures, looks, statuses, strayed, keys, parts, bucket, start, order, size;
 } plan;
 
 static plan plan_of(const tahr_crowd *c)
@@ -88,8 +88,9 @@ static plan plan_of(const tahr_crowd *c)
     p.movers = take(&p.size, n, sizeof *c->movers);
     p.kind_of = take(&p.size, n, sizeof *c->kind_of);
     p.figures = take(&p.size, n, sizeof *c->figures);
+    p.looks = take(&p.size, n, sizeof *c->looks);
     p.statuses = take(&p.size, n, sizeof *c->statuses);
-    p.farther = take(&p.size, n, sizeof *c->farther);
+    p.strayed = take(&p.size, n, sizeof *c->strayed);
     p.keys = take(&p.size, table, sizeof *c->keys);
     p.parts = take(&p.size, c->tasks, sizeof *c->parts);
     p.bucket = take(&p.size, n, sizeof *c->grid.bucket);
@@ -105,8 +106,9 @@ static void divide(tahr_crowd *c, const plan *p)
     c->movers = (tahr_mover **)(void *)(m + p->movers);
     c->kind_of = (uint32_t *)(void *)(m + p->kind_of);
     c->figures = (tahr__figure *)(void *)(m + p->figures);
+    c->looks = (tahr__look *)(void *)(m + p->looks);
     c->statuses = (tahr_status *)(void *)(m + p->statuses);
-    c->farther = (double *)(void *)(m + p->farther);
+    c->strayed = (double *)(void *)(m + p->strayed);
     c->keys = (uint32_t *)(void *)(m + p->keys);
     c->parts = (tahr__part *)(void *)(m + p->parts);
     c->grid = (tahr__grid){.figures = c->figures,

@@ -13,10 +13,31 @@
 /* Of a length, m: room for rounding of what is foreseen. */
 static const double FORESEEN = 1e-6;
 
-static double speed_of(const tahr_config *c, const tahr_input *input, const tahr_state *s)
+static vec3 absolute(vec3 v)
 {
-    double v = max_of(length(s->velocity), max_of(c->max_speed, c->jump_speed));
-    v = max_of(v, s->mode == TAHR_MODE_FLYING ? c->fly_speed : (s->mode == TAHR_MODE_SWIMMING ? c->swim_speed : 0));
+    return vec(fabs(v.x), fabs(v.y), fabs(v.z));
+}
+
+/* No less than its length, for three additions. */
+static double size_of(vec3 v)
+{
+    return fabs(v.x) + fabs(v.y) + fabs(v.z);
+}
+
+/* Is the state good enough to be seen by others? Comparisons with a NaN are false. */
+static int is_visible(const tahr_state *s)
+{
+    const tahr_quat q = s->orientation;
+    const double up = length_squared(s->up) - 1, turn = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w) - 1;
+    return length_squared(s->position) <= 4e14 && length_squared(s->velocity) + length_squared(s->base.velocity) <= 1e12 &&
+           up * up + turn * turn < 1e-12 && s->radius >= 0 && s->radius <= 1e4 && s->half_height > 0 &&
+           s->half_height <= 1e4;
+}
+
+/* What it was asked for. */
+static double asked_speed(const tahr_config *c, const tahr_input *input)
+{
+    double v = 0;
     if (input->flags & TAHR_INPUT_LAUNCH) {
         v += length(input->launch);
     }
@@ -26,10 +47,22 @@ static double speed_of(const tahr_config *c, const tahr_input *input, const tahr
     if (input->flags & TAHR_INPUT_DRIVE) {
         v += length(input->drive);
     }
-    return v + length(s->base.velocity); /* of a base that it may leave */
+    return v;
 }
 
-/* Where what it stands on has carried it, as base_motion.c will. */
+static double speed_of(const tahr_config *c, const tahr_input *input, const tahr_state *s)
+{
+    double v = max_of(length(s->velocity), max_of(c->max_speed, c->jump_speed));
+    if (s->mode != TAHR_MODE_WALKING) {
+        v = max_of(v, max_of(c->fly_speed, c->swim_speed));
+    }
+    if (input->flags) {
+        v += asked_speed(c, input);
+    }
+    return s->base.body == TAHR_NO_BODY ? v : v + size_of(s->base.velocity); /* of a base that it may leave */
+}
+
+/* Where what it stands on will carry it (base_motion.c). */
 static vec3 carried(const tahr_world *world, const tahr_state *s)
 {
     const tahr_floor *floor = &s->floor;
@@ -51,54 +84,77 @@ static vec3 carried(const tahr_world *world, const tahr_state *s)
     return add(s->position, sub(tahr__carried(world, &from, &motion.pose, foot), foot));
 }
 
-static vec3 absolute(vec3 v)
+static tahr_shape shape_of(const tahr_mover *mover, const tahr_state *s)
 {
-    return vec(fabs(v.x), fabs(v.y), fabs(v.z));
+    tahr_shape shape = mover->config.shape;
+    shape.radius = s->radius;
+    shape.half_height = s->half_height;
+    return shape;
 }
 
-static vec3 extents(const tahr__figure *f)
+static vec3 extents(const tahr_mover *mover, const tahr_state *s)
 {
-    const tahr__solid solid = {&f->shape, f->up, f->orientation};
+    const uint32_t type = mover->config.shape.type;
     const vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-    if (f->shape.type == TAHR_SHAPE_CAPSULE || f->shape.type == TAHR_SHAPE_SPHERE) {
-        const double r = f->shape.radius, half = f->shape.half_height - r;
-        vec3 axis = scale(absolute(f->up), half);
-        return add(axis, vec(r, r, r));
+    if (type == TAHR_SHAPE_CAPSULE || type == TAHR_SHAPE_SPHERE) {
+        return add_scaled(vec(s->radius, s->radius, s->radius), absolute(s->up), s->half_height - s->radius);
     }
+    const tahr_shape shape = shape_of(mover, s);
+    const tahr__solid solid = {&shape, s->up, s->orientation};
     double ex = max_of(tahr__support(&solid, x), tahr__support(&solid, scale(x, -1)));
     double ey = max_of(tahr__support(&solid, y), tahr__support(&solid, scale(y, -1)));
     double ez = max_of(tahr__support(&solid, z), tahr__support(&solid, scale(z, -1)));
     return vec(ex, ey, ez);
 }
 
+static double half_skin_of(const tahr_config *c)
+{
+    return c->separation == TAHR_SEPARATION_MARGIN ? 0.5 * c->skin : 0;
+}
+
+/* m/s that gravity adds in dt. */
+static double fall_of(const tahr_mover *mover, const tahr_state *s, double dt)
+{
+    return s->mode == TAHR_MODE_WALKING ? 0 : mover->limits.pull.size * dt;
+}
+
 void tahr__figure_of(tahr__figure *f, const tahr_mover *mover, const tahr_member *member, const tahr_input *input,
                      const tahr_state *s, double dt)
 {
     const tahr_config *c = &mover->config;
-    const int walks = s->mode == TAHR_MODE_WALKING;
-    const double fall = walks ? 0 : mover->limits.pull.size * dt;
-    double level = speed_of(c, input, s) * dt + (4 * c->skin + FORESEEN);
-    double high = 0.5 * fall * dt + (walks ? max_of(c->step_height, c->snap_distance) : 0);
-    f->at = s->base.body == TAHR_NO_BODY && mover->world->moved_count == 0 ? s->position : carried(mover->world, s);
-    f->up = s->up;
-    f->orientation = s->orientation;
-    f->shape = c->shape;
-    f->shape.radius = s->radius;
-    f->shape.half_height = s->half_height;
-    f->reach = add_scaled(vec(level, level, level), absolute(s->up), high);
-    f->half_skin = c->separation == TAHR_SEPARATION_MARGIN ? 0.5 * c->skin : 0;
-    f->box = add_scaled(add(extents(f), f->reach), vec(1, 1, 1), f->half_skin);
-    f->way = add_scaled(scale(s->velocity, dt), walks ? vec(0, 0, 0) : s->up, -0.5 * fall * dt);
-    f->mass = c->mass;
+    const tahr_world *world = mover->world;
     f->id = member->id;
+    f->flags = 0;
+    f->range.extra = 0;
+    if (!is_visible(s)) {
+        f->range.bound = 0;
+        return;
+    }
     f->groups = member->groups ? member->groups : 1;
     f->mask = member->flags & TAHR_MEMBER_ALONE ? 0 : (member->mask ? member->mask : ~0u);
-    f->escaped = 0;
-    f->extra = 0;
+    const double level = speed_of(c, input, s) * dt + (4 * c->skin + FORESEEN), fall = fall_of(mover, s, dt);
+    const double high =
+        s->mode == TAHR_MODE_WALKING ? max_of(c->step_height, c->snap_distance) : 0.5 * fall * dt;
+    f->range.at = world->moved_count == 0 && s->base.body == TAHR_NO_BODY ? s->position : carried(world, s);
+    f->range.reach = add_scaled(vec(level, level, level), absolute(s->up), high);
+    f->box = add(add_scaled(extents(mover, s), vec(1, 1, 1), half_skin_of(c)), f->range.reach);
+    const int there = f->mask != 0 && is_finite(size_of(f->range.at) + size_of(f->box));
+    f->range.bound = (uint32_t)there;
+    f->flags = there ? (uint32_t)TAHR__FIGURE_THERE : 0u;
+}
+
+void tahr__look_of(tahr__look *look, const tahr_mover *mover, const tahr_state *s, double dt)
+{
+    look->up = s->up;
+    look->orientation = s->orientation;
+    look->shape = shape_of(mover, s);
+    look->way = add_scaled(scale(s->velocity, dt), s->up, -0.5 * fall_of(mover, s, dt) * dt);
+    look->half_skin = half_skin_of(&mover->config);
+    look->mass = mover->config.mass;
 }
 
 /* m of the gap that are a's. n points from b to a. */
-static double share(const tahr__figure *a, const tahr__figure *b, vec3 n, double gap)
+static double share(const tahr__look *a, const tahr__look *b, vec3 n, double gap)
 {
     const double skins = a->half_skin + b->half_skin, room = gap - skins;
     if (gap < 0) { /* each leaves by its part of the depth */
@@ -115,35 +171,60 @@ static double share(const tahr__figure *a, const tahr__figure *b, vec3 n, double
 /* How far it may go along n. */
 static double reach_along(const tahr__figure *f, vec3 n)
 {
-    return dot(f->reach, absolute(n));
+    return dot(f->range.reach, absolute(n));
 }
 
-int tahr__figure_plane(const tahr__figure *self, const tahr__figure *other, int again, int flat,
-                       tahr__neighbour *plane)
+int tahr__figure_plane(tahr__party self, tahr__party other, int again, int flat, tahr__neighbour *plane)
 {
     /* Both compute the same: the one with the smaller id comes first. */
-    const int first = self->id < other->id;
-    const tahr__figure *a = first ? self : other, *b = first ? other : self;
-    const tahr__solid sa = {&a->shape, a->up, a->orientation}, sb = {&b->shape, b->up, b->orientation};
-    const tahr__apart apart = tahr__apart_of(&sa, &sb, sub(a->at, b->at), a->id * 31 + b->id, flat);
+    const int first = self.figure->id < other.figure->id;
+    const tahr__party a = first ? self : other, b = first ? other : self;
+    const tahr__solid sa = {&a.look->shape, a.look->up, a.look->orientation};
+    const tahr__solid sb = {&b.look->shape, b.look->up, b.look->orientation};
+    const vec3 c = sub(a.figure->range.at, b.figure->range.at);
+    const tahr__apart apart = tahr__apart_of(&sa, &sb, c, a.figure->id * 31 + b.figure->id, flat);
     const vec3 n = apart.normal;
-    const double reach_a = reach_along(a, n), reach_b = reach_along(b, n);
-    const int foreseen = apart.gap <= reach_a + reach_b + (a->half_skin + b->half_skin);
-    double mine = share(a, b, n, apart.gap);
+    const double reach_a = reach_along(a.figure, n), reach_b = reach_along(b.figure, n);
+    const double skin_a = a.look->half_skin, skin_b = b.look->half_skin;
+    const int foreseen = apart.gap <= reach_a + reach_b + (skin_a + skin_b);
+    double mine = share(a.look, b.look, n, apart.gap); /* a's */
     if (!foreseen && !again) {
         return 0;
     }
-    if (!foreseen && !(a->escaped && b->escaped)) { /* the other does not know: it may be anywhere within its reach */
-        mine = a->escaped ? apart.gap - reach_b - b->half_skin : reach_a + a->half_skin;
+    if (!foreseen && !(a.figure->flags & b.figure->flags & TAHR__FIGURE_STRAYED)) {
+        /* The other does not know: it may be anywhere within its reach. */
+        mine = a.figure->flags & TAHR__FIGURE_STRAYED ? apart.gap - reach_b - skin_b : reach_a + skin_a;
     } else if (!foreseen) {
         mine = 0.5 * apart.gap;
     }
     /* From here on seen from b's centre, along n: a begins at apart.extent + apart.gap. What self keeps its whole skin
      * from lies half a skin behind the plane; where they overlap it is the plane itself. */
-    const double at = apart.extent + apart.gap - mine, behind = apart.gap < 0 ? 0 : self->half_skin;
+    const double at = apart.extent + apart.gap - mine, behind = apart.gap < 0 ? 0 : self.look->half_skin;
     plane->normal = first ? n : scale(n, -1);
-    plane->offset = (first ? at - dot(n, sub(a->at, b->at)) : -at) - behind;
-    plane->body = TAHR_CHARACTER_BODY + other->id;
+    plane->offset = (first ? at - dot(n, c) : -at) - behind;
+    plane->body = TAHR_CHARACTER_BODY + other.figure->id;
     plane->reserved = 0;
     return 1;
+}
+
+void tahr__figure_wall(tahr__party self, const tahr__figure *other, int flat, tahr__neighbour *plane)
+{
+    const tahr_shape box = {.type = TAHR_SHAPE_BOX,
+                            .half_x = other->box.x,
+                            .half_y = other->box.y,
+                            .half_height = other->box.z};
+    const tahr__solid mine = {&self.look->shape, self.look->up, self.look->orientation};
+    const tahr__solid its = {&box, vec(0, 0, 1), (tahr_quat){0, 0, 0, 1}};
+    const vec3 c = sub(self.figure->range.at, other->range.at);
+    const tahr__apart apart = tahr__apart_of(&mine, &its, c, self.figure->id, flat);
+    plane->normal = apart.normal;
+    plane->offset = apart.extent - dot(apart.normal, c) - self.look->half_skin;
+    plane->body = TAHR_CHARACTER_BODY + other->id;
+    plane->reserved = 0;
+}
+
+double tahr__figure_away(const tahr__look *look, const tahr__neighbour *plane)
+{
+    const tahr__solid solid = {&look->shape, look->up, look->orientation};
+    return -tahr__support(&solid, scale(plane->normal, -1)) - plane->offset;
 }

@@ -316,7 +316,8 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
             return status;
         }
     }
-    if (mover->sleep.noted && !mover->neighbours && tahr__sleeps_on(mover, input, dt, state, report)) {
+    const tahr__neighbours *around = mover->company ? mover->company->neighbours : NULL;
+    if (mover->sleep.noted && !around && tahr__sleeps_on(mover, input, dt, state, report)) {
         if (report) {
             tahr__sleep_report(mover, report);
         }
@@ -351,18 +352,21 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.error = TAHR_OK;
     step.iterations = step.apexes = 0;
     step.trail = NULL;
-    step.around = mover->neighbours;
+    step.around = around;
     step.neighbours = NULL;
     if (step.world->has & TAHR__HAS_SENSORS) {
         tahr__trail_begin(&trail, &step);
     }
     if (dt > 0) {
         mover->busy = 1;
-        const int plain = blank && usual && mover->plain && !mover->neighbours; /* and nothing will be remembered */
+        const int plain = blank && usual && mover->plain && !around; /* and nothing will be remembered */
         run(&step, dt, plain);
         mover->busy = 0;
         if (step.error < 0) {
             return step.error;
+        }
+        if (mover->company && company_strays(mover->company, step.state.position)) {
+            return TAHR__STRAYED;
         }
         detect_stuck(&step, state);
         if (!plain || step.state.mode != TAHR_MODE_WALKING) { /* a walk of its own gets no faster than it may be */
@@ -371,7 +375,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         if (vec_equal(step.state.position, state->position)) {
             const tahr_state before = *state;
             hand_over(&step, !plain, state);
-            tahr__sleep_note(mover, &step, dt, state, mover->neighbours || memcmp(&before, state, sizeof before) != 0);
+            tahr__sleep_note(mover, &step, dt, state, around || memcmp(&before, state, sizeof before) != 0);
         } else {
             hand_over(&step, !plain, state);
             mover->sleep.noted = 0;

@@ -21,6 +21,36 @@ typedef struct tahr__neighbours {
     tahr__neighbour *planes;
 } tahr__neighbours;
 
+/* How far a step was foreseen to go. */
+typedef struct tahr__range {
+    vec3 at;      /* where the character is, once what it stands on has carried it */
+    vec3 reach;   /* m from there, along the world's axes */
+    double extra; /* m on top of it, for who takes its step again */
+    uint32_t bound; /* 0: nobody minds how far it goes */
+    uint32_t reserved;
+} tahr__range;
+
+/* What a crowd tells the step of one of its characters. */
+typedef struct tahr__company {
+    const tahr__neighbours *neighbours; /* or NULL */
+    const tahr__range *range;
+    double strayed; /* [out] m from range->at, if the step returned TAHR__STRAYED */
+} tahr__company;
+
+/* What a step returns that would have gone farther than foreseen: nothing was written. */
+enum { TAHR__STRAYED = 1000 };
+
+static inline int company_strays(tahr__company *company, vec3 position)
+{
+    const tahr__range *r = company->range;
+    const double x = fabs(position.x - r->at.x), y = fabs(position.y - r->at.y), z = fabs(position.z - r->at.z);
+    if (!r->bound || (x <= r->reach.x + r->extra && y <= r->reach.y + r->extra && z <= r->reach.z + r->extra)) {
+        return 0;
+    }
+    company->strayed = max_of(x, max_of(y, z));
+    return 1;
+}
+
 /* From here on the step's neighbours are there: it has been carried. Pushes it out of those that it overlaps. */
 void tahr__meet_neighbours(tahr__step *step);
 
