@@ -5,6 +5,7 @@
  * what another one writes, so that neither order nor threads change a bit. A step that went farther than was foreseen,
  * which a push out of a deep overlap may, did not look far enough around: it is taken again, against everybody. */
 #include "crowd.h"
+#include "crowd_delay.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -169,18 +170,23 @@ static void gather(const tahr__tick *t, uint32_t i, gathering *g)
 }
 
 /* The step itself. company: who is there. Returns its status, or TAHR__STRAYED. */
-static tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__company *company)
+static tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__company *company, tahr__part *part)
 {
     tahr_crowd *c = t->crowd;
-    tahr_mover *mover = c->movers[i];
-    tahr_state *state = &t->asked->states[i];
-    mover->company = company;
-    tahr_status status = tahr_mover_step(mover, tick_input(t, i), t->asked->dt, state, tick_report(t, i));
-    mover->company = NULL;
+    const tahr_member *member = t->asked->members ? &t->asked->members[i] : NULL;
+    const tahr__turn turn = {.mover = c->movers[i],
+                             .input = tick_input(t, i),
+                             .dt = t->asked->dt,
+                             .state = &t->asked->states[i],
+                             .report = tick_report(t, i),
+                             .company = company,
+                             .counts = &part->counts};
+    tahr_status status = member && member->budget > 0 ? tahr__turn_delayed(&turn, member, &t->asked->delays[i])
+                                                      : tahr__turn_step(&turn);
     if (status == TAHR__STRAYED) {
         c->strayed[i] = company->strayed;
-    } else if (state->floor.body >= TAHR_CHARACTER_BODY && state->floor.body != TAHR_NO_BODY) {
-        state->floor_revision = 0; /* it may be elsewhere when it is looked at again */
+    } else if (turn.state->floor.body >= TAHR_CHARACTER_BODY && turn.state->floor.body != TAHR_NO_BODY) {
+        turn.state->floor_revision = 0; /* it may be elsewhere when it is looked at again */
     }
     return status;
 }
@@ -196,7 +202,7 @@ static tahr_status take_step_among(const tahr__tick *t, uint32_t i, tahr__part *
     if (g.found.count > part->counts.most_neighbours) {
         part->counts.most_neighbours = g.found.count;
     }
-    tahr_status status = take_step(t, i, &company);
+    tahr_status status = take_step(t, i, &company, part);
     if (g.truncated && status >= 0 && status != TAHR__STRAYED) {
         tahr_report *report = tick_report(t, i);
         if (report) {
@@ -214,7 +220,7 @@ static void step_part(void *argument, uint32_t index)
     for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
         tahr__company company = {.range = &c->figures[i].range};
         c->statuses[i] = c->figures[i].flags & TAHR__FIGURE_BESIDE ? take_step_among(t, i, &c->parts[index])
-                                                                   : take_step(t, i, &company);
+                                                                   : take_step(t, i, &company, &c->parts[index]);
     }
     c->parts[index].counts.steps += part_begin(t, index + 1) - part_begin(t, index);
 }
