@@ -34,7 +34,7 @@ static void count_events(struct run *run, const struct moment *m, const tahr_sta
 {
     struct result *r = &run->result;
     for (uint32_t i = 0; i < m->report.event_count; i++) {
-        const tahr_event *event = &m->events[i];
+        const tahr_event *event = &m->report.events[i];
         r->events[event->type < EVENT_TYPES ? event->type : 0]++;
         if (event->type == TAHR_EVENT_OVERLAP_BEGIN && run->level.side != NULL) {
             side_reach(run->level.side, event->body, m->time + event->time);
