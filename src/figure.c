@@ -92,19 +92,27 @@ static tahr_shape shape_of(const tahr_mover *mover, const tahr_state *s)
     return shape;
 }
 
-static vec3 extents(const tahr_mover *mover, const tahr_state *s)
+/* The largest that it may be within the tick: grown, turned about its axis, and, where gravity may turn, any way. */
+static vec3 extents(const tahr_mover *mover, const tahr_input *input, const tahr_state *s, double *grows)
 {
-    const uint32_t type = mover->config.shape.type;
-    const vec3 x = {1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1};
-    if (type == TAHR_SHAPE_CAPSULE || type == TAHR_SHAPE_SPHERE) {
-        return add_scaled(vec(s->radius, s->radius, s->radius), absolute(s->up), s->half_height - s->radius);
+    const tahr_shape *shape = &mover->config.shape;
+    double r = max_of(s->radius, shape->radius), h = max_of(s->half_height, shape->half_height), around;
+    if (input->flags & TAHR_INPUT_SHAPE) {
+        r = max_of(r, input->radius);
+        h = max_of(h, input->half_height);
     }
-    const tahr_shape shape = shape_of(mover, s);
-    const tahr__solid solid = {&shape, s->up, s->orientation};
-    double ex = max_of(tahr__support(&solid, x), tahr__support(&solid, scale(x, -1)));
-    double ey = max_of(tahr__support(&solid, y), tahr__support(&solid, scale(y, -1)));
-    double ez = max_of(tahr__support(&solid, z), tahr__support(&solid, scale(z, -1)));
-    return vec(ex, ey, ez);
+    *grows = h - s->half_height;
+    around = r;
+    if (r == 0) {
+        around = sqrt(shape->half_x * shape->half_x + shape->half_y * shape->half_y);
+    }
+    if (input->flags & TAHR_INPUT_GRAVITY) {
+        const double any = around + h;
+        *grows += h;
+        return vec(any, any, any);
+    }
+    const double along = shape->type == TAHR_SHAPE_CAPSULE || shape->type == TAHR_SHAPE_SPHERE ? h - r : h;
+    return add_scaled(vec(around, around, around), absolute(s->up), along);
 }
 
 static double half_skin_of(const tahr_config *c)
@@ -133,11 +141,13 @@ void tahr__figure_of(tahr__figure *f, const tahr_mover *mover, const tahr_member
     f->groups = member->groups ? member->groups : 1;
     f->mask = member->flags & TAHR_MEMBER_ALONE ? 0 : (member->mask ? member->mask : ~0u);
     const double level = speed_of(c, input, s) * dt + (4 * c->skin + FORESEEN), fall = fall_of(mover, s, dt);
+    double grows;
+    const vec3 half = extents(mover, input, s, &grows);
     const double high =
-        s->mode == TAHR_MODE_WALKING ? max_of(c->step_height, c->snap_distance) : 0.5 * fall * dt;
+        grows + (s->mode == TAHR_MODE_WALKING ? max_of(c->step_height, c->snap_distance) : 0.5 * fall * dt);
     f->range.at = world->moved_count == 0 && s->base.body == TAHR_NO_BODY ? s->position : carried(world, s);
     f->range.reach = add_scaled(vec(level, level, level), absolute(s->up), high);
-    f->box = add(add_scaled(extents(mover, s), vec(1, 1, 1), half_skin_of(c)), f->range.reach);
+    f->box = add(add_scaled(half, vec(1, 1, 1), half_skin_of(c)), f->range.reach);
     const int there = f->mask != 0 && is_finite(size_of(f->range.at) + size_of(f->box));
     f->range.bound = (uint32_t)there;
     f->flags = there ? (uint32_t)TAHR__FIGURE_THERE : 0u;
