@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #define EVENT_CAPACITY 64 /* per step; more are counted as lost by the library */
+#define TOUCHING 1e-6     /* m by which two characters may overlap: the rounding of where they are, far from the origin */
 #define WANDER_SPEED 5.0 /* m/s, by the definition of wandering */
 
 static int open_world(struct run *run)
@@ -344,7 +345,7 @@ static int finish(struct run *run)
     r->state_hash = hash_states(run);
     r->world_bytes = tahr_world_memory(run->world);
     r->failed = r->tunnels > 0 || r->crushed_alone > 0 || r->bad_states > 0 || r->stuck > 0 || r->hung > 0 ||
-                r->deepest > o->backend->penetration_allowed;
+                r->deepest > o->backend->penetration_allowed || r->least_apart < -TOUCHING;
     if (close_trace(run) != 0) {
         return -1;
     }

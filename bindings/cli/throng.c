@@ -122,31 +122,33 @@ static int compare_places(const void *a, const void *b)
     return p->x < q->x ? -1 : p->x > q->x;
 }
 
-/* m between two upright capsules; of what is not round it is no less than between what is drawn around them. */
-static double apart(const tahr_state *a, const tahr_state *b, const tahr_config *config)
+/* m between two upright capsules. */
+static double apart(const tahr_state *a, const tahr_state *b)
 {
-    const double cap = config->shape.type == TAHR_SHAPE_BOX ? config->shape.half_x : a->radius;
-    const double other = config->shape.type == TAHR_SHAPE_BOX ? config->shape.half_x : b->radius;
     tahr_vec3 d = vec_sub(a->position, b->position);
-    double high = vec_dot(d, a->up), straight = a->half_height - cap + b->half_height - other;
+    double high = vec_dot(d, a->up), straight = a->half_height - a->radius + b->half_height - b->radius;
     double level2 = vec_dot(d, d) - high * high;
-    high = most(most(high, -high) - most(straight, 0), 0);
-    return sqrt(most(level2, 0) + high * high) - cap - other;
+    high = most(most(high, -high) - straight, 0);
+    return sqrt(most(level2, 0) + high * high) - a->radius - b->radius;
 }
 
-/* Sorted along x, only those that follow each other closely can be near. */
+/* How near do any two come that were apart before the step? Who overlapped before it (at a crowded start, or where he
+ * was brought back to) only has to get out of it. Sorted along x, only those that follow each other closely can be
+ * near. Boxes are not looked at. */
 static void look(struct run *run, struct throng *t)
 {
-    const uint32_t n = run->options->characters;
-    const double reach = 2 * most(run->config.shape.radius, run->config.shape.half_x) + 1;
+    const uint32_t n = run->config.shape.type == TAHR_SHAPE_BOX ? 0 : run->options->characters;
+    const double reach = 2 * run->config.shape.radius + 1;
     for (uint32_t i = 0; i < n; i++) {
         t->places[i] = (struct place){t->states[i].position.x, i};
     }
     qsort(t->places, n, sizeof *t->places, compare_places);
     for (uint32_t i = 0; i < n; i++) {
         for (uint32_t j = i + 1; j < n && t->places[j].x - t->places[i].x < reach; j++) {
-            const tahr_state *a = &t->states[t->places[i].index], *b = &t->states[t->places[j].index];
-            run->result.least_apart = least(run->result.least_apart, apart(a, b, &run->config));
+            const uint32_t p = t->places[i].index, q = t->places[j].index;
+            if (apart(&run->characters[p].state, &run->characters[q].state) >= 0) {
+                run->result.least_apart = least(run->result.least_apart, apart(&t->states[p], &t->states[q]));
+            }
         }
     }
 }
