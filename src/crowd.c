@@ -140,12 +140,12 @@ static int plane_between(const tahr__tick *t, uint32_t i, uint32_t j, tahr__neig
 {
     const tahr_crowd *c = t->crowd;
     const tahr__party self = {&c->figures[i], &c->looks[i]}, other = {&c->figures[j], &c->looks[j]};
-    const int again = (self.figure->flags & TAHR__FIGURE_STRAYED) != 0;
+    const uint32_t again = self.figure->flags & TAHR__FIGURE_STRAYED ? (uint32_t)TAHR__PAIR_AGAIN : 0u;
     if (again && !(other.figure->flags & TAHR__FIGURE_STRAYED) && !figures_near(self.figure, other.figure, 0)) {
-        tahr__figure_wall(self, other.figure, t->flat, plane);
+        tahr__figure_wall(self, other.figure, t->rules, plane);
         return 1;
     }
-    return tahr__figure_plane(self, other, again, t->flat, plane);
+    return tahr__figure_plane(self, other, t->rules | again, plane);
 }
 
 static void gather(const tahr__tick *t, uint32_t i, gathering *g)

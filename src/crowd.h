@@ -48,7 +48,7 @@ typedef struct tahr__tick {
     const tahr_crowd_tick *asked;
     size_t input_stride, report_stride;
     uint32_t tasks;
-    int flat; /* 1: a world of two dimensions */
+    uint32_t rules; /* TAHR__PAIR_* */
 } tahr__tick;
 
 static inline tahr_member tick_member(const tahr__tick *t, uint32_t i)

@@ -44,7 +44,8 @@ tahr_status tahr__tick_check(tahr_crowd *crowd, const tahr_crowd_tick *asked, ta
     if (status < 0) {
         return status;
     }
-    *tick = (tahr__tick){.crowd = crowd, .asked = asked, .flat = world_is_planar(crowd->world)};
+    *tick = (tahr__tick){.crowd = crowd, .asked = asked, .rules = world_is_planar(crowd->world) ? (uint32_t)TAHR__PAIR_FLAT : 0u};
+    tick->rules |= crowd->walkable_rule == TAHR_WALKABLE_NEVER ? 0u : (uint32_t)TAHR__PAIR_LEVEL_HEADS;
     tick->input_stride = asked->count > 0 ? asked->inputs[0].struct_size : sizeof(tahr_input);
     tick->report_stride = asked->count > 0 && asked->reports ? asked->reports[0].struct_size : sizeof(tahr_report);
     if (tick->input_stride < sizeof(tahr_input) || tick->input_stride > sizeof(tahr_input) + TAHR__MOST_UNKNOWN ||

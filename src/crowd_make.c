@@ -55,7 +55,7 @@ static tahr_status check(const tahr_world *world, const tahr_crowd_desc *d)
     if (d->tasks > MOST_TASKS || d->reserved) {
         return refuse(world, TAHR_E_ARGUMENT, d->reserved ? "desc.reserved" : "desc.tasks", "is out of range");
     }
-    if (d->flags & ~(uint32_t)TAHR_CROWD_SLIPPERY_HEADS) {
+    if (d->flags & ~(uint32_t)TAHR_CROWD_STAND_ON_HEADS) {
         return refuse(world, TAHR_E_ARGUMENT, "desc.flags", "has unknown bits");
     }
     if (!d->configs) {
@@ -180,7 +180,7 @@ tahr_status tahr_crowd_create(tahr_world *world, const tahr_crowd_desc *desc, ta
     c->kind_count = desc->config_count;
     c->tasks = desc->tasks ? desc->tasks : USUAL_TASKS;
     c->walkable_rule =
-        desc->flags & TAHR_CROWD_SLIPPERY_HEADS ? (uint32_t)TAHR_WALKABLE_NEVER : (uint32_t)TAHR_WALKABLE_DEFAULT;
+        desc->flags & TAHR_CROWD_STAND_ON_HEADS ? (uint32_t)TAHR_WALKABLE_DEFAULT : (uint32_t)TAHR_WALKABLE_NEVER;
     c->run_tasks = desc->run_tasks;
     c->run_user = desc->run_user;
     for (c->key_mask = 15; c->key_mask < 2 * c->capacity; c->key_mask = 2 * c->key_mask + 1) {

@@ -184,21 +184,35 @@ static double reach_along(const tahr__figure *f, vec3 n)
     return dot(f->range.reach, absolute(n));
 }
 
-int tahr__figure_plane(tahr__party self, tahr__party other, int again, int flat, tahr__neighbour *plane)
+/* Steeper than this, cosine, is beside and not over: 50 degrees, what can be walked on. */
+static const double OVER = 0.64;
+
+static tahr__apart between(tahr__party a, tahr__party b, vec3 c, uint32_t rules)
+{
+    const tahr__solid sa = {&a.look->shape, a.look->up, a.look->orientation};
+    const tahr__solid sb = {&b.look->shape, b.look->up, b.look->orientation};
+    tahr__apart apart = tahr__apart_of(&sa, &sb, c, (rules & TAHR__PAIR_FLAT) != 0);
+    const double over = dot(apart.normal, a.look->up);
+    if (rules & TAHR__PAIR_LEVEL_HEADS && fabs(over) > OVER) {
+        tahr__apart level = tahr__apart_along(&sa, &sb, c, over < 0 ? scale(a.look->up, -1) : a.look->up);
+        apart = level.gap >= 0 ? level : apart;
+    }
+    return apart;
+}
+
+int tahr__figure_plane(tahr__party self, tahr__party other, uint32_t rules, tahr__neighbour *plane)
 {
     /* Both compute the same: the one with the smaller id comes first. */
     const int first = self.figure->id < other.figure->id;
     const tahr__party a = first ? self : other, b = first ? other : self;
-    const tahr__solid sa = {&a.look->shape, a.look->up, a.look->orientation};
-    const tahr__solid sb = {&b.look->shape, b.look->up, b.look->orientation};
     const vec3 c = sub(a.figure->range.at, b.figure->range.at);
-    const tahr__apart apart = tahr__apart_of(&sa, &sb, c, a.figure->id * 31 + b.figure->id, flat);
+    const tahr__apart apart = between(a, b, c, rules);
     const vec3 n = apart.normal;
     const double reach_a = reach_along(a.figure, n), reach_b = reach_along(b.figure, n);
     const double skin_a = a.look->half_skin, skin_b = b.look->half_skin;
     const int foreseen = apart.gap <= reach_a + reach_b + (skin_a + skin_b);
     double mine = share(a.look, b.look, n, apart.gap); /* a's */
-    if (!foreseen && !again) {
+    if (!foreseen && !(rules & TAHR__PAIR_AGAIN)) {
         return 0;
     }
     if (!foreseen && !(a.figure->flags & b.figure->flags & TAHR__FIGURE_STRAYED)) {
@@ -217,7 +231,7 @@ int tahr__figure_plane(tahr__party self, tahr__party other, int again, int flat,
     return 1;
 }
 
-void tahr__figure_wall(tahr__party self, const tahr__figure *other, int flat, tahr__neighbour *plane)
+void tahr__figure_wall(tahr__party self, const tahr__figure *other, uint32_t rules, tahr__neighbour *plane)
 {
     const tahr_shape box = {.type = TAHR_SHAPE_BOX,
                             .half_x = other->box.x,
@@ -226,7 +240,7 @@ void tahr__figure_wall(tahr__party self, const tahr__figure *other, int flat, ta
     const tahr__solid mine = {&self.look->shape, self.look->up, self.look->orientation};
     const tahr__solid its = {&box, vec(0, 0, 1), (tahr_quat){0, 0, 0, 1}};
     const vec3 c = sub(self.figure->range.at, other->range.at);
-    const tahr__apart apart = tahr__apart_of(&mine, &its, c, self.figure->id, flat);
+    const tahr__apart apart = tahr__apart_of(&mine, &its, c, (rules & TAHR__PAIR_FLAT) != 0);
     plane->normal = apart.normal;
     plane->offset = apart.extent - dot(apart.normal, c) - self.look->half_skin;
     plane->body = TAHR_CHARACTER_BODY + other->id;

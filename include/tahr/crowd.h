@@ -22,10 +22,11 @@ typedef void (*tahr_run_tasks_fn)(void *user, tahr_task_fn task, void *argument,
  * While a crowd is open the bodies of a world over callbacks have smaller numbers than that. */
 #define TAHR_CHARACTER_BODY 0x80000000u
 
-/* SLIPPERY_HEADS: nobody stands on another character: who comes down on one slides off it (and floats where it is met
- * exactly in the middle, until one of them moves). Without it a head is a floor like any other, as far as it is no
- * steeper than config.walkable_angle; it carries nobody: who stands on it is not taken along. */
-enum { TAHR_CROWD_SLIPPERY_HEADS = 1 << 0 };
+/* STAND_ON_HEADS: a head is a floor like any other, as far as it is no steeper than config.walkable_angle. It carries
+ * nobody: who stands on it is not taken along, and in the way of whom it belongs to when he goes to that side. Without
+ * it nobody stands on another character: who comes down on one slides off (and floats where it is met exactly in the
+ * middle, until one of them moves). */
+enum { TAHR_CROWD_STAND_ON_HEADS = 1 << 0 };
 
 /* [in] everything is copied. */
 typedef struct tahr_crowd_desc {

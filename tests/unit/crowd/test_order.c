@@ -16,7 +16,7 @@
 #include <tahr/threads.h>
 #endif
 
-enum { COUNT = 300, TICKS = 90 };
+enum { COUNT = 160, TICKS = 60 };
 
 /* How a run differs from another one in what must not matter. */
 typedef struct manner {
@@ -76,7 +76,7 @@ static uint64_t run(const manner *how)
     for (uint32_t i = 0; i < COUNT; i++) {
         t.members[i].config = i % 5 == 0;
         t.members[i].budget = how->budget;
-        throng_place(&t, i, (i % 18 - 9.0) * 0.8, (i / 18 - 8.0) * 0.8);
+        throng_place(&t, i, (i % 13 - 6.0) * 0.8, (i / 13 - 6.0) * 0.8);
     }
     uint64_t hash = 0;
     for (int tick = 0; tick < TICKS; tick++) {
