@@ -32,16 +32,22 @@ static uint32_t part_begin(const tahr__tick *t, uint32_t part)
     return (uint32_t)((uint64_t)t->asked->count * part / t->tasks);
 }
 
+/* Gives a mover another config. */
 static void use_kind(tahr_crowd *c, uint32_t i, uint32_t kind)
 {
-    if (c->kind_of[i] != kind) {
-        tahr_mover *m = c->movers[i];
-        m->config = c->kinds[kind]->config;
-        m->limits = c->kinds[kind]->limits;
-        m->plain = c->kinds[kind]->plain;
-        m->sleep.noted = 0;
-        c->kind_of[i] = kind;
-    }
+    tahr_mover *m = c->movers[i];
+    m->config = c->kinds[kind]->config;
+    m->limits = c->kinds[kind]->limits;
+    m->plain = c->kinds[kind]->plain;
+    m->sleep.noted = 0;
+    c->kind_of[i] = kind;
+}
+
+/* Of a large crowd every eighth tells enough of how large characters are and how they are spread: no result depends on
+ * the grid, only how soon it is found. Not a regular eighth: arrays often have a period. */
+static int is_sample(const tahr__tick *t, uint32_t i)
+{
+    return t->asked->count < 256 || i * 2654435769u < 0x20000000u;
 }
 
 static void look_at_part(void *argument, uint32_t index)
@@ -52,40 +58,55 @@ static void look_at_part(void *argument, uint32_t index)
     memset(part, 0, sizeof *part);
     part->bad = ~0u;
     tahr__spread_begin(&part->spread, c->grid.axis);
-    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
+    const uint32_t begin = part_begin(t, index), end = part_begin(t, index + 1);
+    for (uint32_t i = begin; i < end; i++) {
         part->field = tahr__tick_check_one(t, i, &part->status, &part->why);
         if (part->field) {
             part->bad = i;
             return;
         }
-        const tahr_member member = tick_member(t, i);
-        use_kind(c, i, member.config);
+        const tahr_member simple = {.id = i}, *member = t->asked->members ? &t->asked->members[i] : &simple;
+        if (c->kind_of[i] != member->config) {
+            use_kind(c, i, member->config);
+        }
         tahr__figure *f = &c->figures[i];
-        tahr__figure_of(f, c->movers[i], &member, tick_input(t, i), &t->asked->states[i], t->asked->dt);
-        tahr__spread_add(&part->spread, f);
+        tahr__figure_of(f, c->movers[i], member, tick_input(t, i), &t->asked->states[i], t->asked->dt);
+        if (is_sample(t, i)) {
+            tahr__spread_add(&part->spread, f);
+        }
     }
 }
 
 static void place_part(void *argument, uint32_t index)
 {
     const tahr__tick *t = argument;
-    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
-        tahr__grid_place(&t->crowd->grid, i);
-    }
+    tahr__grid_place(&t->crowd->grid, part_begin(t, index), part_begin(t, index + 1));
 }
 
-/* Is anybody near? */
+static int meets_in(const tahr_crowd *c, const tahr__figure *f, uint32_t begin, uint32_t end)
+{
+    for (uint32_t at = begin; at < end; at++) {
+        const tahr__figure *o = &c->figures[c->grid.order[at]];
+        if (o != f && figures_near(f, o, 0) && figures_meet(f, o)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Is anybody near? Whoever is found twice is found. */
 static int has_company(const tahr_crowd *c, uint32_t i)
 {
+    const tahr__grid *g = &c->grid;
     const tahr__figure *f = &c->figures[i];
-    uint32_t begin[6], end[6];
-    const int runs = tahr__grid_around(&c->grid, i, begin, end);
-    for (int k = 0; k < runs; k++) {
-        for (uint32_t at = begin[k]; at < end[k]; at++) {
-            const tahr__figure *o = &c->figures[c->grid.order[at]];
-            if (figures_near(f, o, 0) && o != f && figures_meet(f, o)) {
-                return 1;
-            }
+    if (g->wide_count > 0 && meets_in(c, f, 0, g->bucket[i] == 0 ? g->start[g->mask + 2] : g->wide_count)) {
+        return 1;
+    }
+    for (int k = 0; k < 4 && g->bucket[i] != 0; k++) {
+        const uint64_t cell = g->corner[i] + (k & 1 ? TAHR__ALONG : 0) + (k & 2 ? TAHR__ACROSS : 0);
+        const uint32_t *start = &g->start[grid_bucket(g, cell)];
+        if (start[0] < start[1] && meets_in(c, f, start[0], start[1])) {
+            return 1;
         }
     }
     return 0;
@@ -152,10 +173,10 @@ static void gather(const tahr__tick *t, uint32_t i, gathering *g)
 {
     const tahr_crowd *c = t->crowd;
     const tahr__figure *f = &c->figures[i];
-    uint32_t begin[6], end[6];
+    uint32_t begin[5], end[5];
     g->found = (tahr__neighbours){.anchor = f->range.at, .walkable_rule = c->walkable_rule, .planes = g->planes};
     g->truncated = 0;
-    const int runs = tahr__grid_around(&c->grid, i, begin, end);
+    const int runs = grid_around(&c->grid, i, begin, end);
     for (int k = 0; k < runs; k++) {
         for (uint32_t at = begin[k]; at < end[k]; at++) {
             const uint32_t j = c->grid.order[at];
@@ -170,23 +191,31 @@ static void gather(const tahr__tick *t, uint32_t i, gathering *g)
 }
 
 /* The step itself. company: who is there. Returns its status, or TAHR__STRAYED. */
-static tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__company *company, tahr__part *part)
+static inline tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__company *company, tahr__part *part)
 {
     tahr_crowd *c = t->crowd;
     const tahr_member *member = t->asked->members ? &t->asked->members[i] : NULL;
-    const tahr__turn turn = {.mover = c->movers[i],
-                             .input = tick_input(t, i),
-                             .dt = t->asked->dt,
-                             .state = &t->asked->states[i],
-                             .report = tick_report(t, i),
-                             .company = company,
-                             .counts = &part->counts};
-    tahr_status status = member && member->budget > 0 ? tahr__turn_delayed(&turn, member, &t->asked->delays[i])
-                                                      : tahr__turn_step(&turn);
+    tahr_state *state = &t->asked->states[i];
+    tahr_mover *mover = c->movers[i];
+    tahr_status status;
+    if (member && member->budget > 0) {
+        const tahr__turn turn = {.mover = mover,
+                                 .input = tick_input(t, i),
+                                 .dt = t->asked->dt,
+                                 .state = state,
+                                 .report = tick_report(t, i),
+                                 .company = company,
+                                 .counts = &part->counts};
+        status = tahr__turn_delayed(&turn, member, &t->asked->delays[i]);
+    } else {
+        mover->company = company;
+        status = tahr_mover_step(mover, tick_input(t, i), t->asked->dt, state, tick_report(t, i));
+        mover->company = NULL;
+    }
     if (status == TAHR__STRAYED) {
         c->strayed[i] = company->strayed;
-    } else if (turn.state->floor.body >= TAHR_CHARACTER_BODY && turn.state->floor.body != TAHR_NO_BODY) {
-        turn.state->floor_revision = 0; /* it may be elsewhere when it is looked at again */
+    } else if (state->floor.body >= TAHR_CHARACTER_BODY && state->floor.body != TAHR_NO_BODY) {
+        state->floor_revision = 0; /* it may be elsewhere when it is looked at again */
     }
     return status;
 }
@@ -217,12 +246,16 @@ static void step_part(void *argument, uint32_t index)
 {
     const tahr__tick *t = argument;
     tahr_crowd *c = t->crowd;
-    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
+    tahr__part *part = &c->parts[index];
+    const uint32_t begin = part_begin(t, index), end = part_begin(t, index + 1);
+    for (uint32_t i = begin; i < end; i++) {
         tahr__company company = {.range = &c->figures[i].range};
-        c->statuses[i] = c->figures[i].flags & TAHR__FIGURE_BESIDE ? take_step_among(t, i, &c->parts[index])
-                                                                   : take_step(t, i, &company, &c->parts[index]);
+        tahr_status status =
+            c->figures[i].flags & TAHR__FIGURE_BESIDE ? take_step_among(t, i, part) : take_step(t, i, &company, part);
+        c->statuses[i] = status;
+        part->strays += status == TAHR__STRAYED;
     }
-    c->parts[index].counts.steps += part_begin(t, index + 1) - part_begin(t, index);
+    part->counts.steps += end - begin;
 }
 
 /* A second time too far: it stays where it is, which no plane forbids. */
@@ -239,8 +272,11 @@ static tahr_status hold(const tahr__tick *t, uint32_t i)
 static void step_again(const tahr__tick *t)
 {
     tahr_crowd *c = t->crowd;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < t->asked->count; i++) {
+    uint32_t count = 0, strays = 0;
+    for (uint32_t i = 0; i < t->tasks; i++) {
+        strays += c->parts[i].strays;
+    }
+    for (uint32_t i = 0; i < t->asked->count && count < strays; i++) {
         if (c->statuses[i] == TAHR__STRAYED) {
             c->figures[i].flags |= TAHR__FIGURE_STRAYED;
             c->figures[i].range.extra = 2 * c->strayed[i];

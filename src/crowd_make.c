@@ -77,7 +77,7 @@ static size_t take(size_t *used, size_t count, size_t size)
 }
 
 typedef struct plan {
-    size_t kinds, movers, kind_of, figures, looks, statuses, strayed, keys, parts, bucket, start, order, size;
+    size_t kinds, movers, kind_of, figures, looks, statuses, strayed, keys, parts, bucket, corner, start, order, size;
 } plan;
 
 static plan plan_of(const tahr_crowd *c)
@@ -94,6 +94,7 @@ static plan plan_of(const tahr_crowd *c)
     p.keys = take(&p.size, table, sizeof *c->keys);
     p.parts = take(&p.size, c->tasks, sizeof *c->parts);
     p.bucket = take(&p.size, n, sizeof *c->grid.bucket);
+    p.corner = take(&p.size, n, sizeof *c->grid.corner);
     p.start = take(&p.size, table + 3, sizeof *c->grid.start);
     p.order = take(&p.size, n, sizeof *c->grid.order);
     return p;
@@ -114,6 +115,7 @@ static void divide(tahr_crowd *c, const plan *p)
     c->grid = (tahr__grid){.figures = c->figures,
                            .mask = c->key_mask,
                            .bucket = (uint32_t *)(void *)(m + p->bucket),
+                           .corner = (uint64_t *)(void *)(m + p->corner),
                            .start = (uint32_t *)(void *)(m + p->start),
                            .order = (uint32_t *)(void *)(m + p->order)};
 }
@@ -183,7 +185,7 @@ tahr_status tahr_crowd_create(tahr_world *world, const tahr_crowd_desc *desc, ta
         desc->flags & TAHR_CROWD_STAND_ON_HEADS ? (uint32_t)TAHR_WALKABLE_DEFAULT : (uint32_t)TAHR_WALKABLE_NEVER;
     c->run_tasks = desc->run_tasks;
     c->run_user = desc->run_user;
-    for (c->key_mask = 15; c->key_mask < 2 * c->capacity; c->key_mask = 2 * c->key_mask + 1) {
+    for (c->key_mask = 15; c->key_mask < 4 * c->capacity; c->key_mask = 2 * c->key_mask + 1) {
     }
     const plan p = plan_of(c);
     c->size = p.size;

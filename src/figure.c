@@ -9,6 +9,7 @@
 
 #include "apart.h"
 #include "body_motion.h"
+#include "shape.h"
 
 /* Of a length, m: room for rounding of what is foreseen. */
 static const double FORESEEN = 1e-6;
@@ -24,14 +25,17 @@ static double size_of(vec3 v)
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-/* Is the state good enough to be seen by others? Comparisons with a NaN are false. */
-static int is_visible(const tahr_state *s)
+/* Is the state good enough to be seen by others? Comparisons with a NaN are false; of what is not finite here the box
+ * is not. */
+static int is_visible(const tahr_shape *shape, const tahr_state *s)
 {
+    const double up = length_squared(s->up) - 1;
+    if (!(up < 1e-6 && up > -1e-6 && s->radius >= 0 && s->half_height > 0)) {
+        return 0;
+    }
     const tahr_quat q = s->orientation;
-    const double up = length_squared(s->up) - 1, turn = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w) - 1;
-    return length_squared(s->position) <= 4e14 && length_squared(s->velocity) + length_squared(s->base.velocity) <= 1e12 &&
-           up * up + turn * turn < 1e-12 && s->radius >= 0 && s->radius <= 1e4 && s->half_height > 0 &&
-           s->half_height <= 1e4;
+    const double turn = shape_is_round(shape) ? 0 : (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w) - 1;
+    return turn < 1e-6 && turn > -1e-6;
 }
 
 /* What it was asked for. */
@@ -92,27 +96,29 @@ static tahr_shape shape_of(const tahr_mover *mover, const tahr_state *s)
     return shape;
 }
 
-/* The largest that it may be within the tick: grown, turned about its axis, and, where gravity may turn, any way. */
-static vec3 extents(const tahr_mover *mover, const tahr_input *input, const tahr_state *s, double *grows)
+/* The largest that it may be within the tick: grown, turned about its axis. m across its axis, along it (beyond the
+ * former), and how much farther its centre may go. */
+typedef struct size {
+    double around, along, grows;
+} size;
+
+static size largest(const tahr_shape *shape, const tahr_input *input, const tahr_state *s)
 {
-    const tahr_shape *shape = &mover->config.shape;
-    double r = max_of(s->radius, shape->radius), h = max_of(s->half_height, shape->half_height), around;
+    double r = max_of(s->radius, shape->radius), h = max_of(s->half_height, shape->half_height);
     if (input->flags & TAHR_INPUT_SHAPE) {
         r = max_of(r, input->radius);
         h = max_of(h, input->half_height);
     }
-    *grows = h - s->half_height;
-    around = r;
-    if (r == 0) {
-        around = sqrt(shape->half_x * shape->half_x + shape->half_y * shape->half_y);
+    size z = {.around = r, .along = h, .grows = h - s->half_height};
+    if (shape->type == TAHR_SHAPE_CAPSULE || shape->type == TAHR_SHAPE_SPHERE) {
+        z.along = h - r;
+    } else if (r == 0) {
+        z.around = sqrt(shape->half_x * shape->half_x + shape->half_y * shape->half_y);
     }
-    if (input->flags & TAHR_INPUT_GRAVITY) {
-        const double any = around + h;
-        *grows += h;
-        return vec(any, any, any);
+    if (input->flags & TAHR_INPUT_GRAVITY) { /* it may turn any way, about its foot */
+        z = (size){.around = z.around + h, .grows = z.grows + h};
     }
-    const double along = shape->type == TAHR_SHAPE_CAPSULE || shape->type == TAHR_SHAPE_SPHERE ? h - r : h;
-    return add_scaled(vec(around, around, around), absolute(s->up), along);
+    return z;
 }
 
 static double half_skin_of(const tahr_config *c)
@@ -132,23 +138,24 @@ void tahr__figure_of(tahr__figure *f, const tahr_mover *mover, const tahr_member
     const tahr_config *c = &mover->config;
     const tahr_world *world = mover->world;
     f->id = member->id;
-    f->flags = 0;
+    f->flags = f->range.bound = 0;
     f->range.extra = 0;
-    if (!is_visible(s)) {
-        f->range.bound = 0;
+    if (!is_visible(&c->shape, s)) {
         return;
     }
     f->groups = member->groups ? member->groups : 1;
     f->mask = member->flags & TAHR_MEMBER_ALONE ? 0 : (member->mask ? member->mask : ~0u);
+    const size z = largest(&c->shape, input, s);
     const double level = speed_of(c, input, s) * dt + (4 * c->skin + FORESEEN), fall = fall_of(mover, s, dt);
-    double grows;
-    const vec3 half = extents(mover, input, s, &grows);
     const double high =
-        grows + (s->mode == TAHR_MODE_WALKING ? max_of(c->step_height, c->snap_distance) : 0.5 * fall * dt);
+        z.grows + (s->mode == TAHR_MODE_WALKING ? max_of(c->step_height, c->snap_distance) : 0.5 * fall * dt);
+    const double wide = z.around + level + half_skin_of(c), tall = z.along + high;
+    const double x = fabs(s->up.x), y = fabs(s->up.y), u = fabs(s->up.z);
     f->range.at = world->moved_count == 0 && s->base.body == TAHR_NO_BODY ? s->position : carried(world, s);
-    f->range.reach = add_scaled(vec(level, level, level), absolute(s->up), high);
-    f->box = add(add_scaled(half, vec(1, 1, 1), half_skin_of(c)), f->range.reach);
-    const int there = f->mask != 0 && is_finite(size_of(f->range.at) + size_of(f->box));
+    f->range.reach = vec(level + x * high, level + y * high, level + u * high);
+    f->box = vec(wide + x * tall, wide + y * tall, wide + u * tall);
+    const vec3 at = f->range.at;
+    const int there = f->mask != 0 && is_finite(wide + tall) && length_squared(at) <= 1e15; /* 2e7 m, and carried */
     f->range.bound = (uint32_t)there;
     f->flags = there ? (uint32_t)TAHR__FIGURE_THERE : 0u;
 }
@@ -233,10 +240,8 @@ int tahr__figure_plane(tahr__party self, tahr__party other, uint32_t rules, tahr
 
 void tahr__figure_wall(tahr__party self, const tahr__figure *other, uint32_t rules, tahr__neighbour *plane)
 {
-    const tahr_shape box = {.type = TAHR_SHAPE_BOX,
-                            .half_x = other->box.x,
-                            .half_y = other->box.y,
-                            .half_height = other->box.z};
+    const tahr_shape box = {
+        .type = TAHR_SHAPE_BOX, .half_x = other->box.x, .half_y = other->box.y, .half_height = other->box.z};
     const tahr__solid mine = {&self.look->shape, self.look->up, self.look->orientation};
     const tahr__solid its = {&box, vec(0, 0, 1), (tahr_quat){0, 0, 0, 1}};
     const vec3 c = sub(self.figure->range.at, other->range.at);

@@ -23,9 +23,9 @@ typedef struct tahr__neighbours {
 
 /* How far a step was foreseen to go. */
 typedef struct tahr__range {
-    vec3 at;      /* where the character is, once what it stands on has carried it */
-    vec3 reach;   /* m from there, along the world's axes */
-    double extra; /* m on top of it, for who takes its step again */
+    vec3 at;        /* where the character is, once what it stands on has carried it */
+    vec3 reach;     /* m from there, along the world's axes */
+    double extra;   /* m on top of it, for who takes its step again */
     uint32_t bound; /* 0: nobody minds how far it goes */
     uint32_t reserved;
 } tahr__range;

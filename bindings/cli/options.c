@@ -65,26 +65,27 @@ static const struct option known[] = {{"level", required_argument, NULL, OPTION_
 
 void options_help(void)
 {
-    fputs("usage: tahr run [options]\n"
-          "\n"
-          "Drives characters through a level and reports how they fared.\n"
-          "\n"
-          "  --level FILE       OBJ, glTF or what else Assimp reads; maps of voxels (.bt, .ot: Z up, backend fcl);\n"
-          "                     without it the bundled playground.\n"
-          "                     With --2d: a map of Tiled (.tmj); without it the bundled side-scroller\n"
-          "  --2d               two dimensions, seen from the side: x to the right, y up\n"
-          "  --up y|z           which axis of the file points up (y); shown and written is always Z up: (x, -z, y)\n"
-          "  --characters N     1 to 100000 wandering characters (16)\n"
-          "  --crowd            the characters are obstacles of each other; without it they pass through each other\n"
-          "  --threads T        1 to 256 threads that step them; changes no result, and times are then means of a step\n"
-          "  --seconds S        simulated time (10; 65 with --tour)\n"
-          "  --rate HZ          steps per second, 1 to 100000 (60)\n"
-          "  --seed K           of spawn points and headings (1)\n"
-          "  --preset NAME      settings of the characters: precise, unreal, platformer (precise;\n"
-          "                     with --2d platformer)\n"
-          "  --shape NAME       of the characters: capsule, box (flat feet), sphere (capsule)\n"
-          "  --backend NAME     collision engine, one of",
-          stdout);
+    fputs(
+        "usage: tahr run [options]\n"
+        "\n"
+        "Drives characters through a level and reports how they fared.\n"
+        "\n"
+        "  --level FILE       OBJ, glTF or what else Assimp reads; maps of voxels (.bt, .ot: Z up, backend fcl);\n"
+        "                     without it the bundled playground.\n"
+        "                     With --2d: a map of Tiled (.tmj); without it the bundled side-scroller\n"
+        "  --2d               two dimensions, seen from the side: x to the right, y up\n"
+        "  --up y|z           which axis of the file points up (y); shown and written is always Z up: (x, -z, y)\n"
+        "  --characters N     1 to 100000 wandering characters (16)\n"
+        "  --crowd            the characters are obstacles of each other; without it they pass through each other\n"
+        "  --threads T        1 to 256 threads that step them; changes no result, and times are then means of a step\n"
+        "  --seconds S        simulated time (10; 65 with --tour)\n"
+        "  --rate HZ          steps per second, 1 to 100000 (60)\n"
+        "  --seed K           of spawn points and headings (1)\n"
+        "  --preset NAME      settings of the characters: precise, unreal, platformer (precise;\n"
+        "                     with --2d platformer)\n"
+        "  --shape NAME       of the characters: capsule, box (flat feet), sphere (capsule)\n"
+        "  --backend NAME     collision engine, one of",
+        stdout);
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
         printf("%s %s", i ? "," : "", backend_choice_at(i)->name);
     }

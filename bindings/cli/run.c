@@ -19,7 +19,7 @@
 #include <unistd.h>
 
 #define EVENT_CAPACITY 64 /* per step; more are counted as lost by the library */
-#define TOUCHING 1e-6     /* m by which two characters may overlap: the rounding of where they are, far from the origin */
+#define TOUCHING 1e-6 /* m by which two characters may overlap: the rounding of where they are, far from the origin */
 #define WANDER_SPEED 5.0 /* m/s, by the definition of wandering */
 
 static int open_world(struct run *run)

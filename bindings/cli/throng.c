@@ -12,7 +12,7 @@
 #include <tahr/threads.h>
 #endif
 
-#define LOOK_PERIOD 4    /* steps between two looks with --check sampled: all pairs that are near cost as much as a step */
+#define LOOK_PERIOD 4 /* steps between two looks with --check sampled: all pairs that are near cost as much as a step */
 #define THRONG_EVENTS 16 /* of one character in one step; more are counted as lost */
 
 struct place {
@@ -194,8 +194,7 @@ int throng_step(struct run *run, struct throng *t, uint64_t step, double time)
         say_error("step %llu: %s", (unsigned long long)step, tahr_status_message(status));
         return -1;
     }
-    if (t->meets && run->options->check != CHECK_OFF &&
-        (run->options->check == CHECK_ALL || step % LOOK_PERIOD == 0)) {
+    if (t->meets && run->options->check != CHECK_OFF && (run->options->check == CHECK_ALL || step % LOOK_PERIOD == 0)) {
         look(run, t);
     }
     for (uint32_t i = 0; i < n; i++) {

@@ -31,14 +31,14 @@ enum { TAHR_CROWD_STAND_ON_HEADS = 1 << 0 };
 /* [in] everything is copied. */
 typedef struct tahr_crowd_desc {
     uint32_t struct_size;
-    uint32_t flags;                   /* TAHR_CROWD_* */
-    uint32_t capacity;                /* 1..2^22 characters, for which memory is taken */
-    uint32_t config_count;            /* 1..65536 */
-    const tahr_config *configs;       /* what members choose from; all of one struct_size */
-    tahr_run_tasks_fn run_tasks;      /* NULL: everything on the calling thread */
-    void *run_user;                   /* handed to it; must stay valid until the crowd is destroyed */
-    uint32_t tasks;                   /* [0: 32] parts that a tick is cut into, up to 4096: changes no result */
-    uint32_t reserved;                /* 0 */
+    uint32_t flags;              /* TAHR_CROWD_* */
+    uint32_t capacity;           /* 1..2^22 characters, for which memory is taken */
+    uint32_t config_count;       /* 1..65536 */
+    const tahr_config *configs;  /* what members choose from; all of one struct_size */
+    tahr_run_tasks_fn run_tasks; /* NULL: everything on the calling thread */
+    void *run_user;              /* handed to it; must stay valid until the crowd is destroyed */
+    uint32_t tasks;              /* [0: 32] parts that a tick is cut into, up to 4096: changes no result */
+    uint32_t reserved;           /* 0 */
 } tahr_crowd_desc;
 
 /* ALONE: meets nobody. */
@@ -59,10 +59,10 @@ typedef struct tahr_member {
 /* Of a distant character: what was computed ahead. Plain data like tahr_state, and like it part of what decides the
  * future: keep it, copy it, hash it together with the state. Zero for a new character. Frozen, 1280 bytes. */
 typedef struct tahr_delay {
-    tahr_state from, to; /* the step that was computed, from its begin to its end */
-    double length;       /* s, of that step; 0: none */
-    double elapsed;      /* s of it that are shown */
-    uint64_t revision;   /* of the world then */
+    tahr_state from, to;     /* the step that was computed, from its begin to its end */
+    double length;           /* s, of that step; 0: none */
+    double elapsed;          /* s of it that are shown */
+    uint64_t revision;       /* of the world then */
     tahr_vec3 move, gravity; /* input of that step */
     uint32_t jump, crouch;
     uint32_t flags;    /* of that input */

@@ -27,8 +27,7 @@ static real reach(const tahr__solid *s, tahr_vec3 d)
     case TAHR_SHAPE_CAPSULE: return h->radius * size + (high - h->radius) * fabsl(dz);
     case TAHR_SHAPE_CYLINDER: return h->radius * across + high * fabsl(dz);
     case TAHR_SHAPE_CONE: return fmaxl(high * dz, h->radius * across - high * dz);
-    case TAHR_SHAPE_ELLIPSOID:
-        return sqrtl(powl(h->half_x * dx, 2) + powl(h->half_y * dy, 2) + powl(high * dz, 2));
+    case TAHR_SHAPE_ELLIPSOID: return sqrtl(powl(h->half_x * dx, 2) + powl(h->half_y * dy, 2) + powl(high * dz, 2));
     default: return h->half_x * fabsl(dx) + h->half_y * fabsl(dy) + high * fabsl(dz);
     }
 }
