@@ -97,9 +97,10 @@ static tahr_shape shape_of(const tahr_mover *mover, const tahr_state *s)
 }
 
 /* The largest that it may be within the tick: grown, turned about its axis. m across its axis, along it (beyond the
- * former), and how much farther its centre may go. */
+ * former), how much farther its centre may go for that, and how much farther than now any point of it may lie from
+ * there. */
 typedef struct size {
-    double around, along, grows;
+    double around, along, grows, swell;
 } size;
 
 static size largest(const tahr_shape *shape, const tahr_input *input, const tahr_state *s)
@@ -110,13 +111,15 @@ static size largest(const tahr_shape *shape, const tahr_input *input, const tahr
         h = max_of(h, input->half_height);
     }
     size z = {.around = r, .along = h, .grows = h - s->half_height};
+    z.swell = z.grows + (r - s->radius);
     if (shape->type == TAHR_SHAPE_CAPSULE || shape->type == TAHR_SHAPE_SPHERE) {
         z.along = h - r;
     } else if (r == 0) {
         z.around = sqrt(shape->half_x * shape->half_x + shape->half_y * shape->half_y);
+        z.swell += z.around - min_of(shape->half_x, shape->half_y);
     }
     if (input->flags & TAHR_INPUT_GRAVITY) { /* it may turn any way, about its foot */
-        z = (size){.around = z.around + h, .grows = z.grows + h};
+        z = (size){.around = z.around + h, .grows = z.grows + h, .swell = z.around + h};
     }
     return z;
 }
@@ -149,6 +152,7 @@ void tahr__figure_of(tahr__figure *f, const tahr_mover *mover, const tahr_member
     const double level = speed_of(c, input, s) * dt + (4 * c->skin + FORESEEN), fall = fall_of(mover, s, dt);
     const double high =
         z.grows + (s->mode == TAHR_MODE_WALKING ? max_of(c->step_height, c->snap_distance) : 0.5 * fall * dt);
+    f->swell = z.swell;
     const double wide = z.around + level + half_skin_of(c), tall = z.along + high;
     const double x = fabs(s->up.x), y = fabs(s->up.y), u = fabs(s->up.z);
     f->range.at = world->moved_count == 0 && s->base.body == TAHR_NO_BODY ? s->position : carried(world, s);
@@ -185,10 +189,10 @@ static double share(const tahr__look *a, const tahr__look *b, vec3 n, double gap
     return a->half_skin + (left >= 0 ? wish_a + 0.5 * left : room * wish_a / (wish_a + wish_b));
 }
 
-/* How far it may go along n. */
+/* How far any part of it may come along n. */
 static double reach_along(const tahr__figure *f, vec3 n)
 {
-    return dot(f->range.reach, absolute(n));
+    return dot(f->range.reach, absolute(n)) + f->swell;
 }
 
 /* Steeper than this, cosine, is beside and not over: 50 degrees, what can be walked on. */

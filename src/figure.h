@@ -16,6 +16,7 @@ enum {
 typedef struct tahr__figure {
     vec3 box; /* m, half extents around range.at of what it can touch in this tick, along the world's axes */
     tahr__range range;
+    double swell; /* m, that its shape may become larger by within the tick, whichever way */
     uint32_t id, groups, mask;
     uint32_t flags; /* TAHR__FIGURE_* */
 } tahr__figure;
