@@ -32,15 +32,27 @@ static uint32_t part_begin(const tahr__tick *t, uint32_t part)
     return (uint32_t)((uint64_t)t->asked->count * part / t->tasks);
 }
 
-/* Gives a mover another config. */
-static void use_kind(tahr_crowd *c, uint32_t i, uint32_t kind)
+/* Whose config a character has: a mover that nobody steps. */
+static const tahr_mover *kind_of(const tahr__tick *t, uint32_t i)
 {
-    tahr_mover *m = c->movers[i];
-    m->config = c->kinds[kind]->config;
-    m->limits = c->kinds[kind]->limits;
-    m->plain = c->kinds[kind]->plain;
-    m->sleep.noted = 0;
-    c->kind_of[i] = kind;
+    return t->crowd->kinds[t->asked->members ? t->asked->members[i].config : 0];
+}
+
+/* The mover that takes a character's step, with its config. */
+static tahr_mover *mover_of(const tahr__tick *t, uint32_t i, const tahr__part *part)
+{
+    const tahr_crowd *c = t->crowd;
+    const uint32_t kind = t->asked->members ? t->asked->members[i].config : 0;
+    const uint32_t at = c->is_lean ? (uint32_t)(part - c->parts) : i;
+    tahr_mover *m = c->movers[at];
+    if (c->kind_of[at] != kind) {
+        m->config = c->kinds[kind]->config;
+        m->limits = c->kinds[kind]->limits;
+        m->plain = c->kinds[kind]->plain;
+        m->sleep.noted = 0;
+        c->kind_of[at] = kind;
+    }
+    return m;
 }
 
 /* Of a large crowd every eighth tells enough of how large characters are and how they are spread: no result depends on
@@ -66,11 +78,8 @@ static void look_at_part(void *argument, uint32_t index)
             return;
         }
         const tahr_member simple = {.id = i}, *member = t->asked->members ? &t->asked->members[i] : &simple;
-        if (c->kind_of[i] != member->config) {
-            use_kind(c, i, member->config);
-        }
         tahr__figure *f = &c->figures[i];
-        tahr__figure_of(f, c->movers[i], member, tick_input(t, i), &t->asked->states[i], t->asked->dt);
+        tahr__figure_of(f, c->kinds[member->config], member, tick_input(t, i), &t->asked->states[i], t->asked->dt);
         if (is_sample(t, i)) {
             tahr__spread_add(&part->spread, f);
         }
@@ -120,7 +129,7 @@ static void meet_part(void *argument, uint32_t index)
         tahr__figure *f = &c->figures[i];
         if (f->flags & TAHR__FIGURE_THERE && has_company(c, i)) {
             f->flags |= TAHR__FIGURE_BESIDE;
-            tahr__look_of(&c->looks[i], c->movers[i], &t->asked->states[i], t->asked->dt);
+            tahr__look_of(&c->looks[i], kind_of(t, i), &t->asked->states[i], t->asked->dt);
         }
     }
 }
@@ -196,7 +205,7 @@ static inline tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__compa
     tahr_crowd *c = t->crowd;
     const tahr_member *member = t->asked->members ? &t->asked->members[i] : NULL;
     tahr_state *state = &t->asked->states[i];
-    tahr_mover *mover = c->movers[i];
+    tahr_mover *mover = mover_of(t, i, part);
     tahr_status status;
     if (member && member->budget > 0) {
         const tahr__turn turn = {.mover = mover,
@@ -280,7 +289,7 @@ static void step_again(const tahr__tick *t)
         if (c->statuses[i] == TAHR__STRAYED) {
             c->figures[i].flags |= TAHR__FIGURE_STRAYED;
             c->figures[i].range.extra = 2 * c->strayed[i];
-            tahr__look_of(&c->looks[i], c->movers[i], &t->asked->states[i], t->asked->dt);
+            tahr__look_of(&c->looks[i], kind_of(t, i), &t->asked->states[i], t->asked->dt);
             count++;
         }
     }

@@ -30,8 +30,9 @@ struct tahr_crowd {
     tahr_run_tasks_fn run_tasks;
     void *run_user;
     tahr_mover **kinds;  /* one for each config, which nobody steps */
-    tahr_mover **movers; /* one for each place in the arrays of a tick */
+    tahr_mover **movers; /* one for each place in the arrays of a tick; lean: for each part */
     uint32_t *kind_of;   /* whose config it has now */
+    uint32_t mover_count, is_lean;
     tahr__figure *figures;
     tahr__look *looks;
     tahr_status *statuses;

@@ -55,7 +55,7 @@ static tahr_status check(const tahr_world *world, const tahr_crowd_desc *d)
     if (d->tasks > MOST_TASKS || d->reserved) {
         return refuse(world, TAHR_E_ARGUMENT, d->reserved ? "desc.reserved" : "desc.tasks", "is out of range");
     }
-    if (d->flags & ~(uint32_t)TAHR_CROWD_STAND_ON_HEADS) {
+    if (d->flags & ~(uint32_t)(TAHR_CROWD_STAND_ON_HEADS | TAHR_CROWD_LEAN)) {
         return refuse(world, TAHR_E_ARGUMENT, "desc.flags", "has unknown bits");
     }
     if (!d->configs) {
@@ -85,8 +85,8 @@ static plan plan_of(const tahr_crowd *c)
     const size_t n = c->capacity, table = c->key_mask + (size_t)1;
     plan p = {.size = 0};
     p.kinds = take(&p.size, c->kind_count, sizeof *c->kinds);
-    p.movers = take(&p.size, n, sizeof *c->movers);
-    p.kind_of = take(&p.size, n, sizeof *c->kind_of);
+    p.movers = take(&p.size, c->mover_count, sizeof *c->movers);
+    p.kind_of = take(&p.size, c->mover_count, sizeof *c->kind_of);
     p.figures = take(&p.size, n, sizeof *c->figures);
     p.looks = take(&p.size, n, sizeof *c->looks);
     p.statuses = take(&p.size, n, sizeof *c->statuses);
@@ -126,7 +126,7 @@ static void release(tahr_crowd *c)
     for (uint32_t i = 0; c->memory && i < c->kind_count; i++) {
         tahr_mover_destroy(c->kinds[i]);
     }
-    for (uint32_t i = 0; c->memory && i < c->capacity; i++) {
+    for (uint32_t i = 0; c->memory && i < c->mover_count; i++) {
         tahr_mover_destroy(c->movers[i]);
     }
     if (c->memory) {
@@ -152,7 +152,7 @@ static tahr_status make_movers(tahr_crowd *c, const tahr_crowd_desc *d)
             tahr__say(&c->world->log, TAHR_LOG_ERROR, "tahr_crowd_create", text);
         }
     }
-    for (uint32_t i = 0; i < c->capacity && status >= 0; i++) {
+    for (uint32_t i = 0; i < c->mover_count && status >= 0; i++) {
         status = tahr_mover_create(c->world, d->configs, &c->movers[i]);
     }
     return status;
@@ -181,6 +181,8 @@ tahr_status tahr_crowd_create(tahr_world *world, const tahr_crowd_desc *desc, ta
     c->capacity = desc->capacity;
     c->kind_count = desc->config_count;
     c->tasks = desc->tasks ? desc->tasks : USUAL_TASKS;
+    c->is_lean = (desc->flags & TAHR_CROWD_LEAN) != 0;
+    c->mover_count = c->is_lean ? c->tasks : c->capacity;
     c->walkable_rule =
         desc->flags & TAHR_CROWD_STAND_ON_HEADS ? (uint32_t)TAHR_WALKABLE_DEFAULT : (uint32_t)TAHR_WALKABLE_NEVER;
     c->run_tasks = desc->run_tasks;

@@ -25,6 +25,7 @@ typedef struct manner {
     uint32_t tasks;
     int shuffles;
     double budget;
+    uint32_t flags;
 } manner;
 
 static void swap(throng *t, uint32_t i, uint32_t j)
@@ -72,6 +73,7 @@ static uint64_t run(const manner *how)
     t.desc.run_tasks = how->run;
     t.desc.run_user = how->user;
     t.desc.tasks = how->tasks;
+    t.desc.flags = how->flags;
     throng_make(&t, COUNT);
     for (uint32_t i = 0; i < COUNT; i++) {
         t.members[i].config = i % 5 == 0;
@@ -115,6 +117,16 @@ static void tasks_in_any_order_give_the_same_bits(void **unused)
     assert_int_equal(run(&(manner){.tasks = 4096}), hash);
 }
 
+static void a_lean_crowd_gives_the_same_bits(void **unused)
+{
+    (void)unused;
+    const manner fat = {.budget = 0.02, .flags = TAHR_CROWD_STAND_ON_HEADS};
+    manner lean = fat;
+    lean.flags |= TAHR_CROWD_LEAN;
+    lean.shuffles = 1;
+    assert_int_equal(run(&lean), run(&fat));
+}
+
 static void any_number_of_threads_gives_the_same_bits(void **unused)
 {
     (void)unused;
@@ -139,6 +151,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(shuffled_arrays_give_the_same_bits),
         cmocka_unit_test(tasks_in_any_order_give_the_same_bits),
+        cmocka_unit_test(a_lean_crowd_gives_the_same_bits),
         cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

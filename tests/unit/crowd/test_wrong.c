@@ -144,7 +144,7 @@ static void crowds_that_are_wrong_are_named(void **unused)
     refuses_desc(&t, &d, TAHR_E_ARGUMENT, "desc.config_count");
     d = good, d.configs = NULL;
     refuses_desc(&t, &d, TAHR_E_NULL, "desc.configs is NULL");
-    d = good, d.flags = 2;
+    d = good, d.flags = 4;
     refuses_desc(&t, &d, TAHR_E_ARGUMENT, "desc.flags");
     d = good, d.tasks = 5000;
     refuses_desc(&t, &d, TAHR_E_ARGUMENT, "desc.tasks");
