@@ -135,16 +135,6 @@ static void release(tahr_crowd *c)
     a.free(a.user, c, sizeof *c, 64);
 }
 
-/* Who steps another character every time gathers for nothing. */
-static void drop_cache(tahr_mover *mover)
-{
-    const tahr_allocator a = mover->world->memory.user;
-    if (mover->cache) {
-        a.free(a.user, mover->cache, mover->cache_size, 64);
-        mover->cache = NULL;
-    }
-}
-
 static tahr_status make_movers(tahr_crowd *c, const tahr_crowd_desc *d)
 {
     const size_t stride = d->configs[0].struct_size;
@@ -164,9 +154,6 @@ static tahr_status make_movers(tahr_crowd *c, const tahr_crowd_desc *d)
     }
     for (uint32_t i = 0; i < c->mover_count && status >= 0; i++) {
         status = tahr_mover_create(c->world, d->configs, &c->movers[i]);
-        if (status >= 0 && c->is_lean) {
-            drop_cache(c->movers[i]);
-        }
     }
     return status;
 }
