@@ -271,8 +271,8 @@ static void step_part(void *argument, uint32_t index)
 static tahr_status hold(const tahr__tick *t, uint32_t i)
 {
     tahr_report *report = tick_report(t, i);
+    tahr__turn_report(report, TAHR_REPORT_QUERY_CAP);
     if (report) {
-        report->flags |= TAHR_REPORT_QUERY_CAP;
         report->time_lost = t->asked->dt;
     }
     return TAHR_QUERY_CAP;

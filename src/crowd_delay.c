@@ -21,6 +21,8 @@
 
 #include "answer.h"
 
+_Static_assert(sizeof(tahr_delay) == 1280 && sizeof(tahr_member) == 32, "frozen");
+
 /* Ticks that one step stands for, at most: at 60 Hz 0.13 s, in which a walker goes as far as he is wide. */
 enum { MOST_TICKS = 8 };
 
@@ -89,11 +91,11 @@ static int world_is_same(const tahr__turn *t, const tahr_delay *d)
            !moves_near(t->mover, t->state->position, length(sub(d->to.position, d->from.position)));
 }
 
-static void clear_report(tahr_report *report)
+void tahr__turn_report(tahr_report *report, uint32_t flags)
 {
     if (report) {
         tahr_report r = {.struct_size = report->struct_size,
-                         .flags = TAHR_REPORT_DEFERRED,
+                         .flags = flags,
                          .events = report->events,
                          .decisions = report->decisions,
                          .event_capacity = report->event_capacity,
@@ -126,7 +128,7 @@ static int go_on(const tahr__turn *t, const tahr_member *member, tahr_delay *d)
     d->elapsed = ends ? 0 : elapsed;
     d->length = ends ? 0 : d->length;
     d->revision = t->mover->world->revision;
-    clear_report(t->report);
+    tahr__turn_report(t->report, TAHR_REPORT_DEFERRED);
     t->counts->deferred++;
     return 1;
 }
@@ -239,9 +241,8 @@ static int go_ahead(const tahr__turn *t, const tahr_member *member, tahr_delay *
     }
     *d = begun;
     *t->state = next;
-    clear_report(t->report);
+    tahr__turn_report(t->report, report.flags);
     if (t->report) {
-        t->report->flags = report.flags & ~(uint32_t)TAHR_REPORT_TRUNCATED;
         t->report->sweeps = report.sweeps + 1;
         t->report->slices = report.slices;
         t->report->triangle_tests = report.triangle_tests;

@@ -123,7 +123,10 @@ TAHR_API void tahr_crowd_destroy(tahr_crowd *crowd);
  * cannot meet, in whatever order and on however many threads they move. It leaves each the room that its velocity asks
  * for, or its share of what there is, and half of its skin. Who overlaps another from the start is pushed out of him:
  * of the way each takes the part that the other's mass is of both. Hulls are to others the box around them.
- * An infinite plane stands for a round neighbour for one tick only, but for that long also beside him.
+ * An infinite plane stands for a round neighbour for one tick only, but for that long also beside him. Who is squeezed
+ * by a body that moves goes into his neighbours rather than into what never moves, and they part in the next tick.
+ * TAHR_MODE_CUSTOM has no function in a crowd. More than 127 neighbours at once: the farthest do not count
+ * (TAHR_TRUNCATED).
  *
  * A member with a budget takes one step for several ticks at once, up to 8, where that meets nothing: in between it is
  * shown on the straight line from begin to end, along which it was swept. Whatever changes (its input, dt, its state,

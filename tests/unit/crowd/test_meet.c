@@ -241,6 +241,47 @@ static void groups_and_masks_say_who_meets_whom(void **unused)
     throng_close(&t);
 }
 
+/* An engine of the user's own: the plane z = 0, and nothing but a sweep. */
+static tahr_status sweep_plane(void *user, const tahr_sweep *q, tahr_hit *hit)
+{
+    const double gap = q->position.z - q->shape.half_height - q->margin, drop = -q->motion.z;
+    (void)user;
+    hit->normal = (tahr_vec3){0, 0, 1};
+    if (gap < -q->margin) {
+        hit->start_overlap = 1;
+        hit->depth = -gap - q->margin;
+    } else if (drop > 0 && gap <= drop) {
+        hit->blocking = 1;
+        hit->fraction = gap > 0 ? gap / drop : 0;
+    }
+    return TAHR_OK;
+}
+
+static void over_callbacks_two_meet_too(void **unused)
+{
+    const tahr_callbacks callbacks = {.struct_size = sizeof callbacks, .sweep = sweep_plane};
+    throng t;
+    double nearest = INFINITY;
+    (void)unused;
+    throng_open_ground(&t);
+    tahr_world_close(t.world);
+    assert_int_equal(tahr_world_open_callbacks(&callbacks, NULL, &t.world), TAHR_OK);
+    throng_make(&t, 3);
+    throng_place(&t, 0, -2, 0.05);
+    throng_place(&t, 1, 2, 0);
+    throng_place(&t, 2, 2.3, 0.1); /* overlaps the second one, and a sweep alone tells no contacts */
+    for (int i = 0; i < 120; i++) {
+        throng_go(&t, 0, 1, 0);
+        throng_go(&t, 1, -1, 0);
+        throng_go(&t, 2, -1, 0);
+        assert_int_equal(throng_step(&t), TAHR_OK);
+        assert_true(i == 0 || throng_least_gap(&t) >= t.config.skin - ROUNDING);
+        nearest = fmin(nearest, throng_least_gap(&t));
+    }
+    assert_near(nearest, t.config.skin, 1e-6); /* they did meet */
+    throng_close(&t);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -252,6 +293,7 @@ int main(void)
         cmocka_unit_test(thousand_press_on_one_point),
         cmocka_unit_test(small_and_large_keep_apart),
         cmocka_unit_test(groups_and_masks_say_who_meets_whom),
+        cmocka_unit_test(over_callbacks_two_meet_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
