@@ -295,7 +295,9 @@ static void step_again(const tahr__tick *t)
     }
     for (uint32_t i = 0; i < t->asked->count && count > 0; i++) {
         if (c->figures[i].flags & TAHR__FIGURE_STRAYED) {
+            const uint64_t beside = c->parts[0].counts.beside; /* it was counted the first time */
             tahr_status status = take_step_among(t, i, &c->parts[0]);
+            c->parts[0].counts.beside = beside;
             c->statuses[i] = status == TAHR__STRAYED ? hold(t, i) : status;
         }
     }
