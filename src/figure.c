@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * figure.c: what a character may reach in a tick, and how a plane divides the room between two.
  *
- * Two shapes on different sides of a plane do not meet. Any plane between them does; where it lies decides how it feels.
- * In the middle, who follows another would keep two steps' distance, and who lands on a head would float over it for
- * some ticks. So each gets what its velocity asks for and half of the rest, or, where there is less, as large a part of
+ * Two shapes on different sides of a plane do not meet. Any plane between them does; where it lies decides how it
+ * feels. In the middle, who follows another would keep two steps' distance, and who lands on a head would float over it
+ * for some ticks. So each gets what its velocity asks for and half of the rest, or, where there is less, as large a part of
  * it as its wish is of both wishes. */
 #include "figure.h"
 

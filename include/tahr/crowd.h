@@ -27,7 +27,8 @@ typedef void (*tahr_run_tasks_fn)(void *user, tahr_task_fn task, void *argument,
  * it nobody stands on another character: who comes down on one slides off (and floats where it is met exactly in the
  * middle, until one of them moves).
  * LEAN: one mover for each task instead of one for each character: 39 KB a character less on native, and several times
- * the cost, for every step gathers its surroundings anew and who stands still is computed all the same. The same bits. */
+ * the cost, for every step gathers its surroundings anew and who stands still is computed all the same. The same
+ * bits. */
 enum { TAHR_CROWD_STAND_ON_HEADS = 1 << 0, TAHR_CROWD_LEAN = 1 << 1 };
 
 /* [in] everything is copied. */
@@ -147,8 +148,8 @@ TAHR_API void tahr_crowd_destroy(tahr_crowd *crowd);
  * the steps. Since 0.1. */
 TAHR_API tahr_status tahr_crowd_step(tahr_crowd *crowd, const tahr_crowd_tick *tick);
 
-/* [out] counts, struct_size set by the caller; untouched on error. Allocates nothing; not while the crowd steps. Returns
- * TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE. Since 0.1. */
+/* [out] counts, struct_size set by the caller; untouched on error. Allocates nothing; not while the crowd steps.
+ * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE. Since 0.1. */
 TAHR_API tahr_status tahr_crowd_get_counts(const tahr_crowd *crowd, tahr_crowd_counts *counts);
 
 #ifdef __cplusplus
