@@ -3,8 +3,8 @@
  *
  * Two shapes on different sides of a plane do not meet. Any plane between them does; where it lies decides how it
  * feels. In the middle, who follows another would keep two steps' distance, and who lands on a head would float over it
- * for some ticks. So each gets what its velocity asks for and half of the rest, or, where there is less, as large a part of
- * it as its wish is of both wishes. */
+ * for some ticks. So each gets what its velocity asks for and half of the rest, or, where there is less, as large a part
+ * of it as its wish is of both wishes. */
 #include "figure.h"
 
 #include "apart.h"
@@ -195,6 +195,12 @@ static double reach_along(const tahr__figure *f, vec3 n)
     return dot(f->range.reach, absolute(n)) + f->swell;
 }
 
+/* m; who overlaps by less is not pushed out: twice what neighbours.c takes for a touch. */
+static const double TOUCHING = 2e-7;
+
+/* Of their skins: nobody comes as near as this to another one by himself. */
+static const double TIGHT = 0.95;
+
 /* Steeper than this, cosine, is beside and not over: 50 degrees, what can be walked on. */
 static const double OVER = 0.64;
 
@@ -237,6 +243,12 @@ int tahr__figure_plane(tahr__party self, tahr__party other, uint32_t rules, tahr
     const double at = apart.extent + apart.gap - mine, behind = apart.gap < 0 ? 0 : self.look->half_skin;
     plane->normal = first ? n : scale(n, -1);
     plane->offset = (first ? at - dot(n, c) : -at) - behind;
+    plane->behind = behind;
+    plane->give = 0;
+    if (apart.gap > -TOUCHING && apart.gap < TIGHT * (skin_a + skin_b)) {
+        const double other_mass = other.look->mass;
+        plane->give = (2 * (skin_a + skin_b) - apart.gap) * other_mass / (self.look->mass + other_mass);
+    }
     plane->body = TAHR_CHARACTER_BODY + other.figure->id;
     plane->reserved = 0;
     return 1;
@@ -252,6 +264,8 @@ void tahr__figure_wall(tahr__party self, const tahr__figure *other, uint32_t rul
     const tahr__apart apart = tahr__apart_of(&mine, &its, c, (rules & TAHR__PAIR_FLAT) != 0);
     plane->normal = apart.normal;
     plane->offset = apart.extent - dot(apart.normal, c) - self.look->half_skin;
+    plane->behind = self.look->half_skin;
+    plane->give = 0;
     plane->body = TAHR_CHARACTER_BODY + other->id;
     plane->reserved = 0;
 }

@@ -125,7 +125,8 @@ TAHR_API void tahr_crowd_destroy(tahr_crowd *crowd);
  * for, or its share of what there is, and half of its skin. Who overlaps another from the start is pushed out of him:
  * of the way each takes the part that the other's mass is of both. Hulls are to others the box around them.
  * An infinite plane stands for a round neighbour for one tick only, but for that long also beside him. Who is squeezed
- * by a body that moves goes into his neighbours rather than into what never moves, and they part in the next tick.
+ * by a body that moves, or turns as a box where there is no room for it, goes into his neighbours rather than into what
+ * never moves (TAHR_CRUSHED), and they give way in the next ticks.
  * TAHR_MODE_CUSTOM has no function in a crowd. More than 127 neighbours at once: the farthest do not count
  * (TAHR_TRUNCATED).
  *
