@@ -11,9 +11,9 @@
  * = 0, and d'(t) = v(t) - u with u the mean of v. Under a constant input each component of v, along the wish, across it
  * and along up, goes from its value at the begin to that at the end without turning back, so v(t), and u with it, lies
  * in the box between v(0) and v(h), and |d'| is at most its diagonal, D = |v(h) - v(0)|. So |d(t)| is at most D min(t,
- * h - t) <= D h / 2, which is kept below the budget; with a constant acceleration it is a quarter of that. (On a slope v is the
- * level speed for some settings, and the way longer by up to 1.56, at 50 degrees; but then a half of the bound is to
- * spare: where v only goes one way, |d| <= D h / 4.)
+ * h - t) <= D h / 2, which is kept below the budget; with a constant acceleration it is a quarter of that. (On a slope
+ * v is the level speed for some settings, and the way longer by up to 1.56, at 50 degrees; but then a half of the bound
+ * is to spare: where v only goes one way, |d| <= D h / 4.)
  *
  * Neither way leads through anything: the exact one was swept by the step, the straight one is swept besides; and where
  * the exact place takes over from the shown one the way between them is swept too. */

@@ -3,8 +3,8 @@
  *
  * Two shapes on different sides of a plane do not meet. Any plane between them does; where it lies decides how it
  * feels. In the middle, who follows another would keep two steps' distance, and who lands on a head would float over it
- * for some ticks. So each gets what its velocity asks for and half of the rest, or, where there is less, as large a part
- * of it as its wish is of both wishes. */
+ * for some ticks. So each gets what its velocity asks for and half of the rest, or, where there is less, as large a
+ * part of it as its wish is of both wishes. */
 #include "figure.h"
 
 #include "apart.h"

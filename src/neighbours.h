@@ -5,8 +5,8 @@
 
 #include "core.h"
 
-/* Everything with normal . (x - anchor) < offset + behind is the other's. The surface from which the character keeps its
- * skin lies `behind` that plane. */
+/* Everything with normal . (x - anchor) < offset + behind is the other's. The surface from which the character keeps
+ * its skin lies `behind` that plane. */
 typedef struct tahr__neighbour {
     vec3 normal;   /* unit, from the other to this one */
     double offset; /* m, of the surface */
