@@ -152,8 +152,7 @@ static int overlaps_any(const tahr__step *step)
     return 0;
 }
 
-/* As far as the world lets it with its skin, and the neighbours without one: so that they notice it in the next tick.
- * */
+/* As far as the world lets it with its skin, and the neighbours without one: they notice it in the next tick. */
 static void press(tahr__step *step, vec3 motion)
 {
     const tahr__neighbours *n = step->neighbours;
