@@ -44,7 +44,11 @@ foreach(backend ${backends})
 endforeach()
 
 if(with_threads)
-    tahr_pc(tahr_threads "Pool of threads for the crowds of tahr" tahr "${CMAKE_THREAD_LIBS_INIT}")
+    # An archive alone: who links it needs what it needs.
+    set(shared ${TAHR_SHARED})
+    set(TAHR_SHARED OFF)
+    tahr_pc(tahr_threads "Pool of threads for the crowds of tahr" tahr "-pthread")
+    set(TAHR_SHARED ${shared})
 endif()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tahr)

@@ -22,11 +22,16 @@ typedef struct couple {
     int flat;
 } couple;
 
+tahr__apart tahr__apart_along(const tahr__solid *a, const tahr__solid *b, vec3 c, vec3 n)
+{
+    tahr__apart r = {.normal = n, .extent = tahr__support(b, n)};
+    r.gap = dot(n, c) - tahr__support(a, scale(n, -1)) - r.extent;
+    return r;
+}
+
 static tahr__apart along(const couple *p, vec3 n)
 {
-    tahr__apart r = {.normal = n, .extent = tahr__support(p->b, n)};
-    r.gap = dot(n, p->c) - tahr__support(p->a, scale(n, -1)) - r.extent;
-    return r;
+    return tahr__apart_along(p->a, p->b, p->c, n);
 }
 
 /* Of two segments, from -a to a around c and from -b to b: the vector between their closest points, to the first. */
@@ -179,20 +184,15 @@ static void try_way(const couple *p, vec3 n, tahr__apart *best)
 }
 
 /* Out of an overlap: level first, where that is as short. */
-static tahr__apart shortest_way(const couple *p, uint32_t chance)
+static tahr__apart shortest_way(const couple *p)
 {
-    static const double turn[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {0.8, 0.6}, {-0.6, 0.8}, {-0.8, -0.6}, {0.6, -0.8}};
     const tahr__solid *both[2] = {p->a, p->b};
     tahr__apart best = {.gap = -INFINITY};
     vec3 up = p->a->up, level = reject(p->c, up);
-    vec3 side = unit(cross(up, up.x * up.x > 0.5 ? vec(0, 1, 0) : vec(1, 0, 0))), front = cross(up, side);
-    const double *t = turn[chance % 8];
     if (length_squared(level) > NO_DIRECTION * NO_DIRECTION) {
         try_way(p, level, &best);
-    } else if (p->flat) {
-        try_way(p, scale(vec(up.y, -up.x, 0), chance & 1 ? 1 : -1), &best);
     } else {
-        try_way(p, add(scale(side, t[0]), scale(front, t[1])), &best);
+        try_way(p, p->flat ? vec(up.y, -up.x, 0) : cross(up, up.x * up.x > 0.5 ? vec(0, 1, 0) : vec(1, 0, 0)), &best);
     }
     try_way(p, p->c, &best);
     for (int i = 0; i < 2; i++) {
@@ -212,7 +212,7 @@ static int has_segment_core(const tahr_shape *shape)
     return shape->type == TAHR_SHAPE_SPHERE || shape->type == TAHR_SHAPE_CAPSULE;
 }
 
-tahr__apart tahr__apart_of(const tahr__solid *a, const tahr__solid *b, vec3 c, uint32_t chance, int flat)
+tahr__apart tahr__apart_of(const tahr__solid *a, const tahr__solid *b, vec3 c, int flat)
 {
     couple p = {a, b, c, flat};
     tahr__apart best;
@@ -231,5 +231,5 @@ tahr__apart tahr__apart_of(const tahr__solid *a, const tahr__solid *b, vec3 c, u
         }
         return best;
     }
-    return shortest_way(&p, chance);
+    return shortest_way(&p);
 }

@@ -11,10 +11,13 @@ typedef struct tahr__apart {
     double extent; /* m, how far b reaches along it from its centre */
 } tahr__apart;
 
-/* a, whose centre lies at c seen from that of b. Of spheres and capsules that do not overlap by more than their radii the
- * normal is that of the closest points, of other shapes it is so to about 1e-9 of their size; where they overlap
- * deeper, one of a few directions, the one with the shortest way out. chance: decides where nothing else does (the same
- * centre). flat: z does not count, and the normal has none. */
-tahr__apart tahr__apart_of(const tahr__solid *a, const tahr__solid *b, vec3 c, uint32_t chance, int flat);
+/* Along a direction. a, whose centre lies at c seen from that of b. */
+tahr__apart tahr__apart_along(const tahr__solid *a, const tahr__solid *b, vec3 c, vec3 normal);
+
+/* Of spheres and capsules that do not overlap by more than their radii the normal is that of the closest points, of
+ * other shapes it is so to about 1e-9 of their size; where they overlap deeper, one of a few directions, the one with
+ * the shortest way out. With the same centre it is level, and always the same one: of many in one place the first and
+ * the last can leave. flat: z does not count, and the normal has none. */
+tahr__apart tahr__apart_of(const tahr__solid *a, const tahr__solid *b, vec3 c, int flat);
 
 #endif

@@ -137,9 +137,9 @@ struct tahr_mover {
     uint32_t busy;
     uint32_t plain; /* 1: neither world nor config hold anything that a state remembers */
     tahr__custom custom;
-    uint32_t record_round;  /* of the recording that has numbered it, */
-    uint32_t record_number; /* and the number */
-    uint32_t is_recorded;   /* 1: the step under way has been told of */
+    uint32_t record_round;         /* of the recording that has numbered it, */
+    uint32_t record_number;        /* and the number */
+    uint32_t is_recorded;          /* 1: the step under way has been told of */
     struct tahr__company *company; /* in a step of a crowd: who else is there (neighbours.h), else NULL */
     tahr__sleep sleep;
 };
@@ -157,7 +157,7 @@ struct tahr__step {
     const tahr__custom *custom;
     tahr_state state;
     tahr_report report;
-    struct tahr__trail *trail; /* NULL in a world without sensors (trail.h) */
+    struct tahr__trail *trail;                 /* NULL in a world without sensors (trail.h) */
     const struct tahr__neighbours *around;     /* other characters of a crowd that are near, or NULL, */
     const struct tahr__neighbours *neighbours; /* and whether they are there already: this step has been carried */
     tahr_query_context context;

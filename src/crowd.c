@@ -32,16 +32,34 @@ static uint32_t part_begin(const tahr__tick *t, uint32_t part)
     return (uint32_t)((uint64_t)t->asked->count * part / t->tasks);
 }
 
-static void use_kind(tahr_crowd *c, uint32_t i, uint32_t kind)
+/* Whose config a character has: a mover that nobody steps. */
+static const tahr_mover *kind_of(const tahr__tick *t, uint32_t i)
 {
-    if (c->kind_of[i] != kind) {
-        tahr_mover *m = c->movers[i];
+    return t->crowd->kinds[t->asked->members ? t->asked->members[i].config : 0];
+}
+
+/* The mover that takes a character's step, with its config. */
+static tahr_mover *mover_of(const tahr__tick *t, uint32_t i, const tahr__part *part)
+{
+    const tahr_crowd *c = t->crowd;
+    const uint32_t kind = t->asked->members ? t->asked->members[i].config : 0;
+    const uint32_t at = c->is_lean ? (uint32_t)(part - c->parts) : i;
+    tahr_mover *m = c->movers[at];
+    if (c->kind_of[at] != kind) {
         m->config = c->kinds[kind]->config;
         m->limits = c->kinds[kind]->limits;
         m->plain = c->kinds[kind]->plain;
         m->sleep.noted = 0;
-        c->kind_of[i] = kind;
+        c->kind_of[at] = kind;
     }
+    return m;
+}
+
+/* Of a large crowd every eighth tells enough of how large characters are and how they are spread: no result depends on
+ * the grid, only how soon it is found. Not a regular eighth: arrays often have a period. */
+static int is_sample(const tahr__tick *t, uint32_t i)
+{
+    return t->asked->count < 256 || i * 2654435769u < 0x20000000u;
 }
 
 static void look_at_part(void *argument, uint32_t index)
@@ -52,40 +70,52 @@ static void look_at_part(void *argument, uint32_t index)
     memset(part, 0, sizeof *part);
     part->bad = ~0u;
     tahr__spread_begin(&part->spread, c->grid.axis);
-    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
+    const uint32_t begin = part_begin(t, index), end = part_begin(t, index + 1);
+    for (uint32_t i = begin; i < end; i++) {
         part->field = tahr__tick_check_one(t, i, &part->status, &part->why);
         if (part->field) {
             part->bad = i;
             return;
         }
-        const tahr_member member = tick_member(t, i);
-        use_kind(c, i, member.config);
+        const tahr_member simple = {.id = i}, *member = t->asked->members ? &t->asked->members[i] : &simple;
         tahr__figure *f = &c->figures[i];
-        tahr__figure_of(f, c->movers[i], &member, tick_input(t, i), &t->asked->states[i], t->asked->dt);
-        tahr__spread_add(&part->spread, f);
+        tahr__figure_of(f, c->kinds[member->config], member, tick_input(t, i), &t->asked->states[i], t->asked->dt);
+        if (is_sample(t, i)) {
+            tahr__spread_add(&part->spread, f);
+        }
     }
 }
 
 static void place_part(void *argument, uint32_t index)
 {
     const tahr__tick *t = argument;
-    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
-        tahr__grid_place(&t->crowd->grid, i);
-    }
+    tahr__grid_place(&t->crowd->grid, part_begin(t, index), part_begin(t, index + 1));
 }
 
-/* Is anybody near? */
+static int meets_in(const tahr_crowd *c, const tahr__figure *f, uint32_t begin, uint32_t end)
+{
+    for (uint32_t at = begin; at < end; at++) {
+        const tahr__figure *o = &c->figures[c->grid.order[at]];
+        if (o != f && figures_near(f, o, 0) && figures_meet(f, o)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Is anybody near? Whoever is found twice is found. */
 static int has_company(const tahr_crowd *c, uint32_t i)
 {
+    const tahr__grid *g = &c->grid;
     const tahr__figure *f = &c->figures[i];
-    uint32_t begin[6], end[6];
-    const int runs = tahr__grid_around(&c->grid, i, begin, end);
-    for (int k = 0; k < runs; k++) {
-        for (uint32_t at = begin[k]; at < end[k]; at++) {
-            const tahr__figure *o = &c->figures[c->grid.order[at]];
-            if (figures_near(f, o, 0) && o != f && figures_meet(f, o)) {
-                return 1;
-            }
+    if (g->wide_count > 0 && meets_in(c, f, 0, g->bucket[i] == 0 ? g->start[g->mask + 2] : g->wide_count)) {
+        return 1;
+    }
+    for (int k = 0; k < 4 && g->bucket[i] != 0; k++) {
+        const uint64_t cell = g->corner[i] + (k & 1 ? TAHR__ALONG : 0) + (k & 2 ? TAHR__ACROSS : 0);
+        const uint32_t *start = &g->start[grid_bucket(g, cell)];
+        if (start[0] < start[1] && meets_in(c, f, start[0], start[1])) {
+            return 1;
         }
     }
     return 0;
@@ -99,7 +129,7 @@ static void meet_part(void *argument, uint32_t index)
         tahr__figure *f = &c->figures[i];
         if (f->flags & TAHR__FIGURE_THERE && has_company(c, i)) {
             f->flags |= TAHR__FIGURE_BESIDE;
-            tahr__look_of(&c->looks[i], c->movers[i], &t->asked->states[i], t->asked->dt);
+            tahr__look_of(&c->looks[i], kind_of(t, i), &t->asked->states[i], t->asked->dt);
         }
     }
 }
@@ -140,22 +170,22 @@ static int plane_between(const tahr__tick *t, uint32_t i, uint32_t j, tahr__neig
 {
     const tahr_crowd *c = t->crowd;
     const tahr__party self = {&c->figures[i], &c->looks[i]}, other = {&c->figures[j], &c->looks[j]};
-    const int again = (self.figure->flags & TAHR__FIGURE_STRAYED) != 0;
+    const uint32_t again = self.figure->flags & TAHR__FIGURE_STRAYED ? (uint32_t)TAHR__PAIR_AGAIN : 0u;
     if (again && !(other.figure->flags & TAHR__FIGURE_STRAYED) && !figures_near(self.figure, other.figure, 0)) {
-        tahr__figure_wall(self, other.figure, t->flat, plane);
+        tahr__figure_wall(self, other.figure, t->rules, plane);
         return 1;
     }
-    return tahr__figure_plane(self, other, again, t->flat, plane);
+    return tahr__figure_plane(self, other, t->rules | again, plane);
 }
 
 static void gather(const tahr__tick *t, uint32_t i, gathering *g)
 {
     const tahr_crowd *c = t->crowd;
     const tahr__figure *f = &c->figures[i];
-    uint32_t begin[6], end[6];
+    uint32_t begin[5], end[5];
     g->found = (tahr__neighbours){.anchor = f->range.at, .walkable_rule = c->walkable_rule, .planes = g->planes};
     g->truncated = 0;
-    const int runs = tahr__grid_around(&c->grid, i, begin, end);
+    const int runs = grid_around(&c->grid, i, begin, end);
     for (int k = 0; k < runs; k++) {
         for (uint32_t at = begin[k]; at < end[k]; at++) {
             const uint32_t j = c->grid.order[at];
@@ -170,23 +200,31 @@ static void gather(const tahr__tick *t, uint32_t i, gathering *g)
 }
 
 /* The step itself. company: who is there. Returns its status, or TAHR__STRAYED. */
-static tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__company *company, tahr__part *part)
+static inline tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__company *company, tahr__part *part)
 {
     tahr_crowd *c = t->crowd;
     const tahr_member *member = t->asked->members ? &t->asked->members[i] : NULL;
-    const tahr__turn turn = {.mover = c->movers[i],
-                             .input = tick_input(t, i),
-                             .dt = t->asked->dt,
-                             .state = &t->asked->states[i],
-                             .report = tick_report(t, i),
-                             .company = company,
-                             .counts = &part->counts};
-    tahr_status status = member && member->budget > 0 ? tahr__turn_delayed(&turn, member, &t->asked->delays[i])
-                                                      : tahr__turn_step(&turn);
+    tahr_state *state = &t->asked->states[i];
+    tahr_mover *mover = mover_of(t, i, part);
+    tahr_status status;
+    if (member && member->budget > 0) {
+        const tahr__turn turn = {.mover = mover,
+                                 .input = tick_input(t, i),
+                                 .dt = t->asked->dt,
+                                 .state = state,
+                                 .report = tick_report(t, i),
+                                 .company = company,
+                                 .counts = &part->counts};
+        status = tahr__turn_delayed(&turn, member, &t->asked->delays[i]);
+    } else {
+        mover->company = company;
+        status = tahr_mover_step(mover, tick_input(t, i), t->asked->dt, state, tick_report(t, i));
+        mover->company = NULL;
+    }
     if (status == TAHR__STRAYED) {
         c->strayed[i] = company->strayed;
-    } else if (turn.state->floor.body >= TAHR_CHARACTER_BODY && turn.state->floor.body != TAHR_NO_BODY) {
-        turn.state->floor_revision = 0; /* it may be elsewhere when it is looked at again */
+    } else if (state->floor.body >= TAHR_CHARACTER_BODY && state->floor.body != TAHR_NO_BODY) {
+        state->floor_revision = 0; /* it may be elsewhere when it is looked at again */
     }
     return status;
 }
@@ -217,20 +255,24 @@ static void step_part(void *argument, uint32_t index)
 {
     const tahr__tick *t = argument;
     tahr_crowd *c = t->crowd;
-    for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
+    tahr__part *part = &c->parts[index];
+    const uint32_t begin = part_begin(t, index), end = part_begin(t, index + 1);
+    for (uint32_t i = begin; i < end; i++) {
         tahr__company company = {.range = &c->figures[i].range};
-        c->statuses[i] = c->figures[i].flags & TAHR__FIGURE_BESIDE ? take_step_among(t, i, &c->parts[index])
-                                                                   : take_step(t, i, &company, &c->parts[index]);
+        tahr_status status =
+            c->figures[i].flags & TAHR__FIGURE_BESIDE ? take_step_among(t, i, part) : take_step(t, i, &company, part);
+        c->statuses[i] = status;
+        part->strays += status == TAHR__STRAYED;
     }
-    c->parts[index].counts.steps += part_begin(t, index + 1) - part_begin(t, index);
+    part->counts.steps += end - begin;
 }
 
 /* A second time too far: it stays where it is, which no plane forbids. */
 static tahr_status hold(const tahr__tick *t, uint32_t i)
 {
     tahr_report *report = tick_report(t, i);
+    tahr__turn_report(report, TAHR_REPORT_QUERY_CAP);
     if (report) {
-        report->flags |= TAHR_REPORT_QUERY_CAP;
         report->time_lost = t->asked->dt;
     }
     return TAHR_QUERY_CAP;
@@ -239,18 +281,23 @@ static tahr_status hold(const tahr__tick *t, uint32_t i)
 static void step_again(const tahr__tick *t)
 {
     tahr_crowd *c = t->crowd;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < t->asked->count; i++) {
+    uint32_t count = 0, strays = 0;
+    for (uint32_t i = 0; i < t->tasks; i++) {
+        strays += c->parts[i].strays;
+    }
+    for (uint32_t i = 0; i < t->asked->count && count < strays; i++) {
         if (c->statuses[i] == TAHR__STRAYED) {
             c->figures[i].flags |= TAHR__FIGURE_STRAYED;
             c->figures[i].range.extra = 2 * c->strayed[i];
-            tahr__look_of(&c->looks[i], c->movers[i], &t->asked->states[i], t->asked->dt);
+            tahr__look_of(&c->looks[i], kind_of(t, i), &t->asked->states[i], t->asked->dt);
             count++;
         }
     }
     for (uint32_t i = 0; i < t->asked->count && count > 0; i++) {
         if (c->figures[i].flags & TAHR__FIGURE_STRAYED) {
+            const uint64_t beside = c->parts[0].counts.beside; /* it was counted the first time */
             tahr_status status = take_step_among(t, i, &c->parts[0]);
+            c->parts[0].counts.beside = beside;
             c->statuses[i] = status == TAHR__STRAYED ? hold(t, i) : status;
         }
     }

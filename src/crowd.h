@@ -12,8 +12,8 @@ enum { TAHR__NEIGHBOURS = 128 };
 typedef struct tahr__part {
     tahr__spread spread;
     tahr_crowd_counts counts;
-    uint32_t bad; /* first character with something wrong that stops the tick, or ~0u, */
-    uint32_t reserved;
+    uint32_t strays;   /* steps that must be taken again */
+    uint32_t bad;      /* first character with something wrong that stops the tick, or ~0u, */
     const char *field; /* and what */
     const char *why;
     tahr_status status;
@@ -30,8 +30,9 @@ struct tahr_crowd {
     tahr_run_tasks_fn run_tasks;
     void *run_user;
     tahr_mover **kinds;  /* one for each config, which nobody steps */
-    tahr_mover **movers; /* one for each place in the arrays of a tick */
+    tahr_mover **movers; /* one for each place in the arrays of a tick; lean: for each part */
     uint32_t *kind_of;   /* whose config it has now */
+    uint32_t mover_count, is_lean;
     tahr__figure *figures;
     tahr__look *looks;
     tahr_status *statuses;
@@ -48,14 +49,8 @@ typedef struct tahr__tick {
     const tahr_crowd_tick *asked;
     size_t input_stride, report_stride;
     uint32_t tasks;
-    int flat; /* 1: a world of two dimensions */
+    uint32_t rules; /* TAHR__PAIR_* */
 } tahr__tick;
-
-static inline tahr_member tick_member(const tahr__tick *t, uint32_t i)
-{
-    tahr_member simple = {.id = i};
-    return t->asked->members ? t->asked->members[i] : simple;
-}
 
 static inline const tahr_input *tick_input(const tahr__tick *t, uint32_t i)
 {
@@ -69,8 +64,24 @@ static inline tahr_report *tick_report(const tahr__tick *t, uint32_t i)
 
 /* What is wrong with a tick as a whole; TAHR_OK if nothing is. Says it. */
 tahr_status tahr__tick_check(tahr_crowd *crowd, const tahr_crowd_tick *asked, tahr__tick *tick);
-/* What is wrong with one character's part of it that stops all: the field, or NULL. */
-const char *tahr__tick_check_one(const tahr__tick *tick, uint32_t i, tahr_status *status, const char **why);
+/* The rest of tahr__tick_check_one. */
+const char *tahr__tick_check_member(const tahr__tick *tick, const tahr_member *member, tahr_status *status,
+                                    const char **why);
+
+/* What is wrong with one character's part of a tick that stops all: the field, or NULL. */
+static inline const char *tahr__tick_check_one(const tahr__tick *t, uint32_t i, tahr_status *status, const char **why)
+{
+    *status = TAHR_E_STRUCT_SIZE;
+    *why = "is not that of the first one";
+    if (tick_input(t, i)->struct_size != t->input_stride) {
+        return "inputs.struct_size";
+    }
+    if (t->asked->reports && tick_report(t, i)->struct_size != t->report_stride) {
+        return "reports.struct_size";
+    }
+    return t->asked->members ? tahr__tick_check_member(t, &t->asked->members[i], status, why) : NULL;
+}
+
 /* Finds an id that is there twice. Returns TAHR_OK, or says it. */
 tahr_status tahr__tick_check_ids(const tahr__tick *tick);
 

@@ -44,7 +44,9 @@ tahr_status tahr__tick_check(tahr_crowd *crowd, const tahr_crowd_tick *asked, ta
     if (status < 0) {
         return status;
     }
-    *tick = (tahr__tick){.crowd = crowd, .asked = asked, .flat = world_is_planar(crowd->world)};
+    *tick = (tahr__tick){
+        .crowd = crowd, .asked = asked, .rules = world_is_planar(crowd->world) ? (uint32_t)TAHR__PAIR_FLAT : 0u};
+    tick->rules |= crowd->walkable_rule == TAHR_WALKABLE_NEVER ? 0u : (uint32_t)TAHR__PAIR_LEVEL_HEADS;
     tick->input_stride = asked->count > 0 ? asked->inputs[0].struct_size : sizeof(tahr_input);
     tick->report_stride = asked->count > 0 && asked->reports ? asked->reports[0].struct_size : sizeof(tahr_report);
     if (tick->input_stride < sizeof(tahr_input) || tick->input_stride > sizeof(tahr_input) + TAHR__MOST_UNKNOWN ||
@@ -58,8 +60,9 @@ tahr_status tahr__tick_check(tahr_crowd *crowd, const tahr_crowd_tick *asked, ta
     return TAHR_OK;
 }
 
-static const char *check_member(const tahr__tick *t, const tahr_member *m, const char **why)
+const char *tahr__tick_check_member(const tahr__tick *t, const tahr_member *m, tahr_status *status, const char **why)
 {
+    *status = TAHR_E_ARGUMENT;
     *why = "is out of range";
     if (m->id >= TAHR_NO_BODY - TAHR_CHARACTER_BODY) {
         return "members.id";
@@ -78,22 +81,7 @@ static const char *check_member(const tahr__tick *t, const tahr_member *m, const
     return m->budget > 0 && !t->asked->delays ? "members.budget" : NULL;
 }
 
-const char *tahr__tick_check_one(const tahr__tick *t, uint32_t i, tahr_status *status, const char **why)
-{
-    const tahr_report *report = tick_report(t, i);
-    *status = TAHR_E_STRUCT_SIZE;
-    *why = "is not that of the first one";
-    if (tick_input(t, i)->struct_size != t->input_stride) {
-        return "inputs.struct_size";
-    }
-    if (report && report->struct_size != t->report_stride) {
-        return "reports.struct_size";
-    }
-    *status = TAHR_E_ARGUMENT;
-    return t->asked->members ? check_member(t, &t->asked->members[i], why) : NULL;
-}
-
-/* Open addressing; 0 is empty. The table has twice as many places as the crowd. */
+/* Open addressing; 0 is empty. The table has four times as many places as the crowd. */
 tahr_status tahr__tick_check_ids(const tahr__tick *t)
 {
     const tahr_crowd *crowd = t->crowd;

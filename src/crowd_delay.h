@@ -16,6 +16,9 @@ typedef struct tahr__turn {
     tahr_crowd_counts *counts;
 } tahr__turn;
 
+/* Writes a report of nothing but flags. NULL is allowed. */
+void tahr__turn_report(tahr_report *report, uint32_t flags);
+
 /* Like tahr_mover_step among others: also TAHR__STRAYED. */
 tahr_status tahr__turn_step(const tahr__turn *turn);
 

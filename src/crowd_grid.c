@@ -72,7 +72,7 @@ void tahr__grid_begin(tahr__grid *g, const tahr__spread *s)
         wide += s->count[size--];
     }
     g->wide = s->largest[size] > 0 ? s->largest[size] : 1;
-    g->cell = 4 * g->wide;
+    g->per_cell = 1 / (4.001 * g->wide); /* a thousandth for rounding */
     vec3 across = sub(s->max, s->min);
     for (int axis = 1; axis < 3; axis++) {
         narrow = component(across, axis) <= component(across, narrow) ? axis : narrow;
@@ -81,17 +81,9 @@ void tahr__grid_begin(tahr__grid *g, const tahr__spread *s)
     g->axis[1] = narrow == 2 ? 1 : 2;
 }
 
-/* Of a cell's numbers: sums of odd multiples, so that the cells beside one are an addition away. */
-static const uint64_t ALONG = 0x9E3779B97F4A7C15u, ACROSS = 0xC2B2AE3D27D4EB4Fu;
-
 static uint64_t mix(int64_t x, int64_t y)
 {
-    return (uint64_t)x * ALONG + (uint64_t)y * ACROSS;
-}
-
-static uint32_t bucket_of(const tahr__grid *g, uint64_t h)
-{
-    return 1 + ((uint32_t)(h >> 32) & g->mask);
+    return (uint64_t)x * TAHR__ALONG + (uint64_t)y * TAHR__ACROSS;
 }
 
 /* Rounds down, within what an int64_t holds: places are within 2e7 m, cells no smaller than 1e-6 m. */
@@ -101,16 +93,25 @@ static int64_t cell_of(double x)
     return (double)i > x ? i - 1 : i;
 }
 
-void tahr__grid_place(tahr__grid *g, uint32_t i)
+void tahr__grid_place(tahr__grid *g, uint32_t begin, uint32_t end)
 {
-    const tahr__figure *f = &g->figures[i];
-    if (!(f->flags & TAHR__FIGURE_THERE)) {
-        g->bucket[i] = g->mask + 2; /* behind all buckets: in no run */
-    } else if (half_width(f, g->axis) > g->wide) {
-        g->bucket[i] = 0;
-    } else {
-        int64_t x = cell_of(component(f->range.at, g->axis[0]) / g->cell), y = cell_of(component(f->range.at, g->axis[1]) / g->cell);
-        g->bucket[i] = bucket_of(g, mix(x, y));
+    const int a = g->axis[0], b = g->axis[1];
+    for (uint32_t i = begin; i < end; i++) {
+        const tahr__figure *f = &g->figures[i];
+        if (!(f->flags & TAHR__FIGURE_THERE)) {
+            g->bucket[i] = g->mask + 2; /* behind all buckets: in no run */
+        } else if (half_width(f, g->axis) > g->wide) {
+            g->bucket[i] = 0;
+        } else {
+            const double x = component(f->range.at, a) * g->per_cell, y = component(f->range.at, b) * g->per_cell;
+            const int64_t low_x = cell_of(x - 0.5), low_y = cell_of(y - 0.5);
+            const uint64_t corner = mix(low_x, low_y);
+            /* Its own cell is one of the four. */
+            const uint64_t own =
+                (x >= (double)(low_x + 1) ? TAHR__ALONG : 0) + (y >= (double)(low_y + 1) ? TAHR__ACROSS : 0);
+            g->corner[i] = corner;
+            g->bucket[i] = grid_bucket(g, corner + own);
+        }
     }
 }
 
@@ -131,40 +132,4 @@ void tahr__grid_sort(tahr__grid *g)
     }
     memmove(g->start, g->start + 1, buckets * sizeof *g->start);
     g->start[buckets] = g->count;
-}
-
-static int add_run(const tahr__grid *g, uint32_t bucket, uint32_t *begin, uint32_t *end, int runs)
-{
-    begin[runs] = g->start[bucket];
-    end[runs] = g->start[bucket + 1];
-    return runs + (begin[runs] < end[runs]);
-}
-
-int tahr__grid_around(const tahr__grid *g, uint32_t i, uint32_t begin[6], uint32_t end[6])
-{
-    const tahr__figure *f = &g->figures[i];
-    if (half_width(f, g->axis) > g->wide || (f->flags & TAHR__FIGURE_STRAYED)) {
-        begin[0] = 0;
-        end[0] = g->start[g->mask + 2];
-        return 1;
-    }
-    const double x = component(f->range.at, g->axis[0]) / g->cell, y = component(f->range.at, g->axis[1]) / g->cell;
-    const uint64_t h = mix(cell_of(x - 0.5), cell_of(y - 0.5));
-    const uint32_t a = bucket_of(g, h), b = bucket_of(g, h + ALONG), c = bucket_of(g, h + ACROSS);
-    const uint32_t d = bucket_of(g, h + ALONG + ACROSS);
-    int runs = 0;
-    if (g->wide_count > 0) {
-        runs = add_run(g, 0, begin, end, runs);
-    }
-    runs = add_run(g, a, begin, end, runs);
-    if (b != a) {
-        runs = add_run(g, b, begin, end, runs);
-    }
-    if (c != a && c != b) {
-        runs = add_run(g, c, begin, end, runs);
-    }
-    if (d != a && d != b && d != c) {
-        runs = add_run(g, d, begin, end, runs);
-    }
-    return runs;
 }

@@ -55,7 +55,7 @@ static tahr_status check(const tahr_world *world, const tahr_crowd_desc *d)
     if (d->tasks > MOST_TASKS || d->reserved) {
         return refuse(world, TAHR_E_ARGUMENT, d->reserved ? "desc.reserved" : "desc.tasks", "is out of range");
     }
-    if (d->flags & ~(uint32_t)TAHR_CROWD_SLIPPERY_HEADS) {
+    if (d->flags & ~(uint32_t)(TAHR_CROWD_STAND_ON_HEADS | TAHR_CROWD_LEAN)) {
         return refuse(world, TAHR_E_ARGUMENT, "desc.flags", "has unknown bits");
     }
     if (!d->configs) {
@@ -77,7 +77,7 @@ static size_t take(size_t *used, size_t count, size_t size)
 }
 
 typedef struct plan {
-    size_t kinds, movers, kind_of, figures, looks, statuses, strayed, keys, parts, bucket, start, order, size;
+    size_t kinds, movers, kind_of, figures, looks, statuses, strayed, keys, parts, bucket, corner, start, order, size;
 } plan;
 
 static plan plan_of(const tahr_crowd *c)
@@ -85,8 +85,8 @@ static plan plan_of(const tahr_crowd *c)
     const size_t n = c->capacity, table = c->key_mask + (size_t)1;
     plan p = {.size = 0};
     p.kinds = take(&p.size, c->kind_count, sizeof *c->kinds);
-    p.movers = take(&p.size, n, sizeof *c->movers);
-    p.kind_of = take(&p.size, n, sizeof *c->kind_of);
+    p.movers = take(&p.size, c->mover_count, sizeof *c->movers);
+    p.kind_of = take(&p.size, c->mover_count, sizeof *c->kind_of);
     p.figures = take(&p.size, n, sizeof *c->figures);
     p.looks = take(&p.size, n, sizeof *c->looks);
     p.statuses = take(&p.size, n, sizeof *c->statuses);
@@ -94,6 +94,7 @@ static plan plan_of(const tahr_crowd *c)
     p.keys = take(&p.size, table, sizeof *c->keys);
     p.parts = take(&p.size, c->tasks, sizeof *c->parts);
     p.bucket = take(&p.size, n, sizeof *c->grid.bucket);
+    p.corner = take(&p.size, n, sizeof *c->grid.corner);
     p.start = take(&p.size, table + 3, sizeof *c->grid.start);
     p.order = take(&p.size, n, sizeof *c->grid.order);
     return p;
@@ -114,6 +115,7 @@ static void divide(tahr_crowd *c, const plan *p)
     c->grid = (tahr__grid){.figures = c->figures,
                            .mask = c->key_mask,
                            .bucket = (uint32_t *)(void *)(m + p->bucket),
+                           .corner = (uint64_t *)(void *)(m + p->corner),
                            .start = (uint32_t *)(void *)(m + p->start),
                            .order = (uint32_t *)(void *)(m + p->order)};
 }
@@ -124,7 +126,7 @@ static void release(tahr_crowd *c)
     for (uint32_t i = 0; c->memory && i < c->kind_count; i++) {
         tahr_mover_destroy(c->kinds[i]);
     }
-    for (uint32_t i = 0; c->memory && i < c->capacity; i++) {
+    for (uint32_t i = 0; c->memory && i < c->mover_count; i++) {
         tahr_mover_destroy(c->movers[i]);
     }
     if (c->memory) {
@@ -150,7 +152,7 @@ static tahr_status make_movers(tahr_crowd *c, const tahr_crowd_desc *d)
             tahr__say(&c->world->log, TAHR_LOG_ERROR, "tahr_crowd_create", text);
         }
     }
-    for (uint32_t i = 0; i < c->capacity && status >= 0; i++) {
+    for (uint32_t i = 0; i < c->mover_count && status >= 0; i++) {
         status = tahr_mover_create(c->world, d->configs, &c->movers[i]);
     }
     return status;
@@ -179,11 +181,13 @@ tahr_status tahr_crowd_create(tahr_world *world, const tahr_crowd_desc *desc, ta
     c->capacity = desc->capacity;
     c->kind_count = desc->config_count;
     c->tasks = desc->tasks ? desc->tasks : USUAL_TASKS;
+    c->is_lean = (desc->flags & TAHR_CROWD_LEAN) != 0;
+    c->mover_count = c->is_lean ? c->tasks : c->capacity;
     c->walkable_rule =
-        desc->flags & TAHR_CROWD_SLIPPERY_HEADS ? (uint32_t)TAHR_WALKABLE_NEVER : (uint32_t)TAHR_WALKABLE_DEFAULT;
+        desc->flags & TAHR_CROWD_STAND_ON_HEADS ? (uint32_t)TAHR_WALKABLE_DEFAULT : (uint32_t)TAHR_WALKABLE_NEVER;
     c->run_tasks = desc->run_tasks;
     c->run_user = desc->run_user;
-    for (c->key_mask = 15; c->key_mask < 2 * c->capacity; c->key_mask = 2 * c->key_mask + 1) {
+    for (c->key_mask = 15; c->key_mask < 4 * c->capacity; c->key_mask = 2 * c->key_mask + 1) {
     }
     const plan p = plan_of(c);
     c->size = p.size;

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: MIT
  * figure.c: what a character may reach in a tick, and how a plane divides the room between two.
  *
- * Two shapes on different sides of a plane do not meet. Any plane between them does; where it lies decides how it feels.
- * In the middle, who follows another would keep two steps' distance, and who lands on a head would float over it for
- * some ticks. So each gets what its velocity asks for and half of the rest, or, where there is less, as large a part of
- * it as its wish is of both wishes. */
+ * Two shapes on different sides of a plane do not meet. Any plane between them does; where it lies decides how it
+ * feels. In the middle, who follows another would keep two steps' distance, and who lands on a head would float over it
+ * for some ticks. So each gets what its velocity asks for and half of the rest, or, where there is less, as large a
+ * part of it as its wish is of both wishes. */
 #include "figure.h"
 
 #include "apart.h"
 #include "body_motion.h"
+#include "shape.h"
 
 /* Of a length, m: room for rounding of what is foreseen. */
 static const double FORESEEN = 1e-6;
@@ -24,14 +25,17 @@ static double size_of(vec3 v)
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-/* Is the state good enough to be seen by others? Comparisons with a NaN are false. */
-static int is_visible(const tahr_state *s)
+/* Is the state good enough to be seen by others? Comparisons with a NaN are false; of what is not finite here the box
+ * is not. */
+static int is_visible(const tahr_shape *shape, const tahr_state *s)
 {
+    const double up = length_squared(s->up) - 1;
+    if (!(up < 1e-6 && up > -1e-6 && s->radius >= 0 && s->half_height > 0)) {
+        return 0;
+    }
     const tahr_quat q = s->orientation;
-    const double up = length_squared(s->up) - 1, turn = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w) - 1;
-    return length_squared(s->position) <= 4e14 && length_squared(s->velocity) + length_squared(s->base.velocity) <= 1e12 &&
-           up * up + turn * turn < 1e-12 && s->radius >= 0 && s->radius <= 1e4 && s->half_height > 0 &&
-           s->half_height <= 1e4;
+    const double turn = shape_is_round(shape) ? 0 : (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w) - 1;
+    return turn < 1e-6 && turn > -1e-6;
 }
 
 /* What it was asked for. */
@@ -92,27 +96,32 @@ static tahr_shape shape_of(const tahr_mover *mover, const tahr_state *s)
     return shape;
 }
 
-/* The largest that it may be within the tick: grown, turned about its axis, and, where gravity may turn, any way. */
-static vec3 extents(const tahr_mover *mover, const tahr_input *input, const tahr_state *s, double *grows)
+/* The largest that it may be within the tick: grown, turned about its axis. m across its axis, along it (beyond the
+ * former), how much farther its centre may go for that, and how much farther than now any point of it may lie from
+ * there. */
+typedef struct size {
+    double around, along, grows, swell;
+} size;
+
+static size largest(const tahr_shape *shape, const tahr_input *input, const tahr_state *s)
 {
-    const tahr_shape *shape = &mover->config.shape;
-    double r = max_of(s->radius, shape->radius), h = max_of(s->half_height, shape->half_height), around;
+    double r = max_of(s->radius, shape->radius), h = max_of(s->half_height, shape->half_height);
     if (input->flags & TAHR_INPUT_SHAPE) {
         r = max_of(r, input->radius);
         h = max_of(h, input->half_height);
     }
-    *grows = h - s->half_height;
-    around = r;
-    if (r == 0) {
-        around = sqrt(shape->half_x * shape->half_x + shape->half_y * shape->half_y);
+    size z = {.around = r, .along = h, .grows = h - s->half_height};
+    z.swell = z.grows + (r - s->radius);
+    if (shape->type == TAHR_SHAPE_CAPSULE || shape->type == TAHR_SHAPE_SPHERE) {
+        z.along = h - r;
+    } else if (r == 0) {
+        z.around = sqrt(shape->half_x * shape->half_x + shape->half_y * shape->half_y);
+        z.swell += z.around - min_of(shape->half_x, shape->half_y);
     }
-    if (input->flags & TAHR_INPUT_GRAVITY) {
-        const double any = around + h;
-        *grows += h;
-        return vec(any, any, any);
+    if (input->flags & TAHR_INPUT_GRAVITY) { /* it may turn any way, about its foot */
+        z = (size){.around = z.around + h, .grows = z.grows + h, .swell = z.around + h};
     }
-    const double along = shape->type == TAHR_SHAPE_CAPSULE || shape->type == TAHR_SHAPE_SPHERE ? h - r : h;
-    return add_scaled(vec(around, around, around), absolute(s->up), along);
+    return z;
 }
 
 static double half_skin_of(const tahr_config *c)
@@ -132,23 +141,25 @@ void tahr__figure_of(tahr__figure *f, const tahr_mover *mover, const tahr_member
     const tahr_config *c = &mover->config;
     const tahr_world *world = mover->world;
     f->id = member->id;
-    f->flags = 0;
+    f->flags = f->range.bound = 0;
     f->range.extra = 0;
-    if (!is_visible(s)) {
-        f->range.bound = 0;
+    if (!is_visible(&c->shape, s)) {
         return;
     }
     f->groups = member->groups ? member->groups : 1;
     f->mask = member->flags & TAHR_MEMBER_ALONE ? 0 : (member->mask ? member->mask : ~0u);
+    const size z = largest(&c->shape, input, s);
     const double level = speed_of(c, input, s) * dt + (4 * c->skin + FORESEEN), fall = fall_of(mover, s, dt);
-    double grows;
-    const vec3 half = extents(mover, input, s, &grows);
     const double high =
-        grows + (s->mode == TAHR_MODE_WALKING ? max_of(c->step_height, c->snap_distance) : 0.5 * fall * dt);
+        z.grows + (s->mode == TAHR_MODE_WALKING ? max_of(c->step_height, c->snap_distance) : 0.5 * fall * dt);
+    f->swell = z.swell;
+    const double wide = z.around + level + half_skin_of(c), tall = z.along + high;
+    const double x = fabs(s->up.x), y = fabs(s->up.y), u = fabs(s->up.z);
     f->range.at = world->moved_count == 0 && s->base.body == TAHR_NO_BODY ? s->position : carried(world, s);
-    f->range.reach = add_scaled(vec(level, level, level), absolute(s->up), high);
-    f->box = add(add_scaled(half, vec(1, 1, 1), half_skin_of(c)), f->range.reach);
-    const int there = f->mask != 0 && is_finite(size_of(f->range.at) + size_of(f->box));
+    f->range.reach = vec(level + x * high, level + y * high, level + u * high);
+    f->box = vec(wide + x * tall, wide + y * tall, wide + u * tall);
+    const vec3 at = f->range.at;
+    const int there = f->mask != 0 && is_finite(wide + tall) && length_squared(at) <= 1e15; /* 2e7 m, and carried */
     f->range.bound = (uint32_t)there;
     f->flags = there ? (uint32_t)TAHR__FIGURE_THERE : 0u;
 }
@@ -178,27 +189,47 @@ static double share(const tahr__look *a, const tahr__look *b, vec3 n, double gap
     return a->half_skin + (left >= 0 ? wish_a + 0.5 * left : room * wish_a / (wish_a + wish_b));
 }
 
-/* How far it may go along n. */
+/* How far any part of it may come along n. */
 static double reach_along(const tahr__figure *f, vec3 n)
 {
-    return dot(f->range.reach, absolute(n));
+    return dot(f->range.reach, absolute(n)) + f->swell;
 }
 
-int tahr__figure_plane(tahr__party self, tahr__party other, int again, int flat, tahr__neighbour *plane)
+/* m; who overlaps by less is not pushed out: twice what neighbours.c takes for a touch. */
+static const double TOUCHING = 2e-7;
+
+/* Of their skins: nobody comes as near as this to another one by himself. */
+static const double TIGHT = 0.95;
+
+/* Steeper than this, cosine, is beside and not over: 50 degrees, what can be walked on. */
+static const double OVER = 0.64;
+
+static tahr__apart between(tahr__party a, tahr__party b, vec3 c, uint32_t rules)
+{
+    const tahr__solid sa = {&a.look->shape, a.look->up, a.look->orientation};
+    const tahr__solid sb = {&b.look->shape, b.look->up, b.look->orientation};
+    tahr__apart apart = tahr__apart_of(&sa, &sb, c, (rules & TAHR__PAIR_FLAT) != 0);
+    const double over = dot(apart.normal, a.look->up);
+    if (rules & TAHR__PAIR_LEVEL_HEADS && fabs(over) > OVER) {
+        tahr__apart level = tahr__apart_along(&sa, &sb, c, over < 0 ? scale(a.look->up, -1) : a.look->up);
+        apart = level.gap >= 0 ? level : apart;
+    }
+    return apart;
+}
+
+int tahr__figure_plane(tahr__party self, tahr__party other, uint32_t rules, tahr__neighbour *plane)
 {
     /* Both compute the same: the one with the smaller id comes first. */
     const int first = self.figure->id < other.figure->id;
     const tahr__party a = first ? self : other, b = first ? other : self;
-    const tahr__solid sa = {&a.look->shape, a.look->up, a.look->orientation};
-    const tahr__solid sb = {&b.look->shape, b.look->up, b.look->orientation};
     const vec3 c = sub(a.figure->range.at, b.figure->range.at);
-    const tahr__apart apart = tahr__apart_of(&sa, &sb, c, a.figure->id * 31 + b.figure->id, flat);
+    const tahr__apart apart = between(a, b, c, rules);
     const vec3 n = apart.normal;
     const double reach_a = reach_along(a.figure, n), reach_b = reach_along(b.figure, n);
     const double skin_a = a.look->half_skin, skin_b = b.look->half_skin;
     const int foreseen = apart.gap <= reach_a + reach_b + (skin_a + skin_b);
     double mine = share(a.look, b.look, n, apart.gap); /* a's */
-    if (!foreseen && !again) {
+    if (!foreseen && !(rules & TAHR__PAIR_AGAIN)) {
         return 0;
     }
     if (!foreseen && !(a.figure->flags & b.figure->flags & TAHR__FIGURE_STRAYED)) {
@@ -212,23 +243,29 @@ int tahr__figure_plane(tahr__party self, tahr__party other, int again, int flat,
     const double at = apart.extent + apart.gap - mine, behind = apart.gap < 0 ? 0 : self.look->half_skin;
     plane->normal = first ? n : scale(n, -1);
     plane->offset = (first ? at - dot(n, c) : -at) - behind;
+    plane->behind = behind;
+    plane->give = 0;
+    if (apart.gap > -TOUCHING && apart.gap < TIGHT * (skin_a + skin_b)) {
+        const double other_mass = other.look->mass;
+        plane->give = (2 * (skin_a + skin_b) - apart.gap) * other_mass / (self.look->mass + other_mass);
+    }
     plane->body = TAHR_CHARACTER_BODY + other.figure->id;
     plane->reserved = 0;
     return 1;
 }
 
-void tahr__figure_wall(tahr__party self, const tahr__figure *other, int flat, tahr__neighbour *plane)
+void tahr__figure_wall(tahr__party self, const tahr__figure *other, uint32_t rules, tahr__neighbour *plane)
 {
-    const tahr_shape box = {.type = TAHR_SHAPE_BOX,
-                            .half_x = other->box.x,
-                            .half_y = other->box.y,
-                            .half_height = other->box.z};
+    const tahr_shape box = {
+        .type = TAHR_SHAPE_BOX, .half_x = other->box.x, .half_y = other->box.y, .half_height = other->box.z};
     const tahr__solid mine = {&self.look->shape, self.look->up, self.look->orientation};
     const tahr__solid its = {&box, vec(0, 0, 1), (tahr_quat){0, 0, 0, 1}};
     const vec3 c = sub(self.figure->range.at, other->range.at);
-    const tahr__apart apart = tahr__apart_of(&mine, &its, c, self.figure->id, flat);
+    const tahr__apart apart = tahr__apart_of(&mine, &its, c, (rules & TAHR__PAIR_FLAT) != 0);
     plane->normal = apart.normal;
     plane->offset = apart.extent - dot(apart.normal, c) - self.look->half_skin;
+    plane->behind = self.look->half_skin;
+    plane->give = 0;
     plane->body = TAHR_CHARACTER_BODY + other->id;
     plane->reserved = 0;
 }

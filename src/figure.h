@@ -16,6 +16,7 @@ enum {
 typedef struct tahr__figure {
     vec3 box; /* m, half extents around range.at of what it can touch in this tick, along the world's axes */
     tahr__range range;
+    double swell; /* m, that its shape may become larger by within the tick, whichever way */
     uint32_t id, groups, mask;
     uint32_t flags; /* TAHR__FIGURE_* */
 } tahr__figure;
@@ -54,12 +55,15 @@ static inline int figures_meet(const tahr__figure *a, const tahr__figure *b)
     return (a->groups & b->mask) && (b->groups & a->mask);
 }
 
-/* The plane that keeps `self` from `other`. again: self takes its step a second time, and may go farther. Returns 0 if
- * they are too far apart to meet. flat: a world of two dimensions. */
-int tahr__figure_plane(tahr__party self, tahr__party other, int again, int flat, tahr__neighbour *plane);
+/* FLAT: in a world of two dimensions. LEVEL_HEADS: where one is over the other a level plane, if there is one: then
+ * neither is in the other's way. AGAIN: self takes its step a second time, and may go farther. */
+enum { TAHR__PAIR_FLAT = 1 << 0, TAHR__PAIR_LEVEL_HEADS = 1 << 1, TAHR__PAIR_AGAIN = 1 << 2 };
+
+/* The plane that keeps `self` from `other`. Returns 0 if they are too far apart to meet. */
+int tahr__figure_plane(tahr__party self, tahr__party other, uint32_t rules, tahr__neighbour *plane);
 
 /* The plane that keeps one who takes its step again from all that the other one, who does not know, can reach. */
-void tahr__figure_wall(tahr__party self, const tahr__figure *other, int flat, tahr__neighbour *plane);
+void tahr__figure_wall(tahr__party self, const tahr__figure *other, uint32_t rules, tahr__neighbour *plane);
 
 /* m, from the character to a plane. */
 double tahr__figure_away(const tahr__look *look, const tahr__neighbour *plane);

@@ -8,16 +8,20 @@
 #include <string.h>
 
 #include "move.h"
+#include "plane.h"
+#include "query.h"
 #include "support.h"
+#include "trail.h"
 
 /* m; who is deeper in another character at the begin of a step is pushed out. Less is rounding of where they are. */
 static const double TOUCHING = 1e-7;
 
-/* Of a plane: signed distance of a shape at a place. */
+/* m from a shape at a place to the surface; once it is beyond the plane in front of that, to the plane: negative. */
 static double distance_to(const tahr__neighbours *n, const tahr__neighbour *plane, const tahr__solid *solid, vec3 at)
 {
     vec3 down = scale(plane->normal, -1);
-    return dot(plane->normal, sub(at, n->anchor)) - tahr__support(solid, down) - plane->offset;
+    double d = dot(plane->normal, sub(at, n->anchor)) - tahr__support(solid, down) - plane->offset;
+    return d < plane->behind ? d - plane->behind : d;
 }
 
 static void fill(tahr_hit *hit, const tahr__neighbours *n, const tahr__neighbour *plane)
@@ -46,17 +50,17 @@ static int stays(const tahr_hit *hit, uint32_t count, double fraction, double de
 static void meet(const tahr__neighbours *n, const tahr__neighbour *plane, const tahr_sweep *q, double d, tahr_hit *hit,
                  uint32_t *count)
 {
-    const double closing = -dot(plane->normal, q->motion);
+    const double closing = -dot(plane->normal, q->motion), margin = max_of(q->margin, plane->behind);
     const int overlaps = d < -TOUCHING;
     double fraction = 0;
     if (overlaps ? closing <= 0 && (q->flags & TAHR_SWEEP_LEAVE_OVERLAP) : closing <= 0) {
         return;
     }
-    if (d > q->margin) {
-        if (d - q->margin > closing) {
+    if (d > margin) {
+        if (d - margin > closing) {
             return;
         }
-        fraction = min_of((d - q->margin) / closing, 1);
+        fraction = min_of((d - margin) / closing, 1);
     }
     if (stays(hit, *count, fraction, overlaps ? -d : 0)) {
         return;
@@ -66,7 +70,7 @@ static void meet(const tahr__neighbours *n, const tahr__neighbour *plane, const 
     fill(hit, n, plane);
     hit->start_overlap = (uint32_t)overlaps;
     hit->fraction = fraction;
-    hit->distance = min_of(d, q->margin);
+    hit->distance = min_of(d, margin);
     hit->depth = overlaps ? -d : 0;
     hit->point = add(add_scaled(q->position, q->motion, fraction),
                      add_scaled(tahr__support_point(&solid, down), down, hit->distance));
@@ -148,10 +152,50 @@ static int overlaps_any(const tahr__step *step)
     return 0;
 }
 
+/* As far as the world lets it with its skin, and the neighbours without one: they notice it in the next tick. */
+static void press(tahr__step *step, vec3 motion)
+{
+    const tahr__neighbours *n = step->neighbours;
+    tahr_sweep q = {.shape = step->limits->shape,
+                    .position = step->state.position,
+                    .up = step->state.up,
+                    .orientation = step->state.orientation,
+                    .motion = motion,
+                    .ignore_body = TAHR_NO_BODY,
+                    .flags = TAHR_SWEEP_LEAVE_OVERLAP};
+    tahr_hit world, other;
+    uint32_t count = 0;
+    tahr__trail_go(step);
+    step->neighbours = NULL;
+    tahr__sweep(step, &step->limits->shape, q.position, motion, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &world);
+    step->neighbours = n;
+    tahr__neighbours_sweep(n, &q, &other, &count);
+    double fraction = world.blocking ? (world.start_overlap ? 0 : world.fraction) : 1;
+    fraction = count > 0 ? min_of(fraction, other.start_overlap ? 0 : other.fraction) : fraction;
+    step->state.position = add_scaled(q.position, motion, fraction);
+    step->just_teleported |= fraction > 0;
+}
+
+/* Makes room for those who were pressed against it: so a push goes on through a crowd. */
+static void give_way(tahr__step *step)
+{
+    const tahr__neighbours *n = step->neighbours;
+    for (uint32_t i = 0; i < n->count && step->error >= 0; i++) {
+        if (n->planes[i].give > 0) {
+            press(step, along_plane(step->limits, scale(n->planes[i].normal, n->planes[i].give)));
+        }
+    }
+}
+
 void tahr__meet_neighbours(tahr__step *step)
 {
     step->neighbours = step->around;
-    if (step->state.mode != TAHR_MODE_NONE && step->dt > 0 && overlaps_any(step)) {
+    if (step->state.mode == TAHR_MODE_NONE || step->dt <= 0) {
+        return;
+    }
+    if (overlaps_any(step)) {
         tahr__depenetrate(step);
+    } else {
+        give_way(step);
     }
 }

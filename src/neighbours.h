@@ -5,10 +5,13 @@
 
 #include "core.h"
 
-/* Everything with normal . (x - anchor) < offset is the other's. */
+/* Everything with normal . (x - anchor) < offset + behind is the other's. The surface from which the character keeps
+ * its skin lies `behind` that plane. */
 typedef struct tahr__neighbour {
-    vec3 normal; /* unit, from the other to this one */
-    double offset;
+    vec3 normal;   /* unit, from the other to this one */
+    double offset; /* m, of the surface */
+    double behind; /* m, 0 or more */
+    double give;   /* m by which it steps aside before its step, if there is room: they were squeezed together */
     uint32_t body; /* TAHR_CHARACTER_BODY + the other's id */
     uint32_t reserved;
 } tahr__neighbour;
@@ -23,9 +26,9 @@ typedef struct tahr__neighbours {
 
 /* How far a step was foreseen to go. */
 typedef struct tahr__range {
-    vec3 at;      /* where the character is, once what it stands on has carried it */
-    vec3 reach;   /* m from there, along the world's axes */
-    double extra; /* m on top of it, for who takes its step again */
+    vec3 at;        /* where the character is, once what it stands on has carried it */
+    vec3 reach;     /* m from there, along the world's axes */
+    double extra;   /* m on top of it, for who takes its step again */
     uint32_t bound; /* 0: nobody minds how far it goes */
     uint32_t reserved;
 } tahr__range;

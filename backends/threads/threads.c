@@ -44,7 +44,8 @@ static void *live(void *user)
     uint64_t seen = 0;
     pthread_mutex_lock(&t->lock);
     for (;;) {
-        while (t->round == seen && !t->ends) pthread_cond_wait(&t->begun, &t->lock);
+        while (t->round == seen && !t->ends)
+            pthread_cond_wait(&t->begun, &t->lock);
         if (t->ends) break;
         seen = t->round;
         tahr_task_fn task = t->task;
@@ -88,11 +89,13 @@ tahr_status tahr_threads_create(const tahr_allocator *allocator, uint32_t count,
     memset(t, 0, sizeof *t);
     t->allocator = a;
     atomic_init(&t->next, 0);
-    pthread_mutex_init(&t->lock, NULL); /* of the default kind: cannot fail where there is memory for it, and there is */
+    pthread_mutex_init(&t->lock,
+                       NULL); /* of the default kind: cannot fail where there is memory for it, and there is */
     pthread_cond_init(&t->begun, NULL);
     pthread_cond_init(&t->done, NULL);
     const uint32_t wanted = (count ? count : processors()) - 1;
-    while (t->started < wanted && pthread_create(&t->thread[t->started], NULL, live, t) == 0) t->started++;
+    while (t->started < wanted && pthread_create(&t->thread[t->started], NULL, live, t) == 0)
+        t->started++;
     if (t->started < wanted) {
         tahr_threads_destroy(t);
         return TAHR_E_MEMORY;
@@ -108,7 +111,8 @@ void tahr_threads_destroy(tahr_threads *t)
     t->ends = 1;
     pthread_cond_broadcast(&t->begun);
     pthread_mutex_unlock(&t->lock);
-    for (uint32_t i = 0; i < t->started; i++) pthread_join(t->thread[i], NULL);
+    for (uint32_t i = 0; i < t->started; i++)
+        pthread_join(t->thread[i], NULL);
     pthread_cond_destroy(&t->done);
     pthread_cond_destroy(&t->begun);
     pthread_mutex_destroy(&t->lock);
@@ -144,12 +148,14 @@ void tahr_threads_run(void *threads, tahr_task_fn task, void *argument, uint32_t
 {
     tahr_threads *t = threads;
     if (!t || t->started == 0 || count < 2 || !begin(t, task, argument, count)) {
-        for (uint32_t i = 0; i < count; i++) task(argument, i);
+        for (uint32_t i = 0; i < count; i++)
+            task(argument, i);
         return;
     }
     work(t, task, argument, count);
     pthread_mutex_lock(&t->lock);
-    while (t->at_work > 0) pthread_cond_wait(&t->done, &t->lock);
+    while (t->at_work > 0)
+        pthread_cond_wait(&t->done, &t->lock);
     t->busy = 0;
     pthread_mutex_unlock(&t->lock);
 }

@@ -8,6 +8,7 @@
 
 #define FALL_OUT_DEPTH 10.0 /* m below the lowest vertex */
 #define STRAIGHT_DT 0.21 /* s; the way of a longer step bends round corners that a line between its ends would cross */
+#define COMPANY 3.0      /* m between centres: a body's height, and a step or two */
 #define SAMPLE_PERIOD 16 /* steps, of --check sampled */
 
 void moment_place(struct run *run, struct character *character, double time)
@@ -34,7 +35,7 @@ static void count_events(struct run *run, const struct moment *m, const tahr_sta
 {
     struct result *r = &run->result;
     for (uint32_t i = 0; i < m->report.event_count; i++) {
-        const tahr_event *event = &m->events[i];
+        const tahr_event *event = &m->report.events[i];
         r->events[event->type < EVENT_TYPES ? event->type : 0]++;
         if (event->type == TAHR_EVENT_OVERLAP_BEGIN && run->level.side != NULL) {
             side_reach(run->level.side, event->body, m->time + event->time);
@@ -70,6 +71,18 @@ static void count_report(struct run *run, const struct moment *m, const tahr_sta
     count_events(run, m, state);
 }
 
+/* With --crowd: is another character within reach? Then that one may be what holds or presses it. */
+static int has_company(const struct run *run, const struct moment *m, tahr_vec3 position)
+{
+    for (uint32_t i = 0; run->options->crowd && i < run->options->characters; i++) {
+        tahr_vec3 off = vec_sub(run->characters[i].state.position, position);
+        if (i != m->index && vec_dot(off, off) < COMPANY * COMPANY) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 /* The independent look at one step. */
 static void check_step(struct run *run, const struct moment *m, const tahr_state *state)
 {
@@ -90,7 +103,8 @@ static void check_step(struct run *run, const struct moment *m, const tahr_state
     double clearance = checker_clearance(run->checker, &shape, state->position, state->up);
     if (m->report.flags & TAHR_REPORT_CRUSHED) { /* there was no room, which only a mover can bring about */
         r->crushed++;
-        if (checker_mover_clearance(run->checker, &shape, state->position, state->up) >= CHECK_REACH) {
+        if (checker_mover_clearance(run->checker, &shape, state->position, state->up) >= CHECK_REACH &&
+            !has_company(run, m, state->position)) {
             r->crushed_alone++;
             add_finding(run, m, "crushed by nothing that moves", state->position);
         }
@@ -134,12 +148,13 @@ void moment_watch(struct run *run, const struct moment *m, struct character *cha
     if (run->csv != NULL) {
         csv_write(run->csv, &(struct csv_row){m->step, end, m->index, state, &m->report});
     }
-    if (progress_watch(&character->progress, run->world, &run->config, state, &m->input, m->heading_is_new, end)) {
+    if (progress_watch(&character->progress, run->world, &run->config, state, &m->input, m->heading_is_new, end) &&
+        !has_company(run, m, state->position)) {
         run->result.stuck++;
         add_finding(run, m, "stuck", state->position);
         track_mark(&run->track, m->index, TRACK_STUCK, end, foot_of(state->position, state));
     }
-    if (progress_hangs(&character->progress, state, end)) {
+    if (progress_hangs(&character->progress, state, end) && !has_company(run, m, state->position)) {
         run->result.hung++;
         add_finding(run, m, "hangs in the air", state->position);
         track_mark(&run->track, m->index, TRACK_STUCK, end, foot_of(state->position, state));

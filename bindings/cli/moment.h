@@ -12,8 +12,6 @@
 #include <stdio.h>
 #include <tahr/trace.h>
 
-#define EVENT_CAPACITY 64 /* per step; more are counted as lost by the library */
-
 struct character {
     tahr_state state;
     tahr_mover *mover;
@@ -49,8 +47,7 @@ struct moment {
     tahr_shape shape_before;
     tahr_input input;
     int heading_is_new;
-    tahr_report report;
-    tahr_event events[EVENT_CAPACITY];
+    tahr_report report; /* its events are those of the step */
 };
 
 /* Puts a character where it started. */

@@ -18,6 +18,8 @@ enum {
     OPTION_LEVEL = 256,
     OPTION_UP,
     OPTION_CHARACTERS,
+    OPTION_CROWD,
+    OPTION_THREADS,
     OPTION_SECONDS,
     OPTION_RATE,
     OPTION_SEED,
@@ -40,6 +42,8 @@ enum {
 static const struct option known[] = {{"level", required_argument, NULL, OPTION_LEVEL},
                                       {"up", required_argument, NULL, OPTION_UP},
                                       {"characters", required_argument, NULL, OPTION_CHARACTERS},
+                                      {"crowd", no_argument, NULL, OPTION_CROWD},
+                                      {"threads", required_argument, NULL, OPTION_THREADS},
                                       {"seconds", required_argument, NULL, OPTION_SECONDS},
                                       {"rate", required_argument, NULL, OPTION_RATE},
                                       {"seed", required_argument, NULL, OPTION_SEED},
@@ -61,24 +65,27 @@ static const struct option known[] = {{"level", required_argument, NULL, OPTION_
 
 void options_help(void)
 {
-    fputs("usage: tahr run [options]\n"
-          "\n"
-          "Drives characters through a level and reports how they fared.\n"
-          "\n"
-          "  --level FILE       OBJ, glTF or what else Assimp reads; maps of voxels (.bt, .ot: Z up, backend fcl);\n"
-          "                     without it the bundled playground.\n"
-          "                     With --2d: a map of Tiled (.tmj); without it the bundled side-scroller\n"
-          "  --2d               two dimensions, seen from the side: x to the right, y up\n"
-          "  --up y|z           which axis of the file points up (y); shown and written is always Z up: (x, -z, y)\n"
-          "  --characters N     1 to 100000 wandering characters (16)\n"
-          "  --seconds S        simulated time (10; 65 with --tour)\n"
-          "  --rate HZ          steps per second, 1 to 100000 (60)\n"
-          "  --seed K           of spawn points and headings (1)\n"
-          "  --preset NAME      settings of the characters: precise, unreal, platformer (precise;\n"
-          "                     with --2d platformer)\n"
-          "  --shape NAME       of the characters: capsule, box (flat feet), sphere (capsule)\n"
-          "  --backend NAME     collision engine, one of",
-          stdout);
+    fputs(
+        "usage: tahr run [options]\n"
+        "\n"
+        "Drives characters through a level and reports how they fared.\n"
+        "\n"
+        "  --level FILE       OBJ, glTF or what else Assimp reads; maps of voxels (.bt, .ot: Z up, backend fcl);\n"
+        "                     without it the bundled playground.\n"
+        "                     With --2d: a map of Tiled (.tmj); without it the bundled side-scroller\n"
+        "  --2d               two dimensions, seen from the side: x to the right, y up\n"
+        "  --up y|z           which axis of the file points up (y); shown and written is always Z up: (x, -z, y)\n"
+        "  --characters N     1 to 100000 wandering characters (16)\n"
+        "  --crowd            the characters are obstacles of each other; without it they pass through each other\n"
+        "  --threads T        1 to 256 threads that step them; changes no result, and times are then means of a step\n"
+        "  --seconds S        simulated time (10; 65 with --tour)\n"
+        "  --rate HZ          steps per second, 1 to 100000 (60)\n"
+        "  --seed K           of spawn points and headings (1)\n"
+        "  --preset NAME      settings of the characters: precise, unreal, platformer (precise;\n"
+        "                     with --2d platformer)\n"
+        "  --shape NAME       of the characters: capsule, box (flat feet), sphere (capsule)\n"
+        "  --backend NAME     collision engine, one of",
+        stdout);
     for (size_t i = 0; backend_choice_at(i) != NULL; i++) {
         printf("%s %s", i ? "," : "", backend_choice_at(i)->name);
     }
@@ -229,6 +236,12 @@ static int read_option(struct options *o, int option, const char *value)
         failed = read_whole("characters", value, 1, 100000, &whole);
         o->characters = (uint32_t)whole;
         return failed;
+    case OPTION_CROWD: o->crowd = 1; return 0;
+    case OPTION_THREADS:
+        whole = 0;
+        failed = read_whole("threads", value, 1, 256, &whole);
+        o->threads = (uint32_t)whole;
+        return failed;
     case OPTION_SECONDS: return read_number("seconds", value, 1e-6, 1e6, &o->seconds);
     case OPTION_RATE: return read_number("rate", value, 1, 1e5, &o->rate);
     case OPTION_SEED: return read_whole("seed", value, 0, INT64_MAX, &o->seed);
@@ -317,6 +330,11 @@ static int check_together(struct options *o, const char given[OPTION_HELP + 1])
     }
     if ((o->route != NULL || o->tour) && characters_given && o->characters != 1) {
         say_error("--characters %u: a --route or --tour drives one character", o->characters);
+        return -1;
+    }
+    if (o->trace != NULL && (o->threads > 0 || o->crowd)) {
+        say_error("--trace '%s': not with --%s; a trace knows one character at a time", o->trace,
+                  o->crowd ? "crowd" : "threads");
         return -1;
     }
     if (o->level == NULL && up_given) {

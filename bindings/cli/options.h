@@ -11,6 +11,8 @@ struct options {
     const char *level; /* NULL: the bundled one */
     char up;           /* 'y' or 'z' */
     uint32_t characters;
+    uint32_t threads; /* 0: not asked for */
+    int crowd;        /* 1: they are obstacles of each other */
     double seconds;
     double rate; /* Hz */
     uint64_t seed;

@@ -10,6 +10,7 @@
 #include "side.h"
 #include "spawn.h"
 #include "summary.h"
+#include "throng.h"
 #include "vec.h"
 
 #include <stdlib.h>
@@ -17,6 +18,8 @@
 #include <tahr/trace.h>
 #include <unistd.h>
 
+#define EVENT_CAPACITY 64 /* per step; more are counted as lost by the library */
+#define TOUCHING 1e-6 /* m by which two characters may overlap: the rounding of where they are, far from the origin */
 #define WANDER_SPEED 5.0 /* m/s, by the definition of wandering */
 
 static int open_world(struct run *run)
@@ -63,7 +66,8 @@ static int create_characters(struct run *run)
         character->wander.crouches = o->level == NULL;
         character->wander.side = o->side;
         moment_place(run, character, 0);
-        tahr_status status = tahr_mover_create(run->world, &run->config, &character->mover);
+        const int alone = o->threads == 0 && !o->crowd; /* else they are the throng's */
+        tahr_status status = alone ? tahr_mover_create(run->world, &run->config, &character->mover) : TAHR_OK;
         if (status < 0) {
             say_error("cannot create character %u on backend '%s': %s", i, o->backend->name,
                       tahr_status_message(status));
@@ -191,7 +195,7 @@ static int open_run(struct run *run)
     }
     times_open(&run->result.times);
     run->result.clock_cost = clock_cost();
-    run->result.least_clearance = CHECK_REACH;
+    run->result.least_clearance = run->result.least_apart = CHECK_REACH;
     return 0;
 }
 
@@ -235,16 +239,23 @@ static int move_bodies(struct run *run, double begin)
     return 0;
 }
 
-static int step_character(struct run *run, struct moment *m)
+void throng_input(struct run *run, struct moment *m)
 {
     struct character *character = &run->characters[m->index];
     m->input = (tahr_input){.struct_size = sizeof m->input};
-    m->report = (tahr_report){.struct_size = sizeof m->report, .events = m->events, .event_capacity = EVENT_CAPACITY};
     m->heading_is_new = run->route.count > 0 ? route_input(&run->route, m->time, character->state.position, &m->input)
                                              : wander_input(&character->wander, m->time, &m->input);
     if (run->route.count == 0 && character->state.mode == TAHR_MODE_HANGING && m->heading_is_new) {
         m->input.jump = 1; /* who hangs on an edge and wants to go elsewhere climbs, or jumps off */
     }
+}
+
+static int step_character(struct run *run, struct moment *m)
+{
+    struct character *character = &run->characters[m->index];
+    tahr_event events[EVENT_CAPACITY];
+    m->report = (tahr_report){.struct_size = sizeof m->report, .events = events, .event_capacity = EVENT_CAPACITY};
+    throng_input(run, m);
     m->before = character->state.position;
     m->flags_before = character->state.flags;
     m->shape_before = shape_now(&run->config, &character->state);
@@ -270,7 +281,7 @@ static void show_progress(const struct run *run, uint64_t step)
             (unsigned long long)r->fell_out, (unsigned long long)r->tunnels);
 }
 
-static int walk(struct run *run)
+static int walk(struct run *run, struct throng *throng)
 {
     struct moment moment;
     int shown = isatty(STDERR_FILENO) && !run->options->json;
@@ -280,7 +291,10 @@ static int walk(struct run *run)
         if (run->level.mover_count > 0 && move_bodies(run, moment.time) != 0) {
             return -1;
         }
-        for (moment.index = 0; moment.index < run->options->characters; moment.index++) {
+        if (throng != NULL && throng_step(run, throng, moment.step, moment.time) != 0) {
+            return -1;
+        }
+        for (moment.index = 0; throng == NULL && moment.index < run->options->characters; moment.index++) {
             if (step_character(run, &moment) != 0) {
                 return -1;
             }
@@ -331,7 +345,7 @@ static int finish(struct run *run)
     r->state_hash = hash_states(run);
     r->world_bytes = tahr_world_memory(run->world);
     r->failed = r->tunnels > 0 || r->crushed_alone > 0 || r->bad_states > 0 || r->stuck > 0 || r->hung > 0 ||
-                r->deepest > o->backend->penetration_allowed;
+                r->deepest > o->backend->penetration_allowed || r->least_apart < -TOUCHING;
     if (close_trace(run) != 0) {
         return -1;
     }
@@ -362,9 +376,11 @@ int run_command(int argc, char **argv)
     struct run run = {
         .options = &options, .dt = 1 / options.rate, .step_count = (uint64_t)(options.seconds * options.rate + 0.5)};
     int code = EXIT_USAGE; /* whatever keeps a run from starting was asked for on the command line */
-    if (open_run(&run) == 0) {
-        code = walk(&run) == 0 && finish(&run) == 0 && !run.result.failed ? EXIT_GOOD : EXIT_CHECK_FAILED;
+    struct throng *throng = NULL;
+    if (open_run(&run) == 0 && throng_open(&run, &throng) == 0) {
+        code = walk(&run, throng) == 0 && finish(&run) == 0 && !run.result.failed ? EXIT_GOOD : EXIT_CHECK_FAILED;
     }
+    throng_close(throng);
     close_run(&run);
     options_close(&options);
     return code;

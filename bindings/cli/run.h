@@ -34,6 +34,7 @@ struct result {
     uint64_t crushed, crushed_alone; /* of the steps looked at; alone: with no mover near */
     double least_clearance;          /* m; CHECK_REACH if nothing came closer */
     double deepest;                  /* m, deepest penetration of the true shape */
+    double least_apart; /* m, of two with --crowd that were apart before; CHECK_REACH if none came closer */
     uint64_t state_hash;
     uint64_t world_bytes;
     uint64_t trace_bytes; /* written by --trace */

@@ -114,6 +114,10 @@ void summary_words(const struct options *o, const struct level *level, const str
     }
     words_oddities(r);
     words_check(o, r);
+    if (o->crowd && o->check != CHECK_OFF && r->least_apart < CHECK_REACH) {
+        printf("  crowd      closest to each other %.4g mm%s\n", r->least_apart * 1e3,
+               r->least_apart < 0 ? ": they overlap" : "");
+    }
     words_findings(r);
     printf("  state      hash %016" PRIx64 "\n", r->state_hash);
     if (o->csv != NULL) {
@@ -152,6 +156,8 @@ static void put_run(json_t *object, const struct options *o, const struct level 
     put_text(object, "backend", o->backend->name);
     put_text(object, "preset", tahr_preset_name(o->preset));
     put_count(object, "characters", o->characters);
+    put_count(object, "threads", o->threads);
+    json_object_set_new(object, "crowd", json_boolean(o->crowd));
     put_real(object, "seconds", o->seconds);
     put_real(object, "rate", o->rate);
     put_count(object, "seed", o->seed);
@@ -203,6 +209,7 @@ static void put_behaviour(json_t *object, const struct result *r)
     put_count(object, "tunnels", r->tunnels);
     put_real(object, "deepest_penetration", r->deepest);
     put_real(object, "least_clearance", r->least_clearance);
+    put_real(object, "least_apart", r->least_apart);
     put_text(object, "state_hash", hash);
     json_object_set_new(object, "ok", json_boolean(!r->failed));
 }

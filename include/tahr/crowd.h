@@ -22,22 +22,26 @@ typedef void (*tahr_run_tasks_fn)(void *user, tahr_task_fn task, void *argument,
  * While a crowd is open the bodies of a world over callbacks have smaller numbers than that. */
 #define TAHR_CHARACTER_BODY 0x80000000u
 
-/* SLIPPERY_HEADS: nobody stands on another character: who comes down on one slides off it (and floats where it is met
- * exactly in the middle, until one of them moves). Without it a head is a floor like any other, as far as it is no
- * steeper than config.walkable_angle; it carries nobody: who stands on it is not taken along. */
-enum { TAHR_CROWD_SLIPPERY_HEADS = 1 << 0 };
+/* STAND_ON_HEADS: a head is a floor like any other, as far as it is no steeper than config.walkable_angle. It carries
+ * nobody: who stands on it is not taken along, and in the way of whom it belongs to when he goes to that side. Without
+ * it nobody stands on another character: who comes down on one slides off (and floats where it is met exactly in the
+ * middle, until one of them moves).
+ * LEAN: one mover for each task instead of one for each character: 39 KB a character less on native, and several times
+ * the cost, for every step gathers its surroundings anew and who stands still is computed all the same. The same
+ * bits. */
+enum { TAHR_CROWD_STAND_ON_HEADS = 1 << 0, TAHR_CROWD_LEAN = 1 << 1 };
 
 /* [in] everything is copied. */
 typedef struct tahr_crowd_desc {
     uint32_t struct_size;
-    uint32_t flags;                   /* TAHR_CROWD_* */
-    uint32_t capacity;                /* 1..2^22 characters, for which memory is taken */
-    uint32_t config_count;            /* 1..65536 */
-    const tahr_config *configs;       /* what members choose from; all of one struct_size */
-    tahr_run_tasks_fn run_tasks;      /* NULL: everything on the calling thread */
-    void *run_user;                   /* handed to it; must stay valid until the crowd is destroyed */
-    uint32_t tasks;                   /* [0: 32] parts that a tick is cut into, up to 4096: changes no result */
-    uint32_t reserved;                /* 0 */
+    uint32_t flags;              /* TAHR_CROWD_* */
+    uint32_t capacity;           /* 1..2^22 characters, for which memory is taken */
+    uint32_t config_count;       /* 1..65536 */
+    const tahr_config *configs;  /* what members choose from; all of one struct_size */
+    tahr_run_tasks_fn run_tasks; /* NULL: everything on the calling thread */
+    void *run_user;              /* handed to it; must stay valid until the crowd is destroyed */
+    uint32_t tasks;              /* [0: 32] parts that a tick is cut into, up to 4096: changes no result */
+    uint32_t reserved;           /* 0 */
 } tahr_crowd_desc;
 
 /* ALONE: meets nobody. */
@@ -58,10 +62,10 @@ typedef struct tahr_member {
 /* Of a distant character: what was computed ahead. Plain data like tahr_state, and like it part of what decides the
  * future: keep it, copy it, hash it together with the state. Zero for a new character. Frozen, 1280 bytes. */
 typedef struct tahr_delay {
-    tahr_state from, to; /* the step that was computed, from its begin to its end */
-    double length;       /* s, of that step; 0: none */
-    double elapsed;      /* s of it that are shown */
-    uint64_t revision;   /* of the world then */
+    tahr_state from, to;     /* the step that was computed, from its begin to its end */
+    double length;           /* s, of that step; 0: none */
+    double elapsed;          /* s of it that are shown */
+    uint64_t revision;       /* of the world then */
     tahr_vec3 move, gravity; /* input of that step */
     uint32_t jump, crouch;
     uint32_t flags;    /* of that input */
@@ -101,7 +105,7 @@ typedef struct tahr_crowd_counts {
 TAHR_API tahr_status tahr_crowd_desc_init(tahr_crowd_desc *desc, size_t size);
 TAHR_API tahr_status tahr_crowd_tick_init(tahr_crowd_tick *tick, size_t size);
 
-/* Memory for a crowd: a mover for each of its characters, and what finds neighbours; from the world's
+/* Memory for a crowd: a mover for each of its characters (but see LEAN), and what finds neighbours; from the world's
  * allocator.
  * [in] world, which must outlive the crowd; desc, copied. [out] crowd, untouched on error; destroy it with
  * tahr_crowd_destroy. Needs exclusive access to the world. Allocates.
@@ -120,7 +124,11 @@ TAHR_API void tahr_crowd_destroy(tahr_crowd *crowd);
  * cannot meet, in whatever order and on however many threads they move. It leaves each the room that its velocity asks
  * for, or its share of what there is, and half of its skin. Who overlaps another from the start is pushed out of him:
  * of the way each takes the part that the other's mass is of both. Hulls are to others the box around them.
- * An infinite plane stands for a round neighbour for one tick only, but for that long also beside him.
+ * An infinite plane stands for a round neighbour for one tick only, but for that long also beside him. Who is squeezed
+ * by a body that moves, or turns as a box where there is no room for it, goes into his neighbours rather than into what
+ * never moves (TAHR_CRUSHED), and they give way in the next ticks.
+ * TAHR_MODE_CUSTOM has no function in a crowd. More than 127 neighbours at once: the farthest do not count
+ * (TAHR_TRUNCATED).
  *
  * A member with a budget takes one step for several ticks at once, up to 8, where that meets nothing: in between it is
  * shown on the straight line from begin to end, along which it was swept. Whatever changes (its input, dt, its state,
@@ -141,8 +149,8 @@ TAHR_API void tahr_crowd_destroy(tahr_crowd *crowd);
  * the steps. Since 0.1. */
 TAHR_API tahr_status tahr_crowd_step(tahr_crowd *crowd, const tahr_crowd_tick *tick);
 
-/* [out] counts, struct_size set by the caller; untouched on error. Allocates nothing; not while the crowd steps. Returns
- * TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE. Since 0.1. */
+/* [out] counts, struct_size set by the caller; untouched on error. Allocates nothing; not while the crowd steps.
+ * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE. Since 0.1. */
 TAHR_API tahr_status tahr_crowd_get_counts(const tahr_crowd *crowd, tahr_crowd_counts *counts);
 
 #ifdef __cplusplus

@@ -137,8 +137,8 @@ enum {
     TAHR_REPORT_SHAPE_REFUSED = 1 << 8, /* no room for the shape asked for; tried again in the next step */
     TAHR_REPORT_BASE_LOST = 1 << 9,     /* could not follow its base the whole way */
     TAHR_REPORT_TOUCHED_LOST = 1 << 10, /* inside of more sensors than a state remembers */
-    TAHR_REPORT_DEFERRED = 1 << 12,     /* in a crowd: shown on its way, not computed in this tick */
-    TAHR_REPORT_MODE_REFUSED = 1 << 11  /* the mode asked for has no function, no floor below or no fluid around it */
+    TAHR_REPORT_MODE_REFUSED = 1 << 11, /* the mode asked for has no function, no floor below or no fluid around it */
+    TAHR_REPORT_DEFERRED = 1 << 12      /* in a crowd: shown on its way, not computed in this tick */
 };
 
 /* The most queries one step may ask, whatever the world answers; then it stops where it is and says so. */

@@ -13,7 +13,8 @@ extern "C" {
 typedef struct tahr_threads tahr_threads;
 
 /* Starts count - 1 threads; the one that hands out tasks is the last of count. They sleep while there is nothing to do.
- * [in] allocator, copied, or NULL for malloc; count 1..256, or 0: as many as the machine has processors. [out] threads, untouched on error; end them with tahr_threads_destroy. Allocates here only.
+ * [in] allocator, copied, or NULL for malloc; count 1..256, or 0: as many as the machine has processors. [out] threads,
+ * untouched on error; end them with tahr_threads_destroy. Allocates here only.
  * Returns TAHR_OK, TAHR_E_NULL, TAHR_E_ARGUMENT (count), TAHR_E_MEMORY (also: the system gives no more threads).
  * Since 0.1. */
 TAHR_API tahr_status tahr_threads_create(const tahr_allocator *allocator, uint32_t count, tahr_threads **threads);
@@ -25,9 +26,9 @@ TAHR_API void tahr_threads_destroy(tahr_threads *threads);
 TAHR_API uint32_t tahr_threads_count(const tahr_threads *threads);
 
 /* A tahr_run_tasks_fn: calls task(argument, i) once for every i < count, lowest first, on all threads and the calling
- * one, and returns when all have returned. threads: a tahr_threads, as tahr_crowd_desc.run_user hands it over; NULL: all
- * on the calling thread, and so if the threads are at work already, for another thread or for the task that calls this.
- * Allocates nothing; may run on several threads. Since 0.1. */
+ * one, and returns when all have returned. threads: a tahr_threads, as tahr_crowd_desc.run_user hands it over; NULL:
+ * all on the calling thread, and so if the threads are at work already, for another thread or for the task that calls
+ * this. Allocates nothing; may run on several threads. Since 0.1. */
 TAHR_API void tahr_threads_run(void *threads, tahr_task_fn task, void *argument, uint32_t count);
 
 #ifdef __cplusplus

@@ -96,10 +96,19 @@ if [ -e "$prefix/$LIBDIR/libtahr.so" ]; then
     echo "install: every plugin loads by its path"
 fi
 
+# The pool of threads, by pkg-config, with the example that a new user would begin with.
+if [ -e "$prefix/$LIBDIR/libtahr_threads.a" ]; then
+    # shellcheck disable=SC2046
+    ${CC:-cc} -std=c11 -DTAHR_HAVE_THREADS tests/examples/crowd.c $(pc_static tahr_threads) -o "$folder/crowd"
+    meet=$("$folder/crowd")
+    echo "install: a crowd runs on threads: $meet"
+fi
+
 # find_package: every exported target, in a project without C++ and in one with it; the backends beside the library, all
 # static, all shared, and mixed, whose shared code must not clash.
 cp -r tests/install/project "$folder/project"
 cp "$folder/program.c" "$folder/project/program.c"
+cp tests/examples/crowd.c "$folder/project/crowd.c"
 with_cxx=
 if command -v "${CXX:-c++}" >/dev/null 2>&1; then with_cxx=ON; fi
 for cxx in OFF $with_cxx; do
@@ -113,6 +122,9 @@ for cxx in OFF $with_cxx; do
     for kind in tahr tahr_static; do
         "$made/program_$kind" | $checker
     done
+    if [ -e "$prefix/$LIBDIR/libtahr_threads.a" ]; then
+        [ "$("$made/crowd")" = "$meet" ] || { echo "install: the crowd by find_package goes elsewhere"; exit 1; }
+    fi
 done
 
 # Versions: an equal minor number fits, another does not.
