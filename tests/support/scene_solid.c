@@ -98,8 +98,11 @@ static void size_grid(scene_solid *s)
             high[k] = fmax(high[k], x);
         }
     }
+    /* No more columns than a few for every triangle: a small mesh may be wide. */
+    double wide[2] = {high[0] - s->low[0], high[1] - s->low[1]}, most = 1024 + 16.0 * s->mesh->triangle_count;
+    s->cell = fmax(s->cell, fmax(sqrt(wide[0] * wide[1] / most), fmax(wide[0], wide[1]) / most));
     for (int k = 0; k < 2; k++) {
-        s->size[k] = (uint32_t)((high[k] - s->low[k]) / s->cell) + 1;
+        s->size[k] = (uint32_t)(wide[k] / s->cell) + 1;
     }
 }
 

@@ -1,0 +1,276 @@
+/* SPDX-License-Identifier: MIT
+ * run.c: see run.h. */
+#include "run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+/* All that a run needs; large, and one at a time. */
+typedef struct runner {
+    const run_request *request;
+    trial trial;
+    twin twin;
+    judge *judge;
+    watch watch;
+    opened opened, opened_twin;
+    tahr_state state, state_twin;
+    tahr_event events[WATCH_EVENTS];
+    tahr_report report;
+    double time, time_twin;
+} runner;
+
+static double now_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+int run_possible(const family *f, const subject *s, uint32_t preset, const char **why)
+{
+    uint32_t world = preset == TAHR_PRESET_PLATFORMER || !(s->worlds & IN_SPACE) ? IN_PLANE : IN_SPACE;
+    *why = NULL;
+    if (!(s->worlds & world)) {
+        *why = s->not_here;
+    } else if (!(f->worlds & world)) {
+        *why = f->why_not;
+    } else if (f->moves && strcmp(s->name, "sweep-only") == 0) {
+        *why = "no callback says how bodies move";
+    } else if (f->twin && s->lie) {
+        *why = "lies are related to nothing";
+    }
+    return *why == NULL;
+}
+
+static uint32_t world_of(const run_request *r)
+{
+    return r->preset == TAHR_PRESET_PLATFORMER || !(r->subject->worlds & IN_SPACE) ? IN_PLANE : IN_SPACE;
+}
+
+void twin_begin(twin *w, const trial *t)
+{
+    memset(w, 0, sizeof *w);
+    trial_copy(t, &w->other);
+    w->pieces = 1;
+    w->scale = 1;
+    w->rows[0] = (tahr_vec3){1, 0, 0};
+    w->rows[1] = (tahr_vec3){0, 1, 0};
+    w->rows[2] = (tahr_vec3){0, 0, 1};
+}
+
+static double dot(tahr_vec3 a, tahr_vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static double apart(tahr_vec3 a, tahr_vec3 b)
+{
+    tahr_vec3 d = {a.x - b.x, a.y - b.y, a.z - b.z};
+    return sqrt(dot(d, d));
+}
+
+static tahr_vec3 direction(const twin *w, tahr_vec3 v)
+{
+    return (tahr_vec3){dot(w->rows[0], v), dot(w->rows[1], v), dot(w->rows[2], v)};
+}
+
+static tahr_vec3 sized(const twin *w, tahr_vec3 v)
+{
+    tahr_vec3 d = direction(w, v);
+    return (tahr_vec3){d.x * w->scale, d.y * w->scale, d.z * w->scale};
+}
+
+static tahr_vec3 place(const twin *w, tahr_vec3 v)
+{
+    tahr_vec3 d = sized(w, v);
+    return (tahr_vec3){d.x + w->shift.x, d.y + w->shift.y, d.z + w->shift.z};
+}
+
+/* The state that the other one should be in. Its own orientation stays: round shapes do not ask for it. */
+static void map(const twin *w, const tahr_state *from, tahr_state *to)
+{
+    tahr_quat own = to->orientation;
+    tahr_vec3 up = to->up;
+    *to = *from;
+    to->orientation = own;
+    to->up = up;
+    to->position = place(w, from->position);
+    to->velocity = sized(w, from->velocity);
+    to->floor.normal = direction(w, from->floor.normal);
+    to->floor.surface_normal = direction(w, from->floor.surface_normal);
+    to->floor.point = place(w, from->floor.point);
+    to->floor.distance *= w->scale;
+    to->floor.perch_distance *= w->scale;
+    to->floor_position = place(w, from->floor_position);
+    to->wall_normal = direction(w, from->wall_normal);
+    to->radius *= w->scale;
+    to->half_height *= w->scale;
+    to->base.velocity = sized(w, from->base.velocity);
+    to->base.pose.position = place(w, from->base.pose.position);
+}
+
+static double on_grid(double x, double grid)
+{
+    return floor(x / grid + 0.5) * grid;
+}
+
+/* Both begin the next step as one: on the grid, where the floor is looked for again. */
+static void align(runner *r)
+{
+    tahr_state *s = &r->state;
+    if (r->twin.snap > 0) {
+        s->position = (tahr_vec3){on_grid(s->position.x, r->twin.snap), on_grid(s->position.y, r->twin.snap),
+                                  on_grid(s->position.z, r->twin.snap)};
+        s->velocity = (tahr_vec3){on_grid(s->velocity.x, r->twin.snap), on_grid(s->velocity.y, r->twin.snap),
+                                  on_grid(s->velocity.z, r->twin.snap)};
+    }
+    s->floor_revision = 0;
+    map(&r->twin, s, &r->state_twin);
+}
+
+static void compare(runner *r, int step, tahr_status one, tahr_status other)
+{
+    const twin *w = &r->twin;
+    tahr_state due = r->state_twin;
+    double allowed = w->tolerance + w->exactness * r->request->subject->gap;
+    map(w, &r->state, &due);
+    if (one != other) watch_accuse(&r->watch, KEEPS_RELATION, step, other, one, "another status");
+    if (r->state.mode != r->state_twin.mode)
+        watch_accuse(&r->watch, KEEPS_RELATION, step, r->state_twin.mode, r->state.mode, "another mode");
+    double off = apart(due.position, r->state_twin.position);
+    double slower = apart(due.velocity, r->state_twin.velocity) / 60;
+    double worst = fmax(off, slower);
+    if (allowed > 0 && worst / allowed > r->watch.worst.used) r->watch.worst.used = worst / allowed;
+    if (!(worst <= allowed)) watch_accuse(&r->watch, KEEPS_RELATION, step, worst, allowed, "goes another way by, m");
+    due = r->state_twin;
+    if (w->unnamed) {
+        due.floor.feature = r->state.floor.feature;
+        due.wall_feature = r->state.wall_feature;
+        due.drop_feature = r->state.drop_feature;
+    }
+    if (w->tolerance == 0 && w->exactness == 0 && !w->in_step && memcmp(&r->state, &due, sizeof due) != 0)
+        watch_accuse(&r->watch, KEEPS_RELATION, step, worst, 0, "another state, bit for bit");
+}
+
+static void trace(const runner *r, int step, tahr_status status)
+{
+    const tahr_state *s = &r->state;
+    const tahr_vec3 p = s->position, v = s->velocity, m = r->trial.steps[step].input.move;
+    printf("%3d dt %-9.3g move %+.3f %+.3f %+.3f%s  %-8s at %+.12g %+.12g %+.12g  v %+.9g %+.9g %+.9g  floor %02x %.9g"
+           "  gap %.9g  %s",
+           step, r->trial.steps[step].dt, m.x, m.y, m.z, r->trial.steps[step].input.jump ? " jump" : "",
+           tahr_mode_name(s->mode), p.x, p.y, p.z, v.x, v.y, v.z, s->floor.flags, s->floor.distance, r->watch.gap,
+           tahr_status_name(status));
+    for (uint32_t i = 0; i < r->report.event_count; i++)
+        printf(" %s", tahr_event_name(r->events[i].type));
+    printf("%s\n", r->watch.first.kept && r->watch.first.step == step ? "  <-- here" : "");
+}
+
+/* Moves what moves; returns the bodies that jumped, as bits. */
+static uint64_t move_bodies(const trial *t, opened *o, double time, int step, double dt, tahr_pose *poses)
+{
+    tahr_body_pose moved[TRIAL_BODIES];
+    uint32_t count = 0;
+    uint64_t jumped = 0;
+    for (uint32_t i = 0; i < t->body_count; i++) {
+        const trial_body *b = &t->bodies[i];
+        poses[i] = trial_pose(b, time, step + 1);
+        if (!(b->desc.flags & TAHR_BODY_MOVABLE)) continue;
+        int hops = b->motion.teleports > 0 && (step + 1) / b->motion.teleports != step / b->motion.teleports;
+        moved[count] = (tahr_body_pose){i, hops ? (uint32_t)TAHR_POSE_TELEPORT : 0u, poses[i]};
+        count++;
+        if (hops) jumped |= (uint64_t)1 << i;
+    }
+    if (count > 0 && dt > 0) subject_move(o, moved, count, dt);
+    return jumped;
+}
+
+static tahr_status step_twin(runner *r, int step)
+{
+    const trial_step *s = &r->twin.other.steps[step];
+    tahr_status status = TAHR_OK;
+    for (uint32_t i = 0; i < r->twin.pieces && status >= 0; i++)
+        status = tahr_mover_step(r->opened_twin.mover, &s->input, s->dt / r->twin.pieces, &r->state_twin, NULL);
+    return status;
+}
+
+static void take_step(runner *r, int step, outcome *out)
+{
+    const trial_step *s = &r->trial.steps[step];
+    tahr_pose poses[TRIAL_BODIES];
+    int related = r->opened_twin.mover != NULL;
+    if (related && r->twin.in_step) align(r);
+    tahr_state before = r->state;
+    r->time += s->dt > 0 && !s->refused ? s->dt : 0;
+    uint64_t jumped = s->refused ? 0 : move_bodies(&r->trial, &r->opened, r->time, step, s->dt, poses);
+    if (!s->refused) watch_move(&r->watch, poses);
+    r->report = (tahr_report){.struct_size = sizeof r->report, .events = r->events, .event_capacity = WATCH_EVENTS};
+    double from = now_seconds();
+    tahr_status status = tahr_mover_step(r->opened.mover, &s->input, s->dt, &r->state, &r->report);
+    double took = now_seconds() - from;
+    if (took > out->slowest) {
+        out->slowest = took;
+        out->slowest_step = step;
+    }
+    if (s->refused) {
+        if (status != TAHR_E_ARGUMENT || memcmp(&before, &r->state, sizeof before) != 0)
+            watch_accuse(&r->watch, KEEPS_STATUS, step, status, TAHR_E_ARGUMENT, "wrong input is not refused");
+    } else {
+        watch_step(&r->watch, step, status, &before, &r->state, &r->report, jumped);
+    }
+    if (related && !s->refused) {
+        tahr_status other = step_twin(r, step);
+        compare(r, step, status, other);
+    }
+    out->hash = (out->hash ^ tahr_state_hash(&r->state)) * 0x100000001b3u;
+    if (r->request->trace) trace(r, step, status);
+}
+
+static int start(runner *r, const trial *t, opened *o, uint32_t without, tahr_state *state)
+{
+    tahr_status status = subject_open(r->request->subject, t, without, r->request->seed, o);
+    if (status >= 0) status = tahr_state_init(state, &t->config, &t->start);
+    if (status < 0) {
+        watch_accuse(&r->watch, KEEPS_STATUS, -1, status, 0, tahr_status_message(status));
+        return 0;
+    }
+    state->velocity = t->velocity;
+    return 1;
+}
+
+static uint32_t expected(const run_request *q, const trial *t)
+{
+    uint32_t keeps = t->keeps & q->subject->keeps;
+    if (q->preset == TAHR_PRESET_UNREAL) keeps &= ~q->family->unreal_loses;
+    return keeps | KEEPS_SANE;
+}
+
+void run(const run_request *request, outcome *out)
+{
+    static runner r;
+    memset(&r, 0, sizeof r);
+    memset(out, 0, sizeof *out);
+    r.request = request;
+    family_make(request->family, world_of(request), request->preset, request->seed, &r.trial);
+    r.judge = judge_open(&r.trial);
+    watch_begin(&r.watch, &r.trial, r.judge, expected(request, &r.trial), request->subject->lie == 0);
+    int good = r.judge && start(&r, &r.trial, &r.opened, 0, &r.state);
+    if (good && request->family->twin) {
+        oracle_random dice = {request->seed + 77};
+        twin_begin(&r.twin, &r.trial);
+        request->family->twin(&r.trial, &dice, &r.twin);
+        if (!r.twin.ready || r.twin.ready(request->subject))
+            good = start(&r, &r.twin.other, &r.opened_twin, r.twin.without, &r.state_twin);
+    }
+    for (int i = 0; good && i < r.trial.step_count; i++)
+        take_step(&r, i, out);
+    out->first = r.watch.first;
+    out->worst = r.watch.worst;
+    subject_close(&r.opened);
+    subject_close(&r.opened_twin);
+    judge_close(r.judge);
+    trial_free(&r.twin.other);
+    trial_free(&r.trial);
+}

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: MIT
+ * subject.c: opening a trial's scene on every backend of this build. */
+#include "subject.h"
+
+#include "engine.h"
+#include "liar.h"
+#include "mutant.h"
+
+#include <math.h>
+#include <string.h>
+#include <tahr/native.h>
+#ifdef TAHR_HAVE_CCD
+#include <tahr/ccd.h>
+#endif
+#ifdef TAHR_HAVE_FCL
+#include <tahr/fcl.h>
+#endif
+#ifdef TAHR_HAVE_BOX2D
+#include <tahr/box2d.h>
+#endif
+
+enum { ON_NATIVE, ON_CCD, ON_FCL, ON_BOX2D, ON_CALLBACKS, ON_ONE_CALLBACK, ON_LIAR, ON_MUTANT };
+
+static const uint32_t BOTH = IN_SPACE | IN_PLANE, ALL = (1u << KEEPS_COUNT) - 1;
+
+#define PLANAR_ONLY "a world of two dimensions"
+
+/* gap: what native's README promises of float and double; of the others 1e-9 m, as the own core distance in double
+ * decides what their engines find. */
+const subject SUBJECTS[] = {
+    {"native", BOTH, "", ALL, 0, 0, 2e-6, ON_NATIVE, TAHR_NATIVE_FLOAT},
+    {"native-double", BOTH, "", ALL, 0, 0, 1e-9, ON_NATIVE, TAHR_NATIVE_DOUBLE},
+#ifdef TAHR_HAVE_CCD
+    {"ccd", BOTH, "", ALL, 0, 0, 1e-9, ON_CCD, 0},
+#endif
+#ifdef TAHR_HAVE_FCL
+    {"fcl", BOTH, "", ALL, 0, 0, 1e-9, ON_FCL, 0},
+#endif
+#ifdef TAHR_HAVE_BOX2D
+    {"box2d", IN_PLANE, PLANAR_ONLY, ALL, 0, 0, 1e-9, ON_BOX2D, TAHR_BOX2D_NEWEST},
+#ifdef TAHR_HAVE_BOX2D_2
+    {"box2d-2", IN_PLANE, PLANAR_ONLY, ALL, 0, 0, 1e-9, ON_BOX2D, TAHR_BOX2D_2},
+#endif
+#endif
+    {"callbacks", BOTH, "", ALL, 0, 0, 1e-9, ON_CALLBACKS, 0},
+    {"sweep-only", BOTH, "", ALL, 0, 0, 1e-9, ON_ONE_CALLBACK, 0},
+    {"liar-numbers", BOTH, "", KEEPS_SANE, LIE_NOT_NUMBERS, 0, 0, ON_LIAR, 0},
+    {"liar-late", BOTH, "", KEEPS_SANE, LIE_LATE, 0, 0, ON_LIAR, 0},
+    {"liar-false", BOTH, "", KEEPS_SANE, LIE_FALSE, 0, 0, ON_LIAR, 0},
+    {"liar-normals", BOTH, "", KEEPS_SANE, LIE_NORMALS, 0, 0, ON_LIAR, 0},
+    {"liar-garbage", BOTH, "", KEEPS_SANE, LIE_GARBAGE, 0, 0, ON_LIAR, 0},
+    {.name = NULL},
+};
+
+int subject_count(void)
+{
+    return (int)(sizeof SUBJECTS / sizeof SUBJECTS[0]) - 1;
+}
+
+const subject *subject_named(const char *name)
+{
+    for (const subject *s = SUBJECTS; s->name; s++) {
+        if (strcmp(s->name, name) == 0) return s;
+    }
+    return NULL;
+}
+
+subject subject_mutant(uint32_t which)
+{
+    return (subject){mutant_name(which), BOTH, "", ALL, 0, which, 1e-9, ON_MUTANT, 0};
+}
+
+/* A line goes to engines of two dimensions as a chain, whose front is on the right hand: from its other end. */
+static void chain_of(const trial_body *b, double *vertices, tahr_body_desc *desc)
+{
+    for (int i = 0; i < b->outline_count; i++) {
+        const double *p = b->outline[b->outline_count - 1 - i];
+        vertices[3 * i] = p[0];
+        vertices[3 * i + 1] = p[1];
+        vertices[3 * i + 2] = 0;
+    }
+    desc->type = TAHR_BODY_CHAIN;
+    desc->vertices = vertices;
+    desc->vertex_count = (uint32_t)b->outline_count;
+}
+
+static tahr_status open_on(const tahr_backend *backend, const void *options, const trial *t, int planar,
+                           tahr_world **world, int callbacks)
+{
+    static double chains[TRIAL_BODIES][3 * TRIAL_OUTLINE]; /* read while opening only, and cells run one at a time */
+    tahr_body_desc bodies[TRIAL_BODIES];
+    tahr_world_desc desc;
+    for (uint32_t i = 0; i < t->body_count; i++) {
+        const trial_body *b = &t->bodies[i];
+        bodies[i] = b->desc;
+        if (planar && b->outline_count > 0) {
+            chain_of(b, chains[i], &bodies[i]);
+        } else if (b->desc.type == TAHR_BODY_MESH) {
+            bodies[i].vertices = b->mesh.vertices;
+            bodies[i].vertex_count = b->mesh.vertex_count;
+            bodies[i].indices = b->mesh.indices;
+            bodies[i].triangle_count = b->mesh.triangle_count;
+        }
+    }
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = bodies;
+    desc.body_count = t->body_count;
+    desc.options = options;
+    if (callbacks == ON_CALLBACKS) return engine_open(NULL, &desc, world);
+    if (callbacks == ON_ONE_CALLBACK) return engine_open_sweep_only(NULL, &desc, world);
+    return tahr_world_open(backend, &desc, world);
+}
+
+static tahr_status open_world(const subject *s, const trial *t, uint32_t without, uint64_t seed, tahr_world **world)
+{
+    const tahr_native_desc native = {.struct_size = sizeof native,
+                                     .precision = s->precision,
+                                     .no_cache = (without & WITHOUT_CACHE) != 0,
+                                     .no_simd = (without & WITHOUT_LANES) != 0};
+    const liar_desc liar = {sizeof liar, s->lie, seed};
+    const mutant_desc mutant = {sizeof mutant, s->mutant};
+    switch (s->kind) {
+#ifdef TAHR_HAVE_CCD
+    case ON_CCD: return open_on(tahr_backend_v1_ccd(), NULL, t, 0, world, 0);
+#endif
+#ifdef TAHR_HAVE_FCL
+    case ON_FCL: return open_on(tahr_backend_v1_fcl(), NULL, t, 0, world, 0);
+#endif
+#ifdef TAHR_HAVE_BOX2D
+    case ON_BOX2D: {
+        const tahr_box2d_desc box2d = {.struct_size = sizeof box2d, .engine = s->precision};
+        return open_on(tahr_backend_v1_box2d(), &box2d, t, 1, world, 0);
+    }
+#endif
+    case ON_LIAR: return open_on(liar_backend(), &liar, t, 0, world, 0);
+    case ON_MUTANT: return open_on(mutant_backend(), &mutant, t, 0, world, 0);
+    case ON_CALLBACKS:
+    case ON_ONE_CALLBACK: return open_on(NULL, NULL, t, 0, world, s->kind);
+    default: return open_on(tahr_backend_v1_native(), &native, t, 0, world, 0);
+    }
+}
+
+tahr_status subject_open(const subject *s, const trial *t, uint32_t without, uint64_t seed, opened *o)
+{
+    tahr_config config = t->config;
+    memset(o, 0, sizeof *o);
+    o->subject = s;
+    tahr_status status = open_world(s, t, without, seed, &o->world);
+    if (without & WITHOUT_CACHED_FLOOR) config.cached_floor = 0;
+    if (without & WITHOUT_SLEEP) config.sleep = 0;
+    if (status >= 0) {
+        tahr_world *inside = engine_inside(o->world);
+        o->bodies = inside ? inside : o->world;
+        status = tahr_mover_create(o->world, &config, &o->mover);
+    }
+    if (status < 0) subject_close(o);
+    return status;
+}
+
+void subject_close(opened *o)
+{
+    tahr_mover_destroy(o->mover);
+    if (o->world) engine_close(NULL, o->world);
+    memset(o, 0, sizeof *o);
+}
+
+tahr_status subject_move(opened *o, const tahr_body_pose *poses, uint32_t count, double dt)
+{
+    tahr_status status = tahr_world_move(o->bodies, poses, count, dt);
+    if (status >= 0 && o->bodies != o->world) status = tahr_world_touch(o->world);
+    return status;
+}
