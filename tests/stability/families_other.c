@@ -17,7 +17,7 @@ void make_any(trial *t, oracle_random *dice)
 
 void make_far_origin(trial *t, oracle_random *dice)
 {
-    double far = draw_power(dice, 3, 6.95), way = draw(dice, 0, 6.283185307179586);
+    double far = draw_power(dice, 3, 6.8), way = draw(dice, 0, 6.283185307179586);
     make_any(t, dice);
     t->shift = (tahr_vec3){far * cos(way), far * sin(way), draw_one_in(dice, 2) ? 0 : -far};
 }

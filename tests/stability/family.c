@@ -57,7 +57,7 @@ const family FAMILIES[] = {
     {ROW("split", "every triangle cut into three", IN_SPACE, NEEDS_TRIANGLES, relate_generic), .twin = twin_split},
     {ROW("doubled", "triangles twice: the same bits", IN_SPACE, NEEDS_TRIANGLES, relate_any), .twin = twin_duplicated},
     {ROW("far_added", "triangles far away: the same bits", IN_SPACE, NEEDS_TRIANGLES, relate_any), .twin = twin_far_triangles},
-    {ROW("shuffled", "triangles in another order: the same bits", IN_SPACE, NEEDS_TRIANGLES, relate_any), .twin = twin_shuffled},
+    {ROW("shuffled", "triangles in another order: the same bits", IN_SPACE, NEEDS_TRIANGLES, relate_generic), .twin = twin_shuffled},
     {ROW("pieces", "free flight in 2 to 10 pieces a step", BOTH, "", relate_flight), .twin = twin_pieces},
     {.name = NULL},
 };

@@ -30,7 +30,6 @@ struct twin {
     uint32_t pieces;   /* steps of the other for one of the first; 0: 1 */
     int in_step;       /* 1: put where it should be before each step, so that only that step is compared */
     double tolerance;  /* m; 0: no bit may differ */
-    int unnamed;       /* 1: which triangle it was may differ */
     double exactness;  /* of subject.gap, added to it */
     double snap;       /* m: grid that both are put on before each step; 0: none */
     tahr_vec3 rows[3]; /* how a vector of the first comes out in the other */

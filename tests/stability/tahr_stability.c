@@ -13,8 +13,9 @@ int main(int argc, char **argv)
             for (uint32_t p = 1; p <= 3; p++) {
                 const char *why; outcome o, firsto; int fails = 0; uint64_t seed1 = 0; measure m = {0}; double slow = 0;
                 if (!run_possible(f, s, p, &why)) continue;
-                for (uint64_t seed = 1; seed <= (uint64_t)n; seed++) {
-                    run_request q = {f, s, p, seed, argc > 4 && n == atoi(argv[3]) && atoi(argv[4]) == (int)seed};
+                if (argc > 5 && (int)p != atoi(argv[5])) continue;
+                for (uint64_t seed = argc > 4 ? (uint64_t)n : 1; seed <= (uint64_t)n; seed++) {
+                    run_request q = {f, s, p, seed, argc > 4 && atoi(argv[4])};
                     run(&q, &o);
                     if (o.first.kept && fails++ == 0) firsto = o, seed1 = seed;
                     if (o.worst.deepest > m.deepest) m.deepest = o.worst.deepest;

@@ -170,7 +170,7 @@ static void check_rest(watch *w, int step, const tahr_state *a, const tahr_state
     if (w->still > REST_FROM && memcmp(a, b, sizeof *a) != 0) {
         watch_accuse(w, KEEPS_REST, step, length(minus(b->position, a->position)), 0, "at rest, and still changes, m");
     }
-    if (w->idle > STILL_AFTER && b->mode == TAHR_MODE_WALKING) {
+    if (w->idle > STILL_AFTER && w->landed > STILL_AFTER && b->mode == TAHR_MODE_WALKING) {
         at_most(w, KEEPS_REST, step, length(b->velocity), 1e-9 * t->scale, "without input it does not stop, m/s");
     }
     /* Falling and getting nowhere. */
@@ -229,11 +229,9 @@ static void check_solid(watch *w, int step, const tahr_state *a, const tahr_stat
 }
 
 /* On the ground: something walkable is there, no farther below than the clearance that a floor may have. */
-static void check_floor(watch *w, int step, const tahr_state *a, const tahr_state *b)
+static void check_floor(watch *w, int step, const tahr_state *b)
 {
     const tahr_config *c = &w->trial->config;
-    int stands = a->mode == TAHR_MODE_WALKING && b->mode == TAHR_MODE_WALKING;
-    w->landed = stands ? w->landed + 1 : 0;
     if (b->mode == TAHR_MODE_WALKING && !(b->floor.flags & TAHR_FLOOR_WALKABLE)) {
         watch_accuse(w, KEEPS_FLOOR, step, b->floor.flags, TAHR_FLOOR_WALKABLE, "walks on no walkable floor, flags");
     }
@@ -289,8 +287,9 @@ void watch_step(watch *w, int step, tahr_status status, const tahr_state *before
     if (w->keeps & (KEEPS_SOLID | KEEPS_INSIDE)) check_solid(w, step, before, now, teleported);
     if (w->keeps & KEEPS_SKIN) check_skin(w, step, before, now);
     if (w->keeps & KEEPS_ENERGY) check_energy(w, step, before, now, report, dt);
+    w->landed = before->mode == TAHR_MODE_WALKING && now->mode == TAHR_MODE_WALKING ? w->landed + 1 : 0;
     check_rest(w, step, before, now);
-    if (w->keeps & KEEPS_FLOOR) check_floor(w, step, before, now);
+    if (w->keeps & KEEPS_FLOOR) check_floor(w, step, now);
     if (w->keeps & KEEPS_GROUND) check_ground(w, step, before, now);
     if (w->keeps & KEEPS_SPEED) check_speed(w, step, before, now);
     uint32_t said = report->flags & (TAHR_REPORT_UNKNOWN | TAHR_REPORT_STUCK | TAHR_REPORT_CRUSHED |
