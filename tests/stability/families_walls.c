@@ -162,7 +162,9 @@ void make_hunting(trial *t, oracle_random *dice)
 static double energy_promise(const trial *t, int step, const tahr_state *before, const tahr_state *now,
                              const tahr_report *report, const char **what)
 {
-    (void)report;
+    for (uint32_t i = 0; i < report->event_count; i++) {
+        if (report->events[i].type == TAHR_EVENT_DEPENETRATED) return 0; /* put there, not flown there */
+    }
     *what = "gains energy in a fall without input, part of it";
     if (step < t->first_rest || before->mode != TAHR_MODE_FALLING || now->mode != TAHR_MODE_FALLING) return 0;
     double g = t->numbers[0], rise = 0, was = 0, is = 0;

@@ -65,6 +65,16 @@ static void axis_of(const tahr_pose *pose, const tahr_state *s, tahr_vec3 ends[2
     ends[1] = (tahr_vec3){middle.x + reach * up.x, middle.y + reach * up.y, middle.z + reach * up.z};
 }
 
+/* A box holds all of the axis: it is as deep as can be told. */
+static int swallowed(const trial_body *b, const tahr_vec3 ends[2])
+{
+    tahr_vec3 h = b->desc.half_extents;
+    int in = b->desc.type == TAHR_BODY_BOX;
+    for (int i = 0; i < 2; i++)
+        in = in && fabs(ends[i].x) < h.x && fabs(ends[i].y) < h.y && fabs(ends[i].z) < h.z;
+    return in;
+}
+
 double judge_gap(const judge *j, const tahr_pose *poses, const tahr_state *state, double limit, uint32_t *body)
 {
     double best = limit;
@@ -72,6 +82,7 @@ double judge_gap(const judge *j, const tahr_pose *poses, const tahr_state *state
         tahr_vec3 ends[2];
         axis_of(&poses[i], state, ends);
         double gap = scene_solid_distance(j->near[i], ends[0], ends[1], best + state->radius, NULL) - state->radius;
+        if (swallowed(&j->trial->bodies[i], (const tahr_vec3 *)ends)) gap = -state->radius;
         if (gap < best) {
             best = gap;
             if (body) *body = i;
@@ -89,6 +100,7 @@ double judge_gap_again(const judge *j, const tahr_pose *poses, const tahr_state 
     oracle_core core = {.axis_count = 1,
                         .centre = {(ends[0].x + ends[1].x) / 2, (ends[0].y + ends[1].y) / 2, (ends[0].z + ends[1].z) / 2},
                         .axis = {{(ends[1].x - ends[0].x) / 2, (ends[1].y - ends[0].y) / 2, (ends[1].z - ends[0].z) / 2}}};
+    if (swallowed(b, (const tahr_vec3 *)ends)) return -state->radius;
     long double best = 1e30L;
     int both = (b->desc.flags & TAHR_BODY_TWO_SIDED) != 0 || b->desc.type == TAHR_BODY_BOX;
     for (uint32_t i = 0; i < b->mesh.triangle_count; i++) {

@@ -29,6 +29,15 @@ void relate_generic(trial *t, oracle_random *dice)
     related(t);
 }
 
+/* Of triangles alone, ties and all. */
+void relate_triangles(trial *t, oracle_random *dice)
+{
+    static void (*const some[])(trial *, oracle_random *) = {make_terrain, make_slivers, make_degenerate, make_soup,
+                                                             make_t_junctions};
+    some[oracle_below(dice, 5)](t, dice);
+    related(t);
+}
+
 /* All of it on multiples of 1/64 m, between 0.5 and 3.5 m above and beside the origin. */
 void relate_lattice(trial *t, oracle_random *dice)
 {
@@ -195,7 +204,8 @@ void twin_turned(const trial *t, oracle_random *dice, twin *w)
     w->exactness = 4;
 }
 
-/* Twice, four times, half or a quarter as large: by powers of two, no number is rounded in another way. */
+/* Half, a quarter as large, down to a sixteenth: no number is rounded in another way, but native's searches end where
+ * they are within 1e-10 m of their target at any size, and 1e-9 m is what it promises. */
 void twin_scaled(const trial *t, oracle_random *dice, twin *w)
 {
     const double some[] = {0.5, 0.25, 0.125, 0.0625};
@@ -204,7 +214,8 @@ void twin_scaled(const trial *t, oracle_random *dice, twin *w)
     trial_grow(&w->other, w->scale);
     w->in_step = 1;
     w->snap = 1.0 / 1048576;
-    w->tolerance = 0;
+    w->tolerance = 1e-9;
+    w->exactness = 4;
     w->ready = on_double;
 }
 
@@ -263,25 +274,13 @@ void twin_far_triangles(const trial *t, oracle_random *dice, twin *w)
     }
 }
 
-/* Their numbers change with the order, and with them who wins a tie: on an edge, from which of its two faces it is
- * measured. Where names stay no bit changes: tests/unit/native/test_gather.c. */
+/* Both from a gather callback, by the same names, in another order. */
 void twin_shuffled(const trial *t, oracle_random *dice, twin *w)
 {
     twin_begin(w, t);
-    for (uint32_t i = 0; i < w->other.body_count; i++) {
-        scene_mesh *m = &w->other.bodies[i].mesh;
-        if (w->other.bodies[i].desc.type != TAHR_BODY_MESH) continue;
-        for (uint32_t k = m->triangle_count; k > 1; k--) {
-            uint32_t other = oracle_below(dice, k), *a = m->indices + 3 * (size_t)(k - 1);
-            uint32_t *b = m->indices + 3 * (size_t)other, c[3];
-            memcpy(c, a, sizeof c);
-            memmove(a, b, sizeof c);
-            memcpy(b, c, sizeof c);
-        }
-    }
-    w->in_step = 1;
-    w->tolerance = 1e-9;
-    w->exactness = 4;
+    w->with = GATHERED;
+    w->without = GATHERED | ORDERED_BY * (1 + oracle_below(dice, 1000));
+    w->ready = on_native;
 }
 
 void twin_pieces(const trial *t, oracle_random *dice, twin *w)

@@ -7,6 +7,7 @@
 
 void relate_any(trial *t, oracle_random *dice);
 void relate_generic(trial *t, oracle_random *dice);
+void relate_triangles(trial *t, oracle_random *dice);
 void relate_lattice(trial *t, oracle_random *dice);
 void relate_flight(trial *t, oracle_random *dice);
 

@@ -26,7 +26,8 @@ typedef struct outcome {
 /* What else must go the same way, and how the ways are compared. */
 struct twin {
     trial other;
-    uint32_t without;  /* WITHOUT_*: switched off for the other one */
+    uint32_t with;     /* of the first one, and */
+    uint32_t without;  /* of the other one: WITHOUT_*, GATHERED */
     uint32_t pieces;   /* steps of the other for one of the first; 0: 1 */
     int in_step;       /* 1: put where it should be before each step, so that only that step is compared */
     double tolerance;  /* m; 0: no bit may differ */

@@ -70,6 +70,16 @@ subject subject_mutant(uint32_t which)
     return (subject){mutant_name(which), BOTH, "", ALL, 0, which, 1e-9, ON_MUTANT, 0};
 }
 
+static uint32_t divisor(uint32_t a, uint32_t b)
+{
+    while (b > 0) {
+        uint32_t rest = a % b;
+        a = b;
+        b = rest;
+    }
+    return a;
+}
+
 /* A line goes to engines of two dimensions as a chain, whose front is on the right hand: from its other end. */
 static void chain_of(const trial_body *b, double *vertices, tahr_body_desc *desc)
 {
@@ -84,39 +94,77 @@ static void chain_of(const trial_body *b, double *vertices, tahr_body_desc *desc
     desc->vertex_count = (uint32_t)b->outline_count;
 }
 
+/* The triangles of a trial's meshes, by the names that they have there, in some order. */
+static tahr_status gather(void *user, const tahr_bounds *box, uint32_t mask, tahr_gather *out)
+{
+    const gathered *g = user;
+    uint32_t total = 0;
+    (void)box, (void)mask;
+    for (uint32_t i = 0; i < g->trial->body_count; i++)
+        total += g->trial->bodies[i].mesh.triangle_count;
+    /* A stride without a common divisor visits all of them. */
+    uint32_t stride = g->order ? 1 + g->order % (total > 1 ? total : 1) : 1;
+    while (divisor(stride, total) > 1)
+        stride++;
+    for (uint32_t n = 0; n < total; n++) {
+        uint32_t k = (uint32_t)((uint64_t)n * stride % total), i = 0;
+        for (; k >= g->trial->bodies[i].mesh.triangle_count; i++)
+            k -= g->trial->bodies[i].mesh.triangle_count;
+        const trial_body *b = &g->trial->bodies[i];
+        if (b->desc.type != TAHR_BODY_MESH) continue;
+        tahr_triangle t = {.body = g->trial->body_count + i, .feature = k, .flags = b->desc.flags};
+        for (int c = 0; c < 3; c++) {
+            const double *v = b->mesh.vertices + 3 * (size_t)b->mesh.indices[3 * (size_t)k + (size_t)c];
+            t.corners[c] = (tahr_vec3){v[0], v[1], v[2]};
+        }
+        if (!out->add(out, &t)) break;
+    }
+    return TAHR_OK;
+}
+
 static tahr_status open_on(const tahr_backend *backend, const void *options, const trial *t, int planar,
                            tahr_world **world, int callbacks)
 {
+    const tahr_native_desc *native = options;
+    int left_out = backend == tahr_backend_v1_native() && native->gather != NULL;
     static double chains[TRIAL_BODIES][3 * TRIAL_OUTLINE]; /* read while opening only, and cells run one at a time */
     tahr_body_desc bodies[TRIAL_BODIES];
     tahr_world_desc desc;
+    uint32_t count = 0;
     for (uint32_t i = 0; i < t->body_count; i++) {
         const trial_body *b = &t->bodies[i];
-        bodies[i] = b->desc;
+        tahr_body_desc *to = &bodies[count];
+        if (left_out && b->desc.type == TAHR_BODY_MESH) continue;
+        *to = b->desc;
         if (planar && b->outline_count > 0) {
-            chain_of(b, chains[i], &bodies[i]);
+            chain_of(b, chains[i], to);
         } else if (b->desc.type == TAHR_BODY_MESH) {
-            bodies[i].vertices = b->mesh.vertices;
-            bodies[i].vertex_count = b->mesh.vertex_count;
-            bodies[i].indices = b->mesh.indices;
-            bodies[i].triangle_count = b->mesh.triangle_count;
+            to->vertices = b->mesh.vertices;
+            to->vertex_count = b->mesh.vertex_count;
+            to->indices = b->mesh.indices;
+            to->triangle_count = b->mesh.triangle_count;
         }
+        count++;
     }
     tahr_world_desc_init(&desc, sizeof desc);
     desc.bodies = bodies;
-    desc.body_count = t->body_count;
+    desc.body_count = count;
     desc.options = options;
     if (callbacks == ON_CALLBACKS) return engine_open(NULL, &desc, world);
     if (callbacks == ON_ONE_CALLBACK) return engine_open_sweep_only(NULL, &desc, world);
     return tahr_world_open(backend, &desc, world);
 }
 
-static tahr_status open_world(const subject *s, const trial *t, uint32_t without, uint64_t seed, tahr_world **world)
+static tahr_status open_world(const trial *t, uint32_t without, uint64_t seed, opened *o)
 {
+    const subject *s = o->subject;
+    tahr_world **world = &o->world;
     const tahr_native_desc native = {.struct_size = sizeof native,
                                      .precision = s->precision,
                                      .no_cache = (without & WITHOUT_CACHE) != 0,
-                                     .no_simd = (without & WITHOUT_LANES) != 0};
+                                     .no_simd = (without & WITHOUT_LANES) != 0,
+                                     .gather = without & GATHERED ? gather : NULL,
+                                     .gather_user = &o->gathered};
     const liar_desc liar = {sizeof liar, s->lie, seed};
     const mutant_desc mutant = {sizeof mutant, s->mutant};
     switch (s->kind) {
@@ -145,7 +193,8 @@ tahr_status subject_open(const subject *s, const trial *t, uint32_t without, uin
     tahr_config config = t->config;
     memset(o, 0, sizeof *o);
     o->subject = s;
-    tahr_status status = open_world(s, t, without, seed, &o->world);
+    o->gathered = (gathered){t, without / ORDERED_BY};
+    tahr_status status = open_world(t, without, seed, o);
     if (without & WITHOUT_CACHED_FLOOR) config.cached_floor = 0;
     if (without & WITHOUT_SLEEP) config.sleep = 0;
     if (status >= 0) {

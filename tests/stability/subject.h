@@ -20,8 +20,18 @@ typedef struct subject {
 /* What may be switched off without changing a bit. */
 enum { WITHOUT_CACHE = 1, WITHOUT_LANES = 2, WITHOUT_CACHED_FLOOR = 4, WITHOUT_SLEEP = 8 };
 
+/* Native: triangles come from a gather callback; times ORDERED_BY: in an order drawn from that number. */
+enum { GATHERED = 16, ORDERED_BY = 32 };
+
+/* Behind a gather callback. */
+typedef struct gathered {
+    const trial *trial;
+    uint32_t order; /* 0: as they stand in the trial */
+} gathered;
+
 typedef struct opened {
     const subject *subject;
+    gathered gathered;
     tahr_world *world;
     tahr_world *bodies; /* the one whose bodies are moved: behind callbacks another one */
     tahr_mover *mover;
@@ -35,7 +45,7 @@ const subject *subject_named(const char *name);
 /* A mutant of tests/conformance, judged as if it were honest. */
 subject subject_mutant(uint32_t which);
 
-/* without: WITHOUT_*; seed: of lies. */
+/* without: WITHOUT_*, GATHERED; seed: of lies. o and t must stay where they are until it is closed. */
 tahr_status subject_open(const subject *s, const trial *t, uint32_t without, uint64_t seed, opened *o);
 void subject_close(opened *o);
 tahr_status subject_move(opened *o, const tahr_body_pose *poses, uint32_t count, double dt);

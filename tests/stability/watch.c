@@ -232,7 +232,9 @@ static void check_solid(watch *w, int step, const tahr_state *a, const tahr_stat
 static void check_floor(watch *w, int step, const tahr_state *b)
 {
     const tahr_config *c = &w->trial->config;
-    if (b->mode == TAHR_MODE_WALKING && !(b->floor.flags & TAHR_FLOOR_WALKABLE)) {
+    /* Unreal's ditch rule lands between two faces that are too steep each, without a floor. */
+    int may_lack = c->slide_solver == TAHR_SLIDE_TWO_WALLS;
+    if (b->mode == TAHR_MODE_WALKING && !(b->floor.flags & TAHR_FLOOR_WALKABLE) && !may_lack) {
         watch_accuse(w, KEEPS_FLOOR, step, b->floor.flags, TAHR_FLOOR_WALKABLE, "walks on no walkable floor, flags");
     }
     if (w->landed > 2 && step >= w->trial->first_rest && w->idle > 2 && !w->moves) {
