@@ -14,7 +14,7 @@ const char *watch_name(uint32_t kept)
 {
     static const char *const names[KEEPS_COUNT] = {"numbers", "status", "cap",    "report", "reach",  "solid",
                                                    "skin",    "energy", "rest",   "saying", "speed",  "ground",
-                                                   "inside",  "promise", "relation", "floor"};
+                                                   "inside",  "promise", "relation", "floor",  "time"};
     for (int i = 0; i < KEEPS_COUNT; i++) {
         if (kept == 1u << i) return names[i];
     }
@@ -296,6 +296,9 @@ void watch_step(watch *w, int step, tahr_status status, const tahr_state *before
     if (w->keeps & KEEPS_SPEED) check_speed(w, step, before, now);
     uint32_t said = report->flags & (TAHR_REPORT_UNKNOWN | TAHR_REPORT_STUCK | TAHR_REPORT_CRUSHED |
                                      TAHR_REPORT_QUERY_CAP | TAHR_REPORT_BASE_LOST);
+    /* Two walls drop what is left of a motion as their rule says. */
+    if (!said && w->trial->config.slide_solver == TAHR_SLIDE_JOINT)
+        at_most(w, KEEPS_TIME, step, report->time_lost, 0, "time is lost, and nothing says so, s");
     if (said) watch_accuse(w, KEEPS_SAYING, step, said, 0, tahr_status_name(status));
     if (w->keeps & KEEPS_PROMISE && w->trial->promise) {
         const char *what = "";
