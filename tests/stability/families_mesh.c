@@ -165,7 +165,10 @@ void make_sheets(trial *t, oracle_random *dice)
         trial_profile(t, wall, 2, flags);
     }
     trial_stand(t, 0, 0, t->config.skin * 1.25);
-    trial_wander(t, dice, 60, 0, behind ? 0 : 0.8, 0);
+    if (behind)
+        trial_walk(t, 60, at(1, 0, 0)); /* 3 m at least, from rest */
+    else
+        trial_wander(t, dice, 60, 0, 0.8, 0);
     trial_idle(t, 20);
     if (behind) {
         t->keeps &= ~(uint32_t)(KEEPS_SKIN | KEEPS_SAYING | KEEPS_REST | KEEPS_FLOOR);

@@ -188,6 +188,7 @@ void twin_turned(const trial *t, oracle_random *dice, twin *w)
     twin_begin(w, t);
     trial *o = &w->other;
     w->in_step = 1;
+    w->turn = (tahr_quat){x, y, z, s};
     w->rows[0] = (tahr_vec3){1 - 2 * (y * y + z * z), 2 * (x * y - s * z), 2 * (x * z + s * y)};
     w->rows[1] = (tahr_vec3){2 * (x * y + s * z), 1 - 2 * (x * x + z * z), 2 * (y * z - s * x)};
     w->rows[2] = (tahr_vec3){2 * (x * z - s * y), 2 * (y * z + s * x), 1 - 2 * (x * x + y * y)};

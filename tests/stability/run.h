@@ -34,6 +34,7 @@ struct twin {
     double exactness;  /* of subject.gap, added to it */
     double snap;       /* m: grid that both are put on before each step; 0: none */
     tahr_vec3 rows[3]; /* how a vector of the first comes out in the other */
+    tahr_quat turn;    /* the same, of orientations; where bodies are turned */
     tahr_vec3 shift;   /* m, and a place */
     double scale;      /* and a length */
     int (*ready)(const subject *s); /* NULL: for all; where this relation is promised */

@@ -18,7 +18,8 @@ typedef struct accusation {
 /* The worst of a run, whatever was expected. */
 typedef struct measure {
     double deepest;  /* m, farthest below what had to stay free; >= 0 */
-    double used;     /* the largest part of a bound that was used up, of all but KEEPS_SKIN */
+    double apart;    /* m, farthest that twins came apart in a step, or in all */
+    double used;     /* the largest part of a bound that was used up */
     uint32_t queries; /* most of a step */
     uint32_t steps, walking, errors;
 } measure;
@@ -28,6 +29,7 @@ typedef struct watch {
     const judge *judge;
     uint32_t keeps;
     int honest; /* errors are failures */
+    double exact; /* m, what the backend's answers may be off */
     int moves;  /* something does */
     accusation first;
     measure worst;
@@ -39,7 +41,8 @@ typedef struct watch {
     int gap_known;
 } watch;
 
-void watch_begin(watch *w, const trial *t, const judge *j, uint32_t keeps, int honest);
+/* gap: m that the backend's answers may be off. */
+void watch_begin(watch *w, const trial *t, const judge *j, uint32_t keeps, int honest, double gap);
 /* The bodies are at these poses from now on. */
 void watch_move(watch *w, const tahr_pose *poses);
 /* teleported: bodies that jumped (bits). */
