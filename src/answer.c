@@ -16,6 +16,17 @@ static const char *bad_rule(uint32_t rule, double angle)
     return is_finite(angle) ? NULL : "walkable_angle";
 }
 
+/* What an answer says may come into a state, and a state farther out is refused by the next step. */
+static int is_place(vec3 point)
+{
+    return length_squared(point) <= TAHR__FARTHEST * TAHR__FARTHEST;
+}
+
+static int is_length(double m)
+{
+    return m >= -TAHR__FARTHEST && m <= TAHR__FARTHEST;
+}
+
 /* What hits and contacts say of the surface. */
 static const char *bad_surface(vec3 normal, vec3 surface_normal, vec3 point, uint32_t rule, double angle)
 {
@@ -25,7 +36,7 @@ static const char *bad_surface(vec3 normal, vec3 surface_normal, vec3 point, uin
     if (!normal_is_unit(surface_normal)) {
         return "surface_normal";
     }
-    return vec_is_finite(point) ? bad_rule(rule, angle) : "point";
+    return is_place(point) ? bad_rule(rule, angle) : "point";
 }
 
 static const char *bad_hit(const tahr_hit *h)
@@ -36,10 +47,10 @@ static const char *bad_hit(const tahr_hit *h)
     if (h->unknown || (!h->blocking && !h->sensor && !h->start_overlap)) {
         return NULL;
     }
-    if (h->start_overlap && !(h->depth >= 0 && is_finite(h->depth))) {
+    if (h->start_overlap && !(h->depth >= 0 && is_length(h->depth))) {
         return "depth";
     }
-    if (!is_finite(h->distance)) {
+    if (!is_length(h->distance)) {
         return "distance";
     }
     return bad_surface(h->normal, h->surface_normal, h->point, h->walkable_rule, h->walkable_angle);
@@ -47,7 +58,7 @@ static const char *bad_hit(const tahr_hit *h)
 
 static const char *bad_contact(const tahr_contact *c)
 {
-    if (!is_finite(c->distance)) {
+    if (!is_length(c->distance)) {
         return "distance";
     }
     return bad_surface(c->normal, c->surface_normal, c->point, c->walkable_rule, c->walkable_angle);
@@ -183,7 +194,7 @@ tahr_status tahr__answer_ray(const tahr_world *world, tahr_query_context *contex
     if (*count > 1) {
         return tahr__bad_answer(world, "ray", "count");
     }
-    const char *bad = *count ? bad_hit(hit) : NULL;
+    const char *bad = *count ? refine(hit) : NULL;
     bad = *count && !bad ? out_of_plane(world, hit->normal, hit->surface_normal) : bad;
     return bad ? tahr__bad_answer(world, "ray", bad) : status;
 }
@@ -258,11 +269,11 @@ void tahr__make_wall(tahr_hit *hit, vec3 from, vec3 motion, double margin)
     if (!normal_is_unit(hit->normal) || !normal_is_unit(hit->surface_normal)) {
         hit->normal = hit->surface_normal = unit(scale(motion, -1));
     }
-    if (!vec_is_finite(hit->point)) {
+    if (!is_place(hit->point)) {
         hit->point = add_scaled(from, motion, hit->fraction);
     }
-    hit->distance = is_finite(hit->distance) ? hit->distance : margin; /* so far it was free */
-    hit->depth = is_finite(hit->depth) && hit->depth >= 0 ? hit->depth : 0;
+    hit->distance = is_length(hit->distance) ? hit->distance : margin; /* so far it was free */
+    hit->depth = is_length(hit->depth) && hit->depth >= 0 ? hit->depth : 0;
     if (bad_rule(hit->walkable_rule, hit->walkable_angle)) {
         hit->walkable_rule = TAHR_WALKABLE_NEVER;
         hit->walkable_angle = 0;

@@ -285,7 +285,8 @@ static void take_step(runner *r, int step, outcome *out)
 
 static int start(runner *r, const trial *t, opened *o, uint32_t without, tahr_state *state)
 {
-    tahr_status status = subject_open(r->request->subject, t, without, r->request->seed, o);
+    const subject_request q = {r->request->subject, t, without, r->request->seed, r->request->trace};
+    tahr_status status = subject_open(&q, o);
     if (status >= 0) status = tahr_state_init(state, &t->config, &t->start);
     if (status < 0) {
         watch_accuse(&r->watch, KEEPS_STATUS, -1, status, 0, tahr_status_message(status));

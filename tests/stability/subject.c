@@ -7,6 +7,7 @@
 #include "mutant.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 #include <tahr/native.h>
 #ifdef TAHR_HAVE_CCD
@@ -123,11 +124,24 @@ static tahr_status gather(void *user, const tahr_bounds *box, uint32_t mask, tah
     return TAHR_OK;
 }
 
-static tahr_status open_on(const tahr_backend *backend, const void *options, const trial *t, int planar,
-                           tahr_world **world, int callbacks)
+static void complain(void *user, int32_t level, const char *message)
 {
-    const tahr_native_desc *native = options;
-    int left_out = backend == tahr_backend_v1_native() && native->gather != NULL;
+    (void)user, (void)level;
+    printf("    %s\n", message);
+}
+
+/* How a scene is opened: on a backend, or on one of the two engines behind callbacks. */
+typedef struct opening {
+    const tahr_backend *backend; /* NULL: callbacks */
+    const void *options;
+    int planar;
+    int callbacks; /* ON_CALLBACKS, ON_ONE_CALLBACK */
+} opening;
+
+static tahr_status open_on(const opening *how, const trial *t, opened *o)
+{
+    const tahr_native_desc *native = how->options;
+    int left_out = how->backend == tahr_backend_v1_native() && native->gather != NULL;
     static double chains[TRIAL_BODIES][3 * TRIAL_OUTLINE]; /* read while opening only, and cells run one at a time */
     tahr_body_desc bodies[TRIAL_BODIES];
     tahr_world_desc desc;
@@ -137,7 +151,7 @@ static tahr_status open_on(const tahr_backend *backend, const void *options, con
         tahr_body_desc *to = &bodies[count];
         if (left_out && b->desc.type == TAHR_BODY_MESH) continue;
         *to = b->desc;
-        if (planar && b->outline_count > 0) {
+        if (how->planar && b->outline_count > 0) {
             chain_of(b, chains[i], to);
         } else if (b->desc.type == TAHR_BODY_MESH) {
             to->vertices = b->mesh.vertices;
@@ -150,54 +164,52 @@ static tahr_status open_on(const tahr_backend *backend, const void *options, con
     tahr_world_desc_init(&desc, sizeof desc);
     desc.bodies = bodies;
     desc.body_count = count;
-    desc.options = options;
-    if (callbacks == ON_CALLBACKS) return engine_open(NULL, &desc, world);
-    if (callbacks == ON_ONE_CALLBACK) return engine_open_sweep_only(NULL, &desc, world);
-    return tahr_world_open(backend, &desc, world);
+    desc.options = how->options;
+    desc.log = o->log.write ? &o->log : NULL;
+    if (how->callbacks == ON_CALLBACKS) return engine_open(NULL, &desc, &o->world);
+    if (how->callbacks == ON_ONE_CALLBACK) return engine_open_sweep_only(NULL, &desc, &o->world);
+    return tahr_world_open(how->backend, &desc, &o->world);
 }
 
-static tahr_status open_world(const trial *t, uint32_t without, uint64_t seed, opened *o)
+static tahr_status open_world(const subject_request *r, opened *o)
 {
-    const subject *s = o->subject;
-    tahr_world **world = &o->world;
+    const subject *s = r->subject;
     const tahr_native_desc native = {.struct_size = sizeof native,
                                      .precision = s->precision,
-                                     .no_cache = (without & WITHOUT_CACHE) != 0,
-                                     .no_simd = (without & WITHOUT_LANES) != 0,
-                                     .gather = without & GATHERED ? gather : NULL,
+                                     .no_cache = (r->without & WITHOUT_CACHE) != 0,
+                                     .no_simd = (r->without & WITHOUT_LANES) != 0,
+                                     .gather = r->without & GATHERED ? gather : NULL,
                                      .gather_user = &o->gathered};
-    const liar_desc liar = {sizeof liar, s->lie, seed};
+    const liar_desc liar = {sizeof liar, s->lie, r->seed};
     const mutant_desc mutant = {sizeof mutant, s->mutant};
-    switch (s->kind) {
+    opening how = {NULL, NULL, 0, 0};
+#ifdef TAHR_HAVE_BOX2D
+    const tahr_box2d_desc box2d = {.struct_size = sizeof box2d, .engine = s->precision};
+    if (s->kind == ON_BOX2D) how = (opening){tahr_backend_v1_box2d(), &box2d, 1, 0};
+#endif
 #ifdef TAHR_HAVE_CCD
-    case ON_CCD: return open_on(tahr_backend_v1_ccd(), NULL, t, 0, world, 0);
+    if (s->kind == ON_CCD) how.backend = tahr_backend_v1_ccd();
 #endif
 #ifdef TAHR_HAVE_FCL
-    case ON_FCL: return open_on(tahr_backend_v1_fcl(), NULL, t, 0, world, 0);
+    if (s->kind == ON_FCL) how.backend = tahr_backend_v1_fcl();
 #endif
-#ifdef TAHR_HAVE_BOX2D
-    case ON_BOX2D: {
-        const tahr_box2d_desc box2d = {.struct_size = sizeof box2d, .engine = s->precision};
-        return open_on(tahr_backend_v1_box2d(), &box2d, t, 1, world, 0);
-    }
-#endif
-    case ON_LIAR: return open_on(liar_backend(), &liar, t, 0, world, 0);
-    case ON_MUTANT: return open_on(mutant_backend(), &mutant, t, 0, world, 0);
-    case ON_CALLBACKS:
-    case ON_ONE_CALLBACK: return open_on(NULL, NULL, t, 0, world, s->kind);
-    default: return open_on(tahr_backend_v1_native(), &native, t, 0, world, 0);
-    }
+    if (s->kind == ON_NATIVE) how = (opening){tahr_backend_v1_native(), &native, 0, 0};
+    if (s->kind == ON_LIAR) how = (opening){liar_backend(), &liar, 0, 0};
+    if (s->kind == ON_MUTANT) how = (opening){mutant_backend(), &mutant, 0, 0};
+    if (!how.backend) how.callbacks = s->kind;
+    return open_on(&how, r->trial, o);
 }
 
-tahr_status subject_open(const subject *s, const trial *t, uint32_t without, uint64_t seed, opened *o)
+tahr_status subject_open(const subject_request *r, opened *o)
 {
-    tahr_config config = t->config;
+    tahr_config config = r->trial->config;
     memset(o, 0, sizeof *o);
-    o->subject = s;
-    o->gathered = (gathered){t, without / ORDERED_BY};
-    tahr_status status = open_world(t, without, seed, o);
-    if (without & WITHOUT_CACHED_FLOOR) config.cached_floor = 0;
-    if (without & WITHOUT_SLEEP) config.sleep = 0;
+    o->subject = r->subject;
+    o->gathered = (gathered){r->trial, r->without / ORDERED_BY};
+    o->log.write = r->loud ? complain : NULL;
+    tahr_status status = open_world(r, o);
+    if (r->without & WITHOUT_CACHED_FLOOR) config.cached_floor = 0;
+    if (r->without & WITHOUT_SLEEP) config.sleep = 0;
     if (status >= 0) {
         tahr_world *inside = engine_inside(o->world);
         o->bodies = inside ? inside : o->world;

@@ -32,6 +32,7 @@ typedef struct gathered {
 typedef struct opened {
     const subject *subject;
     gathered gathered;
+    tahr_log log;
     tahr_world *world;
     tahr_world *bodies; /* the one whose bodies are moved: behind callbacks another one */
     tahr_mover *mover;
@@ -45,8 +46,16 @@ const subject *subject_named(const char *name);
 /* A mutant of tests/conformance, judged as if it were honest. */
 subject subject_mutant(uint32_t which);
 
-/* without: WITHOUT_*, GATHERED; seed: of lies. o and t must stay where they are until it is closed. */
-tahr_status subject_open(const subject *s, const trial *t, uint32_t without, uint64_t seed, opened *o);
+typedef struct subject_request {
+    const subject *subject;
+    const trial *trial;
+    uint32_t without; /* WITHOUT_*, GATHERED */
+    uint64_t seed;    /* of lies */
+    int loud;         /* 1: what the library complains about is printed */
+} subject_request;
+
+/* o and the trial must stay where they are until it is closed. */
+tahr_status subject_open(const subject_request *request, opened *o);
 void subject_close(opened *o);
 tahr_status subject_move(opened *o, const tahr_body_pose *poses, uint32_t count, double dt);
 
