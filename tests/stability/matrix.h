@@ -30,6 +30,7 @@ typedef struct matrix_request {
     uint32_t seeds;               /* a cell */
     uint64_t first_seed;
     int jobs;  /* processes */
+    int timed; /* 1: the slowest runs are repeated, so that the clock tells of them and not of the machine */
     int quiet; /* 1: prints nothing while it runs */
 } matrix_request;
 

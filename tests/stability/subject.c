@@ -30,27 +30,27 @@ static const uint32_t BOTH = IN_SPACE | IN_PLANE, ALL = (1u << KEEPS_COUNT) - 1;
  * on. gap: what native's README promises of float and double; of the others 1e-9 m, as the own core distance in double
  * decides what their engines find. */
 const subject SUBJECTS[] = {
-    {"native", BOTH, "", ALL, 0, 0, 2e-6, ON_NATIVE, TAHR_NATIVE_FLOAT},
-    {"native-double", BOTH, "", ALL, 0, 0, 1e-9, ON_NATIVE, TAHR_NATIVE_DOUBLE},
+    {"native", BOTH, "", ALL, 0, 0, 0, 2e-6, ON_NATIVE, TAHR_NATIVE_FLOAT},
+    {"native-double", BOTH, "", ALL, 0, 0, 0, 1e-9, ON_NATIVE, TAHR_NATIVE_DOUBLE},
 #ifdef TAHR_HAVE_CCD
-    {"ccd", BOTH, "", ALL, 0, 0, 1e-9, ON_CCD, 0},
+    {"ccd", BOTH, "", ALL, 0, 0, 0, 1e-9, ON_CCD, 0},
 #endif
 #ifdef TAHR_HAVE_FCL
-    {"fcl", BOTH, "", ALL, 0, 0, 1e-9, ON_FCL, 0},
+    {"fcl", BOTH, "", ALL, 0, 0, 0, 1e-9, ON_FCL, 0},
 #endif
 #ifdef TAHR_HAVE_BOX2D
-    {"box2d", IN_PLANE, PLANAR_ONLY, ALL, 0, 0, 1e-9, ON_BOX2D, TAHR_BOX2D_NEWEST},
+    {"box2d", IN_PLANE, PLANAR_ONLY, ALL, 0, 0, 0, 1e-9, ON_BOX2D, TAHR_BOX2D_NEWEST},
 #ifdef TAHR_HAVE_BOX2D_2
-    {"box2d-2", IN_PLANE, PLANAR_ONLY, ALL, 0, 0, 1e-9, ON_BOX2D, TAHR_BOX2D_2},
+    {"box2d-2", IN_PLANE, PLANAR_ONLY, ALL, 0, 0, 0, 1e-9, ON_BOX2D, TAHR_BOX2D_2},
 #endif
 #endif
-    {"callbacks", BOTH, "", ALL, 0, 0, 1e-9, ON_CALLBACKS, 0},
-    {"sweep-only", BOTH, "", ALL & ~(uint32_t)KEEPS_REST, 0, 0, 1e-9, ON_ONE_CALLBACK, 0},
-    {"liar-numbers", BOTH, "", KEEPS_SANE, LIE_NOT_NUMBERS, 0, 0, ON_LIAR, 0},
-    {"liar-late", BOTH, "", KEEPS_SANE, LIE_LATE, 0, 0, ON_LIAR, 0},
-    {"liar-false", BOTH, "", KEEPS_SANE, LIE_FALSE, 0, 0, ON_LIAR, 0},
-    {"liar-normals", BOTH, "", KEEPS_SANE, LIE_NORMALS, 0, 0, ON_LIAR, 0},
-    {"liar-garbage", BOTH, "", KEEPS_SANE, LIE_GARBAGE, 0, 0, ON_LIAR, 0},
+    {"callbacks", BOTH, "", ALL, 0, 0, 0, 1e-9, ON_CALLBACKS, 0},
+    {"sweep-only", BOTH, "", ALL & ~(uint32_t)KEEPS_REST, 0, 0, 0, 1e-9, ON_ONE_CALLBACK, 0},
+    {"liar-numbers", BOTH, "", KEEPS_SANE, LIE_NOT_NUMBERS, 0, 0, 0, ON_LIAR, 0},
+    {"liar-late", BOTH, "", KEEPS_SANE, LIE_LATE, 0, 0, 0, ON_LIAR, 0},
+    {"liar-false", BOTH, "", KEEPS_SANE, LIE_FALSE, 0, 0, 0, ON_LIAR, 0},
+    {"liar-normals", BOTH, "", KEEPS_SANE, LIE_NORMALS, 0, 0, 0, ON_LIAR, 0},
+    {"liar-garbage", BOTH, "", KEEPS_SANE, LIE_GARBAGE, 0, 0, 0, ON_LIAR, 0},
     {.name = NULL},
 };
 
@@ -69,7 +69,7 @@ const subject *subject_named(const char *name)
 
 subject subject_mutant(uint32_t which)
 {
-    return (subject){mutant_name(which), BOTH, "", ALL, 0, which, 1e-9, ON_MUTANT, 0};
+    return (subject){mutant_name(which), BOTH, "", ALL, 0, which, 1, 1e-9, ON_MUTANT, 0};
 }
 
 static uint32_t divisor(uint32_t a, uint32_t b)
@@ -80,6 +80,15 @@ static uint32_t divisor(uint32_t a, uint32_t b)
         b = rest;
     }
     return a;
+}
+
+subject subject_judged(const char *liar)
+{
+    subject s = *subject_named(liar);
+    s.keeps = ALL;
+    s.judged = 1;
+    s.gap = 1e-9;
+    return s;
 }
 
 /* A line goes to engines of two dimensions as a chain, whose front is on the right hand: from its other end. */

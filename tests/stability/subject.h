@@ -12,6 +12,7 @@ typedef struct subject {
     uint32_t keeps;       /* KEEPS_*: what may be expected of it; liars: KEEPS_SANE */
     uint32_t lie;         /* LIE_*: of a liar; its errors are no failures */
     uint32_t mutant;      /* of tests: which one, or 0 */
+    int judged;           /* 1: a liar that is judged as if it were honest, so that tests see it fail */
     double gap;           /* m, what an answer may be off, for twins in other places */
     int kind;             /* of subject.c */
     uint32_t precision;   /* of native; which Box2D */
@@ -43,8 +44,9 @@ extern const subject SUBJECTS[];
 int subject_count(void);
 const subject *subject_named(const char *name);
 
-/* A mutant of tests/conformance, judged as if it were honest. */
+/* A mutant of tests/conformance, and a liar, judged as if they were honest. */
 subject subject_mutant(uint32_t which);
+subject subject_judged(const char *liar);
 
 typedef struct subject_request {
     const subject *subject;

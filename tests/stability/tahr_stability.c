@@ -97,10 +97,11 @@ static int read_options(options *o, int argc, char **argv)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     *o = (options){.csv = "build/stability.csv", .svg = "build/stability.svg"};
-    o->request = (matrix_request){.seeds = SEEDS, .first_seed = 1, .jobs = processors > 0 ? (int)processors : 1};
+    o->request = (matrix_request){.seeds = SEEDS, .first_seed = 1, .timed = 1, .jobs = processors > 0 ? (int)processors : 1};
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0) {
             o->request.seeds = QUICK_SEEDS;
+            o->request.timed = 0;
         } else if (strcmp(argv[i], "--trace") == 0) {
             o->trace = 1;
         } else if (i + 1 < argc) {

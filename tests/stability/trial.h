@@ -34,9 +34,10 @@ enum {
     KEEPS_RELATION = 1 << 14, /* the changed twin goes the changed way */
     KEEPS_FLOOR = 1 << 15,    /* stands on what is walkable, within the reach of a floor */
     KEEPS_TIME = 1 << 16,     /* no part of a step is lost unsaid */
-    KEEPS_COUNT = 17,
+    KEEPS_WORD = 1 << 17,     /* an overlap that is left is said */
+    KEEPS_COUNT = 18,
     KEEPS_ALWAYS = KEEPS_SANE | KEEPS_SOLID | KEEPS_SKIN | KEEPS_ENERGY | KEEPS_REST | KEEPS_SAYING | KEEPS_FLOOR |
-                   KEEPS_TIME
+                   KEEPS_TIME | KEEPS_WORD
 };
 
 /* Where a body is at a time t: home + drift * t + swing * sin(rate * t + phase), turned by spin * t about axis. */

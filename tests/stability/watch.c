@@ -14,7 +14,8 @@ const char *watch_name(uint32_t kept)
 {
     static const char *const names[KEEPS_COUNT] = {"numbers", "status", "cap",    "report", "reach",  "solid",
                                                    "skin",    "energy", "rest",   "saying", "speed",  "ground",
-                                                   "inside",  "promise", "relation", "floor",  "time"};
+                                                   "inside",  "promise", "relation", "floor",  "time",
+                                                   "word"};
     for (int i = 0; i < KEEPS_COUNT; i++) {
         if (kept == 1u << i) return names[i];
     }
@@ -211,6 +212,14 @@ static void check_skin(watch *w, int step, const tahr_state *a, const tahr_state
     w->gap = gap;
 }
 
+/* What it could not be pushed out of is reported. */
+static void check_word(watch *w, int step, const tahr_state *b, const tahr_report *r)
+{
+    if (r->flags & (TAHR_REPORT_CRUSHED | TAHR_REPORT_STUCK | TAHR_REPORT_BASE_LOST)) return;
+    double gap = judge_gap(w->judge, w->poses[1], b, w->trial->config.skin, NULL);
+    at_most(w, KEEPS_WORD, step, -gap, w->trial->config.skin / 10 + slack(w), "overlaps something, and nothing says so, m");
+}
+
 /* Between two places less than a radius apart the way cannot lead around anything. */
 static void check_solid(watch *w, int step, const tahr_state *a, const tahr_state *b, uint64_t teleported)
 {
@@ -289,6 +298,7 @@ void watch_step(watch *w, int step, tahr_status status, const tahr_state *before
     if (dt == 0 && memcmp(before, now, sizeof *now) != 0) watch_accuse(w, KEEPS_STATUS, step, 0, 0, "dt = 0 changed it");
     if (w->keeps & (KEEPS_SOLID | KEEPS_INSIDE)) check_solid(w, step, before, now, teleported);
     if (w->keeps & KEEPS_SKIN) check_skin(w, step, before, now);
+    if (w->keeps & KEEPS_WORD) check_word(w, step, now, report);
     if (w->keeps & KEEPS_ENERGY) check_energy(w, step, before, now, report, dt);
     w->landed = before->mode == TAHR_MODE_WALKING && now->mode == TAHR_MODE_WALKING ? w->landed + 1 : 0;
     check_rest(w, step, before, now);
