@@ -13,7 +13,7 @@ ARGS ?=
 WERROR ?=
 CMAKE_ARGS ?=
 
-.PHONY: build setup setup-run run run-2d test test-full asan fuzz bench install clean format help
+.PHONY: build setup setup-run run run-2d test test-full asan fuzz bench stability install clean format help
 
 # Ninja if it is there and the folder is not configured yet; a configured folder keeps its generator.
 # Of its talk only what is left out and why is shown, unless it fails.
@@ -86,6 +86,13 @@ bench: setup-run
 	@$(call compile,$(BUILD)) --target tahr_bench
 	$(BUILD)/bin/tahr_bench --csv $(BUILD)/bench.csv $(ARGS)
 
+# Every hard case on every backend; QUICK=1: 30 variations of each, else 1000.
+QUICK ?=
+stability: setup-run
+	@$(call configure,$(BUILD),)
+	@$(call compile,$(BUILD)) --target tahr_stability
+	$(BUILD)/bin/tahr_stability $(if $(QUICK),--quick) --csv $(BUILD)/stability.csv --svg $(BUILD)/stability.svg $(ARGS)
+
 install: build
 	cmake --install $(BUILD) --prefix "$(abspath $(PREFIX))"
 
@@ -107,6 +114,8 @@ help:
 	@echo "make asan         all tests under AddressSanitizer and UBSan, in $(BUILD)/asan"
 	@echo "make fuzz         every fuzzer for TIME=60 seconds each (clang), what they find in $(BUILD)/fuzz/found"
 	@echo "make bench        the benchmark; ARGS='options'"
+	@echo "make stability    where methods fail: every hard case on every backend; QUICK=1 in less than a minute; leaves"
+	@echo "                  $(BUILD)/stability.csv and $(BUILD)/stability.svg; ARGS='--family wedge --backend ccd --seed 7 --trace'"
 	@echo "make install      PREFIX=/usr/local"
 	@echo "make setup        install what is missing through apt-get (run, test and the others do it too)"
 	@echo "make format       clang-format over all sources"

@@ -171,7 +171,7 @@ void make_sheets(trial *t, oracle_random *dice)
         trial_wander(t, dice, 60, 0, 0.8, 0);
     trial_idle(t, 20);
     if (behind) {
-        t->keeps &= ~(uint32_t)(KEEPS_SKIN | KEEPS_SAYING | KEEPS_REST | KEEPS_FLOOR);
+        t->keeps &= ~(uint32_t)(KEEPS_SKIN | KEEPS_WORD | KEEPS_SAYING | KEEPS_REST | KEEPS_FLOOR);
         t->keeps |= KEEPS_PROMISE;
         t->promise = sheet_promise;
         t->numbers[0] = x + fabs(lean);

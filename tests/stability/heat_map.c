@@ -50,7 +50,8 @@ static const char *worst_colour(const cell *c)
 {
     static const char *const shades[] = {"#f1f8f3", "#dff0e3", "#cbe7d3", "#e9ecb8", "#f8e39a", "#ffc46b", "#f58d55", "#d7473f"};
     double off = fmax(c->worst.deepest, c->worst.apart);
-    if (c->what == CELL_NOT_POSSIBLE || c->subject->lie) return "#eeeeee";
+    int let_off = c->preset == TAHR_PRESET_UNREAL && (c->family->unreal_loses & KEEPS_RELATION);
+    if (c->what == CELL_NOT_POSSIBLE || c->subject->lie || let_off) return "#eeeeee";
     if (c->what != CELL_DONE) return "#000000";
     int decade = off > 0 ? (int)floor(log10(off)) : -99;
     int shade = decade < -14 ? 0 : decade < -11 ? 1 : decade < -8 ? 2 : decade + 11;

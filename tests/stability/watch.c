@@ -212,7 +212,7 @@ static void check_skin(watch *w, int step, const tahr_state *a, const tahr_state
     w->gap = gap;
 }
 
-/* What it could not be pushed out of is reported. */
+/* What it could not be pushed out of is reported; steps of less than a nanosecond do nothing. */
 static void check_word(watch *w, int step, const tahr_state *b, const tahr_report *r)
 {
     if (r->flags & (TAHR_REPORT_CRUSHED | TAHR_REPORT_STUCK | TAHR_REPORT_BASE_LOST)) return;
@@ -298,7 +298,7 @@ void watch_step(watch *w, int step, tahr_status status, const tahr_state *before
     if (dt == 0 && memcmp(before, now, sizeof *now) != 0) watch_accuse(w, KEEPS_STATUS, step, 0, 0, "dt = 0 changed it");
     if (w->keeps & (KEEPS_SOLID | KEEPS_INSIDE)) check_solid(w, step, before, now, teleported);
     if (w->keeps & KEEPS_SKIN) check_skin(w, step, before, now);
-    if (w->keeps & KEEPS_WORD) check_word(w, step, now, report);
+    if ((w->keeps & KEEPS_WORD) && dt >= 1e-9) check_word(w, step, now, report);
     if (w->keeps & KEEPS_ENERGY) check_energy(w, step, before, now, report, dt);
     w->landed = before->mode == TAHR_MODE_WALKING && now->mode == TAHR_MODE_WALKING ? w->landed + 1 : 0;
     check_rest(w, step, before, now);

@@ -206,12 +206,25 @@ static double distance(const triangle *t, tahr_vec3 a, tahr_vec3 b)
     return best;
 }
 
-/* Most triangles of a column are far above or below. */
-static int apart(const triangle *t, double low, double high)
+/* Whether one range of numbers is more than reach away from another. */
+static int beyond(double a, double b, const double corners[3], double reach)
 {
-    double bottom = fmin(fmin(t->corner[0].z, t->corner[1].z), t->corner[2].z);
-    double top = fmax(fmax(t->corner[0].z, t->corner[1].z), t->corner[2].z);
-    return top < low || bottom > high;
+    double low = fmin(fmin(corners[0], corners[1]), corners[2]), high = fmax(fmax(corners[0], corners[1]), corners[2]);
+    return high < fmin(a, b) - reach || low > fmax(a, b) + reach;
+}
+
+/* Most triangles are farther than limit from the segment a b along some axis, or by their plane. */
+static int apart(const triangle *t, tahr_vec3 a, tahr_vec3 b, double limit)
+{
+    const tahr_vec3 *c = t->corner;
+    double from = dot(t->normal, minus(a, c[0])), to = dot(t->normal, minus(b, c[0]));
+    double near = fmin(fabs(from), fabs(to)), reach = limit * (1 + 1e-9);
+    if (from * to > 0 && near * near > reach * reach * dot(t->normal, t->normal)) {
+        return 1;
+    }
+    return beyond(a.x, b.x, (const double[]){c[0].x, c[1].x, c[2].x}, reach) ||
+           beyond(a.y, b.y, (const double[]){c[0].y, c[1].y, c[2].y}, reach) ||
+           beyond(a.z, b.z, (const double[]){c[0].z, c[1].z, c[2].z}, reach);
 }
 
 double scene_solid_distance(const scene_solid *s, tahr_vec3 a, tahr_vec3 b, double limit, uint32_t *index)
@@ -224,7 +237,7 @@ double scene_solid_distance(const scene_solid *s, tahr_vec3 a, tahr_vec3 b, doub
         for (uint32_t i = row[r.low[0]]; i < row[r.high[0] + 1]; i++) {
             triangle t = get(s->mesh, s->items[i]);
             int faces = s->two_sided || dot(t.normal, minus(middle, t.corner[0])) > 0;
-            if (!faces || apart(&t, fmin(a.z, b.z) - limit, fmax(a.z, b.z) + limit)) {
+            if (!faces || apart(&t, a, b, best)) {
                 continue;
             }
             double d = distance(&t, a, b);
