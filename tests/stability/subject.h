@@ -44,7 +44,7 @@ extern const subject SUBJECTS[];
 int subject_count(void);
 const subject *subject_named(const char *name);
 
-/* A mutant of tests/conformance, and a liar, judged as if they were honest. */
+/* A mutant, and a liar, judged as if they were honest. */
 subject subject_mutant(uint32_t which);
 subject subject_judged(const char *liar);
 
