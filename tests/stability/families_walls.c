@@ -72,7 +72,8 @@ void make_wedge(trial *t, oracle_random *dice)
     if (t->world == IN_SPACE && draw_one_in(dice, 2)) {
         double half = (draw_one_in(dice, 2) ? 5 : draw(dice, 3, 20)) * DEGREE * draw(dice, 0.7, 1.3);
         double far = trial_radius(t) / sin(half) + 0.8;
-        const double walls[3][2] = {{far - 12 * cos(half), 12 * sin(half)}, {far, 0}, {far - 12 * cos(half), -12 * sin(half)}};
+        const double walls[3][2] = {
+            {far - 12 * cos(half), 12 * sin(half)}, {far, 0}, {far - 12 * cos(half), -12 * sin(half)}};
         scene_mesh_plan(&trial_mesh(t, TAHR_BODY_TWO_SIDED)->mesh, walls, 3, -12, 12);
     } else {
         double down = tan(draw(dice, 1, 60) * DEGREE), x = draw(dice, 1, 3);
@@ -131,7 +132,11 @@ void make_step_traps(trial *t, oracle_random *dice)
 void make_perch(trial *t, oracle_random *dice)
 {
     double r = trial_radius(t), angle = t->config.walkable_angle;
-    const double limits[] = {r * sin(angle), r - t->config.perch_threshold, r - t->config.edge_tolerance, r, 0,
+    const double limits[] = {r * sin(angle),
+                             r - t->config.perch_threshold,
+                             r - t->config.edge_tolerance,
+                             r,
+                             0,
                              r * sin(angle + t->config.walkable_hysteresis)};
     double over = draw_around(dice, limits[oracle_below(dice, 6)], 0.3), deep = draw_one_in(dice, 2) ? 0.3 : 6;
     double skin = t->config.skin * 1.25, round = over < r ? r - sqrt((r + skin) * (r + skin) - over * over) + skin : 0;

@@ -48,7 +48,8 @@ static const char *clean_colour(const cell *c)
 /* m, by decades from 1e-12 on. */
 static const char *worst_colour(const cell *c)
 {
-    static const char *const shades[] = {"#f1f8f3", "#dff0e3", "#cbe7d3", "#e9ecb8", "#f8e39a", "#ffc46b", "#f58d55", "#d7473f"};
+    static const char *const shades[] = {"#f1f8f3", "#dff0e3", "#cbe7d3", "#e9ecb8",
+                                         "#f8e39a", "#ffc46b", "#f58d55", "#d7473f"};
     double off = fmax(c->worst.deepest, c->worst.apart);
     int let_off = c->preset == TAHR_PRESET_UNREAL && (c->family->unreal_loses & KEEPS_RELATION);
     if (c->what == CELL_NOT_POSSIBLE || c->subject->lie || let_off) return "#eeeeee";
@@ -103,19 +104,22 @@ static void write_heads(FILE *out, const matrix *m, int left, const char *what)
     fprintf(out, "<text x=\"%d\" y=\"46\" class=\"h\">%s</text>\n", left, what);
     for (int s = 0; s < m->subjects; s++) {
         int x = left + column_of(s, 1);
-        fprintf(out, "<text transform=\"translate(%d,%d) rotate(-40)\">%s</text>\n", x + 12, TOP - 18, SUBJECTS[s].name);
+        fprintf(out, "<text transform=\"translate(%d,%d) rotate(-40)\">%s</text>\n", x + 12, TOP - 18,
+                SUBJECTS[s].name);
         for (uint32_t p = 1; p <= MATRIX_PRESETS; p++)
-            fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">%c</text>\n", left + column_of(s, p) + CELL_WIDE / 2, TOP - 4,
-                    tahr_preset_name((int32_t)p)[p == TAHR_PRESET_PLATFORMER ? 1 : 0]);
+            fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">%c</text>\n", left + column_of(s, p) + CELL_WIDE / 2,
+                    TOP - 4, tahr_preset_name((int32_t)p)[p == TAHR_PRESET_PLATFORMER ? 1 : 0]);
     }
 }
 
 /* What a step may cost at most, of native in double: a number of queries, and the clock of this machine. */
 static void write_costs(FILE *out, const matrix *m, int left)
 {
-    fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">most</text><text x=\"%d\" y=\"%d\" class=\"n\">queries</text>\n", left + 24,
-            TOP - 18, left + 24, TOP - 4);
-    fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">slowest step</text><text x=\"%d\" y=\"%d\" class=\"n\">native, us</text>\n",
+    fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">most</text><text x=\"%d\" y=\"%d\" class=\"n\">queries</text>\n",
+            left + 24, TOP - 18, left + 24, TOP - 4);
+    fprintf(out,
+            "<text x=\"%d\" y=\"%d\" class=\"n\">slowest step</text><text x=\"%d\" y=\"%d\" class=\"n\">native, "
+            "us</text>\n",
             left + 92, TOP - 18, left + 92, TOP - 4);
     for (int f = 0; f < m->families; f++) {
         uint32_t queries = 0;
@@ -128,8 +132,8 @@ static void write_costs(FILE *out, const matrix *m, int left)
                 slowest = native && c->slowest > slowest ? c->slowest : slowest;
             }
         }
-        fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">%u</text><text x=\"%d\" y=\"%d\" class=\"n\">%.0f</text>\n", left + 24,
-                TOP + f * CELL_HIGH + 11, queries, left + 92, TOP + f * CELL_HIGH + 11, 1e6 * slowest);
+        fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">%u</text><text x=\"%d\" y=\"%d\" class=\"n\">%.0f</text>\n",
+                left + 24, TOP + f * CELL_HIGH + 11, queries, left + 92, TOP + f * CELL_HIGH + 11, 1e6 * slowest);
     }
 }
 
@@ -147,15 +151,17 @@ void heat_map_svg(FILE *out, const matrix *m, uint32_t seeds)
     write_heads(out, m, LEFT, "variations that break a promise, per 1000 (none: no number)");
     write_heads(out, m, second, "worst of all steps: nearer than it may be, or off its twin (m)");
     for (int f = 0; f < m->families; f++)
-        fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"r\">%s</text>\n", LEFT - 6, TOP + f * CELL_HIGH + 11, FAMILIES[f].name);
+        fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"r\">%s</text>\n", LEFT - 6, TOP + f * CELL_HIGH + 11,
+                FAMILIES[f].name);
     write_map(out, m, LEFT, 0);
     write_map(out, m, second, 1);
     write_costs(out, m, costs);
     int y = TOP + m->families * CELL_HIGH + 22;
-    fprintf(out,
-            "<text x=\"%d\" y=\"%d\">p precise, u unreal, l platformer (seen from the side). Green: clean. Blue: a liar, "
-            "and the movement stayed sane. Grey: not possible, or no such number. Black: crashed.</text>\n"
-            "<text x=\"%d\" y=\"%d\">Worst, from pale to red: up to 1e-14, 1e-11, 1e-8, then a decade each up to 1 mm "
-            "and more. A cell tells its numbers where the picture is opened in a browser.</text>\n</svg>\n",
-            LEFT, y, LEFT, y + 18);
+    fprintf(
+        out,
+        "<text x=\"%d\" y=\"%d\">p precise, u unreal, l platformer (seen from the side). Green: clean. Blue: a liar, "
+        "and the movement stayed sane. Grey: not possible, or no such number. Black: crashed.</text>\n"
+        "<text x=\"%d\" y=\"%d\">Worst, from pale to red: up to 1e-14, 1e-11, 1e-8, then a decade each up to 1 mm "
+        "and more. A cell tells its numbers where the picture is opened in a browser.</text>\n</svg>\n",
+        LEFT, y, LEFT, y + 18);
 }

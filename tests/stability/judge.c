@@ -97,9 +97,10 @@ double judge_gap_again(const judge *j, const tahr_pose *poses, const tahr_state 
     const double still[3] = {0, 0, 0};
     tahr_vec3 ends[2];
     axis_of(&poses[body], state, ends);
-    oracle_core core = {.axis_count = 1,
-                        .centre = {(ends[0].x + ends[1].x) / 2, (ends[0].y + ends[1].y) / 2, (ends[0].z + ends[1].z) / 2},
-                        .axis = {{(ends[1].x - ends[0].x) / 2, (ends[1].y - ends[0].y) / 2, (ends[1].z - ends[0].z) / 2}}};
+    oracle_core core = {
+        .axis_count = 1,
+        .centre = {(ends[0].x + ends[1].x) / 2, (ends[0].y + ends[1].y) / 2, (ends[0].z + ends[1].z) / 2},
+        .axis = {{(ends[1].x - ends[0].x) / 2, (ends[1].y - ends[0].y) / 2, (ends[1].z - ends[0].z) / 2}}};
     if (swallowed(b, (const tahr_vec3 *)ends)) return -state->radius;
     long double best = 1e30L;
     int both = (b->desc.flags & TAHR_BODY_TWO_SIDED) != 0 || b->desc.type == TAHR_BODY_BOX;

@@ -74,7 +74,7 @@ static tahr_vec3 against(oracle_random *dice, tahr_vec3 motion)
 
 static void poison(oracle_random *dice, tahr_hit *h)
 {
-    double *fields[] = {&h->fraction, &h->distance, &h->depth,   &h->normal.x, &h->normal.z,
+    double *fields[] = {&h->fraction, &h->distance, &h->depth,    &h->normal.x,         &h->normal.z,
                         &h->point.y,  &h->point.x,  &h->fraction, &h->surface_normal.y, &h->walkable_angle};
     *fields[oracle_below(dice, 10)] = number(dice);
 }

@@ -14,14 +14,14 @@ typedef struct cell {
     const family *family;
     const subject *subject;
     uint32_t preset;
-    int what;        /* CELL_* */
-    const char *why; /* NOT_POSSIBLE */
+    int what;                        /* CELL_* */
+    const char *why;                 /* NOT_POSSIBLE */
     uint32_t runs, failures, insane; /* insane: of the failures, those of what lies may not do either */
-    uint64_t seed;   /* of the run under way; CRASHED, HUNG: of the last */
+    uint64_t seed;                   /* of the run under way; CRASHED, HUNG: of the last */
     uint64_t first_seed;
     accusation first;
-    measure worst;   /* deepest, apart, used, queries: of all; steps, walking, errors: their sums */
-    double slowest;  /* s, a step: of the slowest runs, each the fastest of some repetitions */
+    measure worst;  /* deepest, apart, used, queries: of all; steps, walking, errors: their sums */
+    double slowest; /* s, a step: of the slowest runs, each the fastest of some repetitions */
 } cell;
 
 typedef struct matrix_request {

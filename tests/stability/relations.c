@@ -101,7 +101,8 @@ void twin_anywhere(const trial *t, oracle_random *dice, twin *w)
     double far = draw_power(dice, 0, 4);
     twin_begin(w, t);
     w->in_step = 1;
-    w->shift = (tahr_vec3){draw(dice, -far, far), draw(dice, -far, far), t->world == IN_PLANE ? 0 : draw(dice, -far, far)};
+    w->shift =
+        (tahr_vec3){draw(dice, -far, far), draw(dice, -far, far), t->world == IN_PLANE ? 0 : draw(dice, -far, far)};
     trial_shift(&w->other, w->shift);
     w->tolerance = 1e-9 + w->other.rounding;
     w->exactness = 4;

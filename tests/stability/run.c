@@ -191,7 +191,8 @@ static void compare(runner *r, int step, const tahr_state *before, tahr_status o
     double off = apart(due.position, r->state_twin.position);
     double slower = apart(due.velocity, r->state_twin.velocity) / 60;
     double worst = fmax(off, slower);
-    int undecided = w->in_step && w->pieces == 1 && worst > allowed && (in_crease(r, before) || in_crease(r, &r->state));
+    int undecided =
+        w->in_step && w->pieces == 1 && worst > allowed && (in_crease(r, before) || in_crease(r, &r->state));
     if (undecided) return;
     r->watch.worst.apart = fmax(r->watch.worst.apart, worst);
     if (one != other) watch_accuse(&r->watch, KEEPS_RELATION, step, other, one, "another status");
@@ -218,8 +219,8 @@ static void trace(const runner *r, int step, tahr_status status)
     printf("\n");
     if (r->opened_twin.mover) {
         const tahr_state *q = &r->state_twin;
-        printf("    its twin %-8s at %+.12g %+.12g %+.12g  v %+.9g %+.9g %+.9g\n", tahr_mode_name(q->mode), q->position.x,
-               q->position.y, q->position.z, q->velocity.x, q->velocity.y, q->velocity.z);
+        printf("    its twin %-8s at %+.12g %+.12g %+.12g  v %+.9g %+.9g %+.9g\n", tahr_mode_name(q->mode),
+               q->position.x, q->position.y, q->position.z, q->velocity.x, q->velocity.y, q->velocity.z);
     }
 }
 
@@ -316,8 +317,7 @@ void run(const run_request *request, outcome *out)
     family_make(request->family, world_of(request), request->preset, request->seed, &r.trial);
     r.judge = judge_open(&r.trial);
     watch_begin(&r.watch, &r.trial, r.judge, expected(request, &r.trial),
-                request->subject->lie == 0 || request->subject->judged,
-                request->subject->gap);
+                request->subject->lie == 0 || request->subject->judged, request->subject->gap);
     int related = 0;
     if (request->family->twin) {
         oracle_random dice = {request->seed + 77};

@@ -7,9 +7,9 @@
 /* What a column is called; subjects' names are longer. */
 static const char *short_name(const subject *s)
 {
-    static const char *const names[][2] = {{"native-double", "double"}, {"sweep-only", "sweeps"},  {"callbacks", "callb."},
-                                           {"liar-numbers", "l.nan"},   {"liar-late", "l.late"},   {"liar-false", "l.false"},
-                                           {"liar-normals", "l.norm"},  {"liar-garbage", "l.garb"}};
+    static const char *const names[][2] = {
+        {"native-double", "double"}, {"sweep-only", "sweeps"},  {"callbacks", "callb."},    {"liar-numbers", "l.nan"},
+        {"liar-late", "l.late"},     {"liar-false", "l.false"}, {"liar-normals", "l.norm"}, {"liar-garbage", "l.garb"}};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         if (strcmp(names[i][0], s->name) == 0) return names[i][1];
     }

@@ -97,7 +97,8 @@ static int read_options(options *o, int argc, char **argv)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     *o = (options){.csv = "build/stability.csv", .svg = "build/stability.svg"};
-    o->request = (matrix_request){.seeds = SEEDS, .first_seed = 1, .timed = 1, .jobs = processors > 0 ? (int)processors : 1};
+    o->request =
+        (matrix_request){.seeds = SEEDS, .first_seed = 1, .timed = 1, .jobs = processors > 0 ? (int)processors : 1};
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0) {
             o->request.seeds = QUICK_SEEDS;
@@ -131,10 +132,11 @@ static int run_one(const options *o)
         return 0;
     }
     run(&q, &out);
-    printf("%u steps, %u of them walking, at most %u queries, %.3g m nearer than it may be, %.3g m off its twin, slowest "
-           "step %d: %.1f us\n",
-           out.worst.steps, out.worst.walking, out.worst.queries, out.worst.deepest, out.worst.apart, out.slowest_step,
-           1e6 * out.slowest);
+    printf(
+        "%u steps, %u of them walking, at most %u queries, %.3g m nearer than it may be, %.3g m off its twin, slowest "
+        "step %d: %.1f us\n",
+        out.worst.steps, out.worst.walking, out.worst.queries, out.worst.deepest, out.worst.apart, out.slowest_step,
+        1e6 * out.slowest);
     if (!out.first.kept) {
         printf("clean\n");
         return 0;

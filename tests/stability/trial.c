@@ -303,9 +303,8 @@ tahr_pose trial_pose(const trial_body *body, double time, int steps)
         tahr_quat p = pose.orientation;
         double s = sin(m->spin * now / 2), w = cos(m->spin * now / 2);
         double x = m->axis.x * s, y = m->axis.y * s, z = m->axis.z * s;
-        pose.orientation =
-            (tahr_quat){w * p.x + x * p.w + y * p.z - z * p.y, w * p.y - x * p.z + y * p.w + z * p.x,
-                        w * p.z + x * p.y - y * p.x + z * p.w, w * p.w - x * p.x - y * p.y - z * p.z};
+        pose.orientation = (tahr_quat){w * p.x + x * p.w + y * p.z - z * p.y, w * p.y - x * p.z + y * p.w + z * p.x,
+                                       w * p.z + x * p.y - y * p.x + z * p.w, w * p.w - x * p.x - y * p.y - z * p.z};
     }
     return pose;
 }

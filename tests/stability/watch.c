@@ -12,10 +12,9 @@ enum { REST_FROM = 3, HANGS_AFTER = 30, STILL_AFTER = 45 };
 
 const char *watch_name(uint32_t kept)
 {
-    static const char *const names[KEEPS_COUNT] = {"numbers", "status", "cap",    "report", "reach",  "solid",
-                                                   "skin",    "energy", "rest",   "saying", "speed",  "ground",
-                                                   "inside",  "promise", "relation", "floor",  "time",
-                                                   "word"};
+    static const char *const names[KEEPS_COUNT] = {"numbers", "status",  "cap",      "report", "reach", "solid",
+                                                   "skin",    "energy",  "rest",     "saying", "speed", "ground",
+                                                   "inside",  "promise", "relation", "floor",  "time",  "word"};
     for (int i = 0; i < KEEPS_COUNT; i++) {
         if (kept == 1u << i) return names[i];
     }
@@ -181,7 +180,8 @@ static void check_rest(watch *w, int step, const tahr_state *a, const tahr_state
     w->hanging = hangs ? w->hanging + 1 : 0;
     if (!hangs) w->held = b->position;
     double seconds = w->hanging * t->steps[step].dt;
-    if (w->hanging > HANGS_AFTER && seconds > 0.5) watch_accuse(w, KEEPS_REST, step, seconds, 0.5, "hangs in the air, s");
+    if (w->hanging > HANGS_AFTER && seconds > 0.5)
+        watch_accuse(w, KEEPS_REST, step, seconds, 0.5, "hangs in the air, s");
 }
 
 /* m: a skin is kept within 1e-5 m by a character of 1.8 m (design), and within what the backend's answers are off. */
@@ -217,7 +217,8 @@ static void check_word(watch *w, int step, const tahr_state *b, const tahr_repor
 {
     if (r->flags & (TAHR_REPORT_CRUSHED | TAHR_REPORT_STUCK | TAHR_REPORT_BASE_LOST)) return;
     double gap = judge_gap(w->judge, w->poses[1], b, w->trial->config.skin, NULL);
-    at_most(w, KEEPS_WORD, step, -gap, w->trial->config.skin / 10 + slack(w), "overlaps something, and nothing says so, m");
+    at_most(w, KEEPS_WORD, step, -gap, w->trial->config.skin / 10 + slack(w),
+            "overlaps something, and nothing says so, m");
 }
 
 /* Between two places less than a radius apart the way cannot lead around anything. */
@@ -287,15 +288,18 @@ void watch_step(watch *w, int step, tahr_status status, const tahr_state *before
     w->worst.steps++;
     if (status < 0) {
         w->worst.errors++;
-        if (memcmp(before, now, sizeof *now) != 0) watch_accuse(w, KEEPS_STATUS, step, status, 0, "an error changed the state");
-        if (w->honest || status != TAHR_E_BACKEND) watch_accuse(w, KEEPS_STATUS, step, status, 0, tahr_status_name(status));
+        if (memcmp(before, now, sizeof *now) != 0)
+            watch_accuse(w, KEEPS_STATUS, step, status, 0, "an error changed the state");
+        if (w->honest || status != TAHR_E_BACKEND)
+            watch_accuse(w, KEEPS_STATUS, step, status, 0, tahr_status_name(status));
         return;
     }
     w->worst.walking += now->mode == TAHR_MODE_WALKING;
     check_numbers(w, step, now);
     check_report(w, step, report, dt);
     check_reach(w, step, before, now, dt);
-    if (dt == 0 && memcmp(before, now, sizeof *now) != 0) watch_accuse(w, KEEPS_STATUS, step, 0, 0, "dt = 0 changed it");
+    if (dt == 0 && memcmp(before, now, sizeof *now) != 0)
+        watch_accuse(w, KEEPS_STATUS, step, 0, 0, "dt = 0 changed it");
     if (w->keeps & (KEEPS_SOLID | KEEPS_INSIDE)) check_solid(w, step, before, now, teleported);
     if (w->keeps & KEEPS_SKIN) check_skin(w, step, before, now);
     if ((w->keeps & KEEPS_WORD) && dt >= 1e-9) check_word(w, step, now, report);

@@ -17,9 +17,9 @@ typedef struct accusation {
 
 /* The worst of a run, whatever was expected. */
 typedef struct measure {
-    double deepest;  /* m, farthest below what had to stay free; >= 0 */
-    double apart;    /* m, farthest that twins came apart in a step, or in all */
-    double used;     /* the largest part of a bound that was used up */
+    double deepest;   /* m, farthest below what had to stay free; >= 0 */
+    double apart;     /* m, farthest that twins came apart in a step, or in all */
+    double used;      /* the largest part of a bound that was used up */
     uint32_t queries; /* most of a step */
     uint32_t steps, walking, errors;
 } measure;
@@ -28,9 +28,9 @@ typedef struct watch {
     const trial *trial;
     const judge *judge;
     uint32_t keeps;
-    int honest; /* errors are failures */
+    int honest;   /* errors are failures */
     double exact; /* m, what the backend's answers may be off */
-    int moves;  /* something does */
+    int moves;    /* something does */
     accusation first;
     measure worst;
     tahr_pose poses[2][TRIAL_BODIES]; /* of the bodies: before and in this step */

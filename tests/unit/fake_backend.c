@@ -10,14 +10,12 @@
 
 #include "fake_backend.h"
 
-const char *const lie_fields[LIES] = {"",         "normal",   "normal",   "normal",        "surface_normal",
-                                      "fraction", "fraction", "fraction", "count",         "status",
-                                      "distance", "depth",    "point",    "walkable_rule", "walkable_angle",
-                                      "point",    "distance"};
+const char *const lie_fields[LIES] = {
+    "",       "normal",   "normal", "normal", "surface_normal", "fraction",       "fraction", "fraction", "count",
+    "status", "distance", "depth",  "point",  "walkable_rule",  "walkable_angle", "point",    "distance"};
 
-const char *const contact_lie_fields[CONTACT_LIES] = {"",       "normal",         "distance", "count",
-                                                      "status", "surface_normal", "point",    "walkable_rule",
-                                                      "point",  "distance"};
+const char *const contact_lie_fields[CONTACT_LIES] = {
+    "", "normal", "distance", "count", "status", "surface_normal", "point", "walkable_rule", "point", "distance"};
 
 static void spoil(int lie, tahr_hit *h, uint32_t *count)
 {

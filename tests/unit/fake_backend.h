@@ -24,7 +24,7 @@ enum {
     LIE_POINT,
     LIE_RULE,
     LIE_ANGLE,
-    LIE_POINT_FAR,    /* farther out than a state may hold */
+    LIE_POINT_FAR, /* farther out than a state may hold */
     LIE_DISTANCE_FAR,
     LIES
 };

@@ -273,7 +273,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(lies_of_a_sweep_end_the_step_and_are_named),
                                        cmocka_unit_test(lies_of_contacts_end_the_step_and_are_named),
-        cmocka_unit_test(normals_of_rays_are_made_exact),
+                                       cmocka_unit_test(normals_of_rays_are_made_exact),
                                        cmocka_unit_test(unknown_blocks_at_the_last_free_fraction_with_a_flag),
                                        cmocka_unit_test(unknown_that_does_not_say_blocking_blocks_all_the_same),
                                        cmocka_unit_test(unknown_with_garbage_beside_it_blocks_all_the_same),
