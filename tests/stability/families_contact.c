@@ -15,7 +15,7 @@ static tahr_vec3 at(double x, double y, double z)
 static void make_dyadic(trial *t)
 {
     t->config.shape.radius = 0.375;
-    t->config.shape.half_height = 0.875;
+    t->config.shape.half_height = t->config.shape.type == TAHR_SHAPE_SPHERE ? 0.375 : 0.875;
     t->config.skin = 0.015625;
 }
 

@@ -6,6 +6,9 @@
 
 #include <string.h>
 
+/* One trial in so many is a sphere's, or a circle's. */
+enum { BALLS = 8 };
+
 #define BOTH (IN_SPACE | IN_PLANE)
 #define NEEDS_TRIANGLES "its case is made of triangles"
 #define ROW(n, t, w, y, m) .name = (n), .tells = (t), .worlds = (w), .why_not = (y), .make = (m)
@@ -85,6 +88,7 @@ void family_make(const family *f, uint32_t world, uint32_t preset, uint64_t seed
 {
     oracle_random dice = {seed * 0x9e3779b97f4a7c15u + 1};
     trial_begin(t, world, preset);
+    if (seed % BALLS == 0) t->config.shape = (tahr_shape){.type = TAHR_SHAPE_SPHERE, .radius = 0.5, .half_height = 0.5};
     f->make(t, &dice);
     trial_finish(t);
 }

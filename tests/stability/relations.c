@@ -42,7 +42,7 @@ void relate_triangles(trial *t, oracle_random *dice)
 void relate_lattice(trial *t, oracle_random *dice)
 {
     t->config.shape.radius = 0.375;
-    t->config.shape.half_height = 0.875;
+    t->config.shape.half_height = t->config.shape.type == TAHR_SHAPE_SPHERE ? 0.375 : 0.875;
     t->config.skin = 0.015625;
     t->config.floor_target = 1.25;
     trial_box(t, (tahr_vec3){2, 2, 0.25}, (tahr_vec3){1.75, 1.75, 0.25}, 0);

@@ -17,8 +17,8 @@ typedef struct runner {
     opened opened, opened_twin;
     tahr_state state, state_twin;
     tahr_event events[WATCH_EVENTS];
-    tahr_report report;
-    double time, time_twin;
+    tahr_report report, report_twin;
+    double time;
 } runner;
 
 static double now_seconds(void)
@@ -140,22 +140,31 @@ static void align(runner *r)
 
 /* m that two ways may be apart which touch the same surfaces `off` sooner or later: what is met at a graze, or while
  * hardly moving toward it, is met at another time, and the rest of the step goes the new way, at up to twice the speed off the old one, by so much longer. The end
- * of a floor is searched for to a part of the way. Pulled back by a distance of its own, Unreal's way meets walls at
- * exactly that distance again, and a rounding decides whether it slides or is pulled back. */
+ * of a floor is searched for to a part of the way. */
 static double conditioned(const runner *r, const tahr_state *before, double dt, double off)
 {
-    const tahr_config *c = &r->trial.config;
     const double fast = sqrt(dot(before->velocity, before->velocity)) + 20 * r->trial.scale * dt, part = 1e-6;
-    double more = 0;
+    /* Straight down onto an edge: at the rim of the shape, 1e-4 m wide, the way is up to 40 times as far off. */
+    double steep = dot(r->state.floor.normal, r->state.up), more = 0;
+    if (r->state.mode == TAHR_MODE_WALKING) more += off / fmax(steep, 0.02);
     for (uint32_t i = 0; i < r->report.event_count; i++) {
         const tahr_event *e = &r->events[i];
         double into = e->type == TAHR_EVENT_HIT ? e->value : fabs(dot(e->normal, before->velocity));
         int meets = e->type == TAHR_EVENT_LANDED || e->type == TAHR_EVENT_HIT;
         if (meets) more += 2 * fast * (into > 0 ? fmin(off / into, dt) : dt);
-        if (meets && c->separation == TAHR_SEPARATION_PULL_BACK) more += 2 * c->pull_back; /* of two motions */
         if (e->type == TAHR_EVENT_LEFT_GROUND) more += part * fast * dt;
     }
     return more;
+}
+
+/* Pulled back by a distance of its own Unreal's way meets walls at exactly that distance again, and a rounding decides
+ * whether it slides, steps up or stays. */
+static int meets_its_own_thresholds(const runner *r)
+{
+    int meets = r->report.slides > 0 || r->report_twin.slides > 0;
+    for (uint32_t i = 0; i < r->report.event_count; i++)
+        meets = meets || r->events[i].type == TAHR_EVENT_HIT || r->events[i].type == TAHR_EVENT_LANDED;
+    return meets && r->trial.config.separation == TAHR_SEPARATION_PULL_BACK;
 }
 
 /* Whether the character touches two floors at once, in a crease: which of them is its floor a rounding decides, and its
@@ -191,8 +200,8 @@ static void compare(runner *r, int step, const tahr_state *before, tahr_status o
     double off = apart(due.position, r->state_twin.position);
     double slower = apart(due.velocity, r->state_twin.velocity) / 60;
     double worst = fmax(off, slower);
-    int undecided =
-        w->in_step && w->pieces == 1 && worst > allowed && (in_crease(r, before) || in_crease(r, &r->state));
+    int undecided = w->in_step && w->pieces == 1 && worst > allowed &&
+                    (meets_its_own_thresholds(r) || in_crease(r, before) || in_crease(r, &r->state));
     if (undecided) return;
     r->watch.worst.apart = fmax(r->watch.worst.apart, worst);
     if (one != other) watch_accuse(&r->watch, KEEPS_RELATION, step, other, one, "another status");
@@ -247,8 +256,10 @@ static tahr_status step_twin(runner *r, int step)
 {
     const trial_step *s = &r->twin.other.steps[step];
     tahr_status status = TAHR_OK;
+    r->report_twin = (tahr_report){.struct_size = sizeof r->report_twin};
     for (uint32_t i = 0; i < r->twin.pieces && status >= 0; i++)
-        status = tahr_mover_step(r->opened_twin.mover, &s->input, s->dt / r->twin.pieces, &r->state_twin, NULL);
+        status =
+            tahr_mover_step(r->opened_twin.mover, &s->input, s->dt / r->twin.pieces, &r->state_twin, &r->report_twin);
     return status;
 }
 
