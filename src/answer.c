@@ -47,7 +47,7 @@ static const char *bad_hit(const tahr_hit *h)
     if (h->unknown || (!h->blocking && !h->sensor && !h->start_overlap)) {
         return NULL;
     }
-    if (h->start_overlap && !(h->depth >= 0 && is_length(h->depth))) {
+    if (h->start_overlap && !(h->depth >= 0 && is_finite(h->depth))) {
         return "depth";
     }
     if (!is_length(h->distance)) {
@@ -273,7 +273,7 @@ void tahr__make_wall(tahr_hit *hit, vec3 from, vec3 motion, double margin)
         hit->point = add_scaled(from, motion, hit->fraction);
     }
     hit->distance = is_length(hit->distance) ? hit->distance : margin; /* so far it was free */
-    hit->depth = is_length(hit->depth) && hit->depth >= 0 ? hit->depth : 0;
+    hit->depth = is_finite(hit->depth) && hit->depth >= 0 ? hit->depth : 0;
     if (bad_rule(hit->walkable_rule, hit->walkable_angle)) {
         hit->walkable_rule = TAHR_WALKABLE_NEVER;
         hit->walkable_angle = 0;
