@@ -22,9 +22,10 @@ static int is_place(vec3 point)
     return length_squared(point) <= TAHR__FARTHEST * TAHR__FARTHEST;
 }
 
-static int is_length(double m)
+/* Overlaps may be told as deep as they like: what leaves them is cut. */
+static int is_distance(double m, int overlaps)
 {
-    return m >= -TAHR__FARTHEST && m <= TAHR__FARTHEST;
+    return is_finite(m) && m <= TAHR__FARTHEST && (overlaps || m >= -TAHR__FARTHEST);
 }
 
 /* What hits and contacts say of the surface. */
@@ -50,7 +51,7 @@ static const char *bad_hit(const tahr_hit *h)
     if (h->start_overlap && !(h->depth >= 0 && is_finite(h->depth))) {
         return "depth";
     }
-    if (!is_length(h->distance)) {
+    if (!is_distance(h->distance, h->start_overlap != 0)) {
         return "distance";
     }
     return bad_surface(h->normal, h->surface_normal, h->point, h->walkable_rule, h->walkable_angle);
@@ -58,7 +59,7 @@ static const char *bad_hit(const tahr_hit *h)
 
 static const char *bad_contact(const tahr_contact *c)
 {
-    if (!is_length(c->distance)) {
+    if (!is_distance(c->distance, 1)) {
         return "distance";
     }
     return bad_surface(c->normal, c->surface_normal, c->point, c->walkable_rule, c->walkable_angle);
@@ -272,7 +273,7 @@ void tahr__make_wall(tahr_hit *hit, vec3 from, vec3 motion, double margin)
     if (!is_place(hit->point)) {
         hit->point = add_scaled(from, motion, hit->fraction);
     }
-    hit->distance = is_length(hit->distance) ? hit->distance : margin; /* so far it was free */
+    hit->distance = is_distance(hit->distance, 0) ? hit->distance : margin; /* so far it was free */
     hit->depth = is_finite(hit->depth) && hit->depth >= 0 ? hit->depth : 0;
     if (bad_rule(hit->walkable_rule, hit->walkable_angle)) {
         hit->walkable_rule = TAHR_WALKABLE_NEVER;

@@ -127,7 +127,7 @@ static tahr_status backend_contacts(void *self, tahr_query_context *context, con
         contacts[0].point.z = b->contact_lie == CONTACT_LIE_POINT ? NAN : contacts[0].point.z;
         contacts[0].walkable_rule = b->contact_lie == CONTACT_LIE_RULE ? 9 : contacts[0].walkable_rule;
         contacts[0].point.x = b->contact_lie == CONTACT_LIE_POINT_FAR ? 1e300 : contacts[0].point.x;
-        contacts[0].distance = b->contact_lie == CONTACT_LIE_DISTANCE_FAR ? -1.1e8 : contacts[0].distance;
+        contacts[0].distance = b->contact_lie == CONTACT_LIE_DISTANCE_FAR ? 1.1e8 : contacts[0].distance;
     }
     return status;
 }
