@@ -14,9 +14,18 @@ static int column_of(int column, uint32_t preset)
     return column * (MATRIX_PRESETS * CELL_WIDE + GAP) + (int)(preset - 1) * CELL_WIDE;
 }
 
-static int map_wide(const matrix *m)
+/* Liars come last, and of them there is no worst. */
+static int columns(const matrix *m, int second)
 {
-    return m->subjects * (MATRIX_PRESETS * CELL_WIDE + GAP);
+    int count = 0;
+    while (count < m->subjects && !(second && SUBJECTS[count].lie))
+        count++;
+    return count;
+}
+
+static int map_wide(const matrix *m, int second)
+{
+    return columns(m, second) * (MATRIX_PRESETS * CELL_WIDE + GAP);
 }
 
 /* Escapes what XML does not take as it is. */
@@ -82,7 +91,7 @@ static void write_title(FILE *out, const cell *c)
 static void write_map(FILE *out, const matrix *m, int left, int second)
 {
     for (int f = 0; f < m->families; f++) {
-        for (int s = 0; s < m->subjects; s++) {
+        for (int s = 0; s < columns(m, second); s++) {
             for (uint32_t p = 1; p <= MATRIX_PRESETS; p++) {
                 const cell *c = matrix_cell(m, f, s, p);
                 int x = left + column_of(s, p), y = TOP + f * CELL_HIGH;
@@ -99,10 +108,12 @@ static void write_map(FILE *out, const matrix *m, int left, int second)
     }
 }
 
-static void write_heads(FILE *out, const matrix *m, int left, const char *what)
+static void write_heads(FILE *out, const matrix *m, int left, int second)
 {
-    fprintf(out, "<text x=\"%d\" y=\"46\" class=\"h\">%s</text>\n", left, what);
-    for (int s = 0; s < m->subjects; s++) {
+    fprintf(out, "<text x=\"%d\" y=\"46\" class=\"h\">%s</text>\n", left,
+            second ? "worst of all steps: nearer than it may be, or off its twin (m)"
+                   : "variations that break a promise, per 1000 (none: no number)");
+    for (int s = 0; s < columns(m, second); s++) {
         int x = left + column_of(s, 1);
         fprintf(out, "<text transform=\"translate(%d,%d) rotate(-40)\">%s</text>\n", x + 12, TOP - 18,
                 SUBJECTS[s].name);
@@ -139,7 +150,7 @@ static void write_costs(FILE *out, const matrix *m, int left)
 
 void heat_map_svg(FILE *out, const matrix *m, uint32_t seeds)
 {
-    int wide = map_wide(m), second = LEFT + wide + BETWEEN, costs = second + wide;
+    int second = LEFT + map_wide(m, 0) + BETWEEN, costs = second + map_wide(m, 1);
     int width = costs + RIGHT, height = TOP + m->families * CELL_HIGH + BELOW;
     fprintf(out,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\">\n"
@@ -148,8 +159,8 @@ void heat_map_svg(FILE *out, const matrix *m, uint32_t seeds)
             "<rect width=\"100%%\" height=\"100%%\" fill=\"white\"/>\n"
             "<text x=\"%d\" y=\"24\" class=\"t\">Where methods fail: %u random variations of each hard case</text>\n",
             width, height, width, height, LEFT, seeds);
-    write_heads(out, m, LEFT, "variations that break a promise, per 1000 (none: no number)");
-    write_heads(out, m, second, "worst of all steps: nearer than it may be, or off its twin (m)");
+    write_heads(out, m, LEFT, 0);
+    write_heads(out, m, second, 1);
     for (int f = 0; f < m->families; f++)
         fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"r\">%s</text>\n", LEFT - 6, TOP + f * CELL_HIGH + 11,
                 FAMILIES[f].name);

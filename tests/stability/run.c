@@ -139,8 +139,8 @@ static void align(runner *r)
 }
 
 /* m that two ways may be apart which touch the same surfaces `off` sooner or later: what is met at a graze, or while
- * hardly moving toward it, is met at another time, and the rest of the step goes the new way, at up to twice the speed off the old one, by so much longer. The end
- * of a floor is searched for to a part of the way. */
+ * hardly moving toward it, is met at another time, and the rest of the step goes the new way, at up to twice the speed
+ * off the old one, by so much longer. The end of a floor is searched for to a part of the way. */
 static double conditioned(const runner *r, const tahr_state *before, double dt, double off)
 {
     const double fast = sqrt(dot(before->velocity, before->velocity)) + 20 * r->trial.scale * dt, part = 1e-6;

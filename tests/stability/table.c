@@ -52,7 +52,7 @@ void table_family(FILE *out, const matrix *m, int row)
             double off = c->worst.deepest > c->worst.apart ? c->worst.deepest : c->worst.apart;
             any = any || c->what != CELL_NOT_POSSIBLE;
             queries = c->worst.queries > queries ? c->worst.queries : queries;
-            worst = s < 2 && off > worst ? off : worst;
+            worst = strncmp(c->subject->name, "native", 6) == 0 && off > worst ? off : worst;
         }
         if (!any) continue;
         fprintf(out, "%-13s %-10s", FAMILIES[row].name, tahr_preset_name((int32_t)p));
