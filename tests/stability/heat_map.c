@@ -129,8 +129,8 @@ static void write_costs(FILE *out, const matrix *m, int left)
     fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">most</text><text x=\"%d\" y=\"%d\" class=\"n\">queries</text>\n",
             left + 24, TOP - 18, left + 24, TOP - 4);
     fprintf(out,
-            "<text x=\"%d\" y=\"%d\" class=\"n\">slowest step</text><text x=\"%d\" y=\"%d\" class=\"n\">native, "
-            "us</text>\n",
+            "<text x=\"%d\" y=\"%d\" class=\"n\">slowest step</text>"
+            "<text x=\"%d\" y=\"%d\" class=\"n\">of native, us</text>\n",
             left + 92, TOP - 18, left + 92, TOP - 4);
     for (int f = 0; f < m->families; f++) {
         uint32_t queries = 0;
@@ -143,8 +143,9 @@ static void write_costs(FILE *out, const matrix *m, int left)
                 slowest = native && c->slowest > slowest ? c->slowest : slowest;
             }
         }
-        fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">%u</text><text x=\"%d\" y=\"%d\" class=\"n\">%.0f</text>\n",
-                left + 24, TOP + f * CELL_HIGH + 11, queries, left + 92, TOP + f * CELL_HIGH + 11, 1e6 * slowest);
+        int y = TOP + f * CELL_HIGH + 11;
+        fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">%u</text>\n", left + 24, y, queries);
+        if (slowest > 0) fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">%.0f</text>\n", left + 92, y, 1e6 * slowest);
     }
 }
 

@@ -276,11 +276,8 @@ static void take_step(runner *r, int step, outcome *out)
     r->report = (tahr_report){.struct_size = sizeof r->report, .events = r->events, .event_capacity = WATCH_EVENTS};
     double from = now_seconds();
     tahr_status status = tahr_mover_step(r->opened.mover, &s->input, s->dt, &r->state, &r->report);
-    double took = now_seconds() - from;
-    if (took > out->slowest) {
-        out->slowest = took;
-        out->slowest_step = step;
-    }
+    out->took[step] = now_seconds() - from;
+    out->steps = step + 1;
     if (s->refused) {
         if (status != TAHR_E_ARGUMENT || memcmp(&before, &r->state, sizeof before) != 0)
             watch_accuse(&r->watch, KEEPS_STATUS, step, status, TAHR_E_ARGUMENT, "wrong input is not refused");
@@ -317,6 +314,15 @@ static uint32_t expected(const run_request *q, const trial *t)
     /* One surface at a time is left only by a motion that begins in it: who stands still overlaps, and does not know. */
     if (t->config.depenetration == TAHR_DEPENETRATION_SINGLE) keeps &= ~(uint32_t)KEEPS_WORD;
     return keeps | KEEPS_SANE;
+}
+
+double outcome_slowest(const outcome *out, int *step)
+{
+    int at = 0;
+    for (int i = 1; i < out->steps; i++)
+        at = out->took[i] > out->took[at] ? i : at;
+    if (step) *step = at;
+    return out->took[at];
 }
 
 void run(const run_request *request, outcome *out)

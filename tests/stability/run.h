@@ -18,9 +18,9 @@ typedef struct run_request {
 typedef struct outcome {
     accusation first; /* kept == 0: nothing broken */
     measure worst;
-    uint64_t hash;  /* of all states */
-    double slowest; /* s, of a step */
-    int slowest_step;
+    uint64_t hash;            /* of all states */
+    double took[TRIAL_STEPS]; /* s, of each step */
+    int steps;
 } outcome;
 
 /* What else must go the same way, and how the ways are compared. */
@@ -44,6 +44,9 @@ struct twin {
 int run_possible(const family *f, const subject *s, uint32_t preset, const char **why);
 
 void run(const run_request *request, outcome *out);
+
+/* s, of its slowest step; step may be NULL. */
+double outcome_slowest(const outcome *out, int *step);
 
 /* Identity. */
 void twin_begin(twin *w, const trial *t);

@@ -132,11 +132,13 @@ static int run_one(const options *o)
         return 0;
     }
     run(&q, &out);
+    int slowest;
+    double seconds = outcome_slowest(&out, &slowest);
     printf(
         "%u steps, %u of them walking, at most %u queries, %.3g m nearer than it may be, %.3g m off its twin, slowest "
         "step %d: %.1f us\n",
-        out.worst.steps, out.worst.walking, out.worst.queries, out.worst.deepest, out.worst.apart, out.slowest_step,
-        1e6 * out.slowest);
+        out.worst.steps, out.worst.walking, out.worst.queries, out.worst.deepest, out.worst.apart, slowest,
+        1e6 * seconds);
     if (!out.first.kept) {
         printf("clean\n");
         return 0;
