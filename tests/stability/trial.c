@@ -36,7 +36,6 @@ void trial_begin(trial *t, uint32_t world, uint32_t preset)
     t->preset = preset;
     t->keeps = KEEPS_ALWAYS;
     t->scale = 1;
-    t->clearance = 1;
     t->grow = 1;
     tahr_config_init(&t->config, sizeof t->config, (int32_t)preset);
     if (world == IN_PLANE) {
@@ -267,7 +266,6 @@ void trial_grow(trial *t, double s)
     t->velocity = times(t->velocity, s);
     t->room.min = times(t->room.min, s);
     t->room.max = times(t->room.max, s);
-    t->allowed_in *= s;
     t->scale *= s;
 }
 

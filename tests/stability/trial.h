@@ -76,15 +76,12 @@ struct trial {
     tahr_vec3 start, velocity; /* of the character; its middle */
     trial_step steps[TRIAL_STEPS];
     int step_count;
-    double scale;      /* the lengths of the character, 1: as the preset has them */
-    double rounding;   /* m, of coordinates as far away as these */
-    double fall;       /* m, how far it may fall below where it began, for the energy */
-    tahr_bounds room;  /* KEEPS_INSIDE */
-    int first_rest;    /* from this step on without input */
-    double allowed_in; /* m, deeper than the skin that it may come, where the case itself asks for it */
-    double clearance;  /* of skin: what a mover must leave free; families set it, 1 by rule */
-    double grow;       /* trial_finish makes everything so much larger, and moves it by `shift` after that */
-    tahr_vec3 shift;   /* m */
+    double scale;     /* the lengths of the character, 1: as the preset has them */
+    double rounding;  /* m, of coordinates as far away as these */
+    tahr_bounds room; /* KEEPS_INSIDE */
+    int first_rest;   /* from this step on without input */
+    double grow;      /* trial_finish makes everything so much larger, and moves it by `shift` after that */
+    tahr_vec3 shift;  /* m */
     /* KEEPS_PROMISE: called after every step; returns how much of the bound is used up (> 1 fails), *what a text. */
     double (*promise)(const trial *t, int step, const tahr_state *before, const tahr_state *now,
                       const tahr_report *report, const char **what);

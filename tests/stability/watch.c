@@ -194,8 +194,8 @@ static double slack(const watch *w)
 static double owed(const watch *w, double before)
 {
     const trial *t = w->trial;
-    double skin = t->config.separation == TAHR_SEPARATION_MARGIN ? t->config.skin * t->clearance : 0;
-    return fmin(before, skin - t->allowed_in);
+    double skin = t->config.separation == TAHR_SEPARATION_MARGIN ? t->config.skin : 0;
+    return fmin(before, skin);
 }
 
 static void check_skin(watch *w, int step, const tahr_state *a, const tahr_state *b)

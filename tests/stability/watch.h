@@ -34,7 +34,6 @@ typedef struct watch {
     accusation first;
     measure worst;
     tahr_pose poses[2][TRIAL_BODIES]; /* of the bodies: before and in this step */
-    tahr_vec3 entered;                /* where it was when this step began to push it: after bodies moved */
     int idle, still, hanging, landed; /* steps in a row */
     tahr_vec3 held;
     double gap; /* m, after the last step */
