@@ -9,7 +9,7 @@ static tahr_vec3 at(double x, double y, double z)
     return (tahr_vec3){x, y, z};
 }
 
-/* What holds while bodies push: no tunnel, nothing endless, and a clearance that lacks a skin at most. */
+/* What holds while bodies push: no tunnel, no speed but theirs, and nearer to nothing than where they have come to. */
 static void among_movers(trial *t)
 {
     t->keeps &= ~(uint32_t)(KEEPS_SAYING | KEEPS_REST | KEEPS_FLOOR);
