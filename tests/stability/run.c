@@ -222,7 +222,10 @@ static void trace(const runner *r, int step, tahr_status status)
            step, r->trial.steps[step].dt, m.x, m.y, m.z, r->trial.steps[step].input.jump ? " jump" : "",
            tahr_mode_name(s->mode), p.x, p.y, p.z, v.x, v.y, v.z, s->floor.flags, s->floor.distance, r->watch.gap,
            tahr_status_name(status));
-    for (uint32_t i = 0; i < r->report.event_count; i++)
+    const tahr_report *report = &r->report;
+    printf("  %u queries, %u slides", report->sweeps + report->contact_queries + report->rays, report->slides);
+    if (report->time_lost > 0) printf(", %.3g s lost", report->time_lost);
+    for (uint32_t i = 0; i < report->event_count; i++)
         printf(" %s", tahr_event_name(r->events[i].type));
     if (r->watch.first.kept && r->watch.first.step == step) printf("  <-- %s", watch_name(r->watch.first.kept));
     printf("\n");
