@@ -51,6 +51,7 @@ void make_huge_dt(trial *t, oracle_random *dice)
     for (int i = 0; i < t->step_count; i++)
         t->steps[i].dt = even ? dt : draw(dice, 0.02, 1);
     t->keeps &= ~(uint32_t)KEEPS_SOLID; /* a straight line between two places says nothing: the room does */
+    t->keeps &= ~(uint32_t)KEEPS_TIME;  /* a second may hold more than config.max_slides bends */
 }
 
 /* Steps of a nanosecond to a tenth of a millisecond; and of all lengths, 0 too. */
