@@ -248,7 +248,9 @@ static void check_floor(watch *w, int step, const tahr_state *b)
     if (b->mode == TAHR_MODE_WALKING && !(b->floor.flags & TAHR_FLOOR_WALKABLE) && !may_lack) {
         watch_accuse(w, KEEPS_FLOOR, step, b->floor.flags, TAHR_FLOOR_WALKABLE, "walks on no walkable floor, flags");
     }
-    if (w->landed > 2 && step >= w->trial->first_rest && w->idle > 2 && !w->moves) {
+    int by_ray =
+        (b->floor.flags & TAHR_FLOOR_LINE) != 0; /* Unreal's: found under the axis, whatever the rim is above */
+    if (w->landed > 2 && step >= w->trial->first_rest && w->idle > 2 && !w->moves && !by_ray) {
         double reach = c->floor_max * c->skin, far = 2 * reach + slack(w);
         double gap = judge_gap(w->judge, w->poses[1], b, far, NULL);
         at_most(w, KEEPS_FLOOR, step, gap, reach + slack(w), "stands above nothing, m");
