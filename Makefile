@@ -13,7 +13,7 @@ ARGS ?=
 WERROR ?=
 CMAKE_ARGS ?=
 
-.PHONY: build setup setup-run run run-2d test test-full asan fuzz bench chart peers install clean format help
+.PHONY: build setup setup-run run run-2d test test-full asan fuzz bench chart peers stability install clean format help
 
 # Ninja if it is there and the folder is not configured yet; a configured folder keeps its generator.
 # Of its talk only what is left out and why is shown, unless it fails.
@@ -86,13 +86,15 @@ bench: setup-run
 	@$(call compile,$(BUILD)) --target tahr_bench
 	$(BUILD)/bin/tahr_bench --csv $(BUILD)/bench.csv $(ARGS)
 
+# Of peers, chart and stability: 1 for less of it in a minute or two.
+QUICK ?=
+
 # Tahr beside the controllers of other engines; what cannot be built here is left out and says why.
 peers: setup
 	@JOBS=$(JOBS) sh tests/bench/peers/build.sh $(BUILD)/peers $(box2d_3) $(CMAKE_ARGS)
 	$(BUILD)/peers/tahr_peers --peers $(BUILD)/peers/lib --csv $(BUILD)/peers.csv $(if $(QUICK),--quick) $(ARGS)
 
-# Under 15 minutes on two idle cores, QUICK=1: under 2. Python's libraries go into $(BUILD)/venv.
-QUICK ?=
+# Python's libraries go into $(BUILD)/venv.
 PYTHON ?= python3
 chart_python = $(BUILD)/venv/bin/python
 $(BUILD)/venv/made: tests/bench/chart/requirements.txt
@@ -111,6 +113,12 @@ chart:
 	$(BUILD)/bin/tahr_chart --budget $(if $(QUICK),quick,full) --out $(BUILD)/chart $(ARGS)
 	@$(chart_python) -B tests/bench/chart/draw.py --in $(BUILD)/chart --out $(BUILD)/chart --peers $(BUILD)/peers.csv \
 		--command "make chart$(if $(QUICK), QUICK=1)"
+
+# Every hard case on every backend; QUICK=1: 30 variations of each, else 1000.
+stability: setup-run
+	@$(call configure,$(BUILD),)
+	@$(call compile,$(BUILD)) --target tahr_stability
+	$(BUILD)/bin/tahr_stability $(if $(QUICK),--quick) --csv $(BUILD)/stability.csv --svg $(BUILD)/stability.svg $(ARGS)
 
 install: build
 	cmake --install $(BUILD) --prefix "$(abspath $(PREFIX))"
@@ -135,6 +143,8 @@ help:
 	@echo "make bench        the benchmark; ARGS='options'"
 	@echo "make peers        Tahr beside other engines' controllers on the same courses; QUICK=1  ARGS='options'"
 	@echo "make chart        speed against accuracy: $(BUILD)/chart/index.html; QUICK=1: less of it; with $(BUILD)/peers.csv, if there"
+	@echo "make stability    where methods fail: every hard case on every backend; QUICK=1 in less than a minute; leaves"
+	@echo "                  $(BUILD)/stability.csv and $(BUILD)/stability.svg; ARGS='--family wedge --backend ccd --seed 7 --trace'"
 	@echo "make install      PREFIX=/usr/local"
 	@echo "make setup        install what is missing through apt-get (run, test and the others do it too)"
 	@echo "make format       clang-format over all sources"

@@ -16,6 +16,18 @@ static const char *bad_rule(uint32_t rule, double angle)
     return is_finite(angle) ? NULL : "walkable_angle";
 }
 
+/* What an answer says may come into a state, and a state farther out is refused by the next step. */
+static int is_place(vec3 point)
+{
+    return length_squared(point) <= TAHR__FARTHEST * TAHR__FARTHEST;
+}
+
+/* Overlaps may be told as deep as they like: what leaves them is cut. */
+static int is_distance(double m, int overlaps)
+{
+    return is_finite(m) && m <= TAHR__FARTHEST && (overlaps || m >= -TAHR__FARTHEST);
+}
+
 /* What hits and contacts say of the surface. */
 static const char *bad_surface(vec3 normal, vec3 surface_normal, vec3 point, uint32_t rule, double angle)
 {
@@ -25,7 +37,7 @@ static const char *bad_surface(vec3 normal, vec3 surface_normal, vec3 point, uin
     if (!normal_is_unit(surface_normal)) {
         return "surface_normal";
     }
-    return vec_is_finite(point) ? bad_rule(rule, angle) : "point";
+    return is_place(point) ? bad_rule(rule, angle) : "point";
 }
 
 static const char *bad_hit(const tahr_hit *h)
@@ -39,7 +51,7 @@ static const char *bad_hit(const tahr_hit *h)
     if (h->start_overlap && !(h->depth >= 0 && is_finite(h->depth))) {
         return "depth";
     }
-    if (!is_finite(h->distance)) {
+    if (!is_distance(h->distance, h->start_overlap != 0)) {
         return "distance";
     }
     return bad_surface(h->normal, h->surface_normal, h->point, h->walkable_rule, h->walkable_angle);
@@ -47,7 +59,7 @@ static const char *bad_hit(const tahr_hit *h)
 
 static const char *bad_contact(const tahr_contact *c)
 {
-    if (!is_finite(c->distance)) {
+    if (!is_distance(c->distance, 1)) {
         return "distance";
     }
     return bad_surface(c->normal, c->surface_normal, c->point, c->walkable_rule, c->walkable_angle);
@@ -183,7 +195,7 @@ tahr_status tahr__answer_ray(const tahr_world *world, tahr_query_context *contex
     if (*count > 1) {
         return tahr__bad_answer(world, "ray", "count");
     }
-    const char *bad = *count ? bad_hit(hit) : NULL;
+    const char *bad = *count ? refine(hit) : NULL;
     bad = *count && !bad ? out_of_plane(world, hit->normal, hit->surface_normal) : bad;
     return bad ? tahr__bad_answer(world, "ray", bad) : status;
 }
@@ -258,10 +270,10 @@ void tahr__make_wall(tahr_hit *hit, vec3 from, vec3 motion, double margin)
     if (!normal_is_unit(hit->normal) || !normal_is_unit(hit->surface_normal)) {
         hit->normal = hit->surface_normal = unit(scale(motion, -1));
     }
-    if (!vec_is_finite(hit->point)) {
+    if (!is_place(hit->point)) {
         hit->point = add_scaled(from, motion, hit->fraction);
     }
-    hit->distance = is_finite(hit->distance) ? hit->distance : margin; /* so far it was free */
+    hit->distance = is_distance(hit->distance, 0) ? hit->distance : margin; /* so far it was free */
     hit->depth = is_finite(hit->depth) && hit->depth >= 0 ? hit->depth : 0;
     if (bad_rule(hit->walkable_rule, hit->walkable_angle)) {
         hit->walkable_rule = TAHR_WALKABLE_NEVER;

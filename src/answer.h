@@ -47,13 +47,16 @@ static inline int normal_is_exact(vec3 n)
     return l > 1 - 1e-15 && l < 1 + 1e-15;
 }
 
-/* What almost every hit is: nothing to find bad, and nothing to make exact. A sum is finite only if all its terms
- * are. */
+/* m: how far out a point and how large a distance of an answer may be: as far as a state may hold it (arguments.c). */
+#define TAHR__FARTHEST 1e8
+
+/* What almost every hit is: nothing to find bad, and nothing to make exact. A sum of squares hides nothing. */
 static inline int hit_is_flawless(const tahr_hit *h)
 {
-    double sum = ((h->point.x + h->point.y) + (h->point.z + h->distance)) + h->walkable_angle;
+    double sum = length_squared(h->point) + h->distance * h->distance + h->walkable_angle * h->walkable_angle;
     return h->fraction >= 0 && h->fraction <= 1 && !h->start_overlap && !h->unknown && normal_is_exact(h->normal) &&
-           normal_is_exact(h->surface_normal) && is_finite(sum) && h->walkable_rule <= TAHR_WALKABLE_NEVER;
+           normal_is_exact(h->surface_normal) && sum <= TAHR__FARTHEST * TAHR__FARTHEST &&
+           h->walkable_rule <= TAHR_WALKABLE_NEVER;
 }
 
 static inline tahr_status margin_sweep(const tahr_world *world, tahr_query_context *context, const tahr_sweep *query,

@@ -52,7 +52,8 @@ static vec3 lowest_point(const tahr_sweep *q, vec3 normal)
 static vec3 nearest_point(const tahr_sweep *q, const tahr_hit *h)
 {
     vec3 centre = add_scaled(q->position, q->motion, h->fraction);
-    return add_scaled(add(centre, lowest_point(q, h->normal)), h->normal, -h->distance);
+    double deepest = -1e7; /* m: an absurd depth makes no absurd place */
+    return add_scaled(add(centre, lowest_point(q, h->normal)), h->normal, -max_of(h->distance, deepest));
 }
 
 /* A sensor does not block, and its normal decides little: against the motion, if the user says nothing. */

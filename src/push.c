@@ -117,8 +117,9 @@ static int world_lets(tahr__step *step, uint32_t body, vec3 x, tahr__plane *plan
     return 0;
 }
 
-/* The least way out of the body's way that everything else leaves. Returns 0 if there is none: crushed, or nearly
- * so. */
+/* The least way out of the body's way that everything else leaves. Returns 0 if there is none: crushed, or nearly so.
+ * Between faces that all but oppose each other the least way is many times as long as the push: nobody is flung farther
+ * than the body itself comes, and as an overlap may be left by. */
 static int push_out(tahr__step *step, uint32_t body, const meeting *m)
 {
     enum { ROUNDS = 6 };
@@ -127,9 +128,10 @@ static int push_out(tahr__step *step, uint32_t body, const meeting *m)
     const vec3 start = step->state.position;
     vec3 x;
     tahr_hit hit;
+    const double most = length(sub(m->at, start)) + step->config->max_depenetration;
     add_plane(planes, &count, body, m->hit.normal, dot(m->hit.normal, sub(m->at, start)));
     for (int i = 0; i < ROUNDS && step->error >= 0; i++) {
-        if (!tahr__project(planes, count, vec(0, 0, 0), &x)) {
+        if (!tahr__project(planes, count, vec(0, 0, 0), &x) || length_squared(x) > most * most) {
             return 0;
         }
         if (!world_lets(step, body, x, planes, &count)) {

@@ -86,7 +86,8 @@ typedef struct tahr_backend {
     tahr_status (*open)(const tahr_host *host, const tahr_world_desc *desc, void **self);
     void (*close)(void *self);
 
-    /* The sensors met before the first blocking hit, then that hit, ordered by (fraction, body, feature); capacity 1
+    /* Of all answers: normals are unit, numbers finite, points and distances within 1e8 m.
+     * The sensors met before the first blocking hit, then that hit, ordered by (fraction, body, feature); capacity 1
      * means "the blocking one only". *count = 0: free. More than capacity: sensors are dropped last first, the blocking
      * hit never, and TAHR_TRUNCATED is returned. */
     tahr_status (*sweep)(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,

@@ -131,7 +131,7 @@ typedef struct tahr_world_desc {
 } tahr_world_desc;
 
 /* [in] query, [out] hit (zeroed before the call: leaving it so means "free"). Fill in blocking, fraction and normal, or
- * start_overlap, depth and normal; and body, surface and feature if you have them. What stays zero is derived:
+ * start_overlap, depth and normal; and body, surface and feature if you have them. Points lie within 1e8 m. What stays zero is derived:
  * surface_normal from normal, distance from the margin, point from the shape. Return TAHR_OK, or a negative status to
  * end the step with TAHR_E_BACKEND. Called from the stepping thread, or from the one that asks tahr_world_sweep: from
  * several at once if you step on several. */

@@ -98,8 +98,11 @@ static void size_grid(scene_solid *s)
             high[k] = fmax(high[k], x);
         }
     }
+    /* No more columns than a few for every triangle: a small mesh may be wide. */
+    double wide[2] = {high[0] - s->low[0], high[1] - s->low[1]}, most = 1024 + 16.0 * s->mesh->triangle_count;
+    s->cell = fmax(s->cell, fmax(sqrt(wide[0] * wide[1] / most), fmax(wide[0], wide[1]) / most));
     for (int k = 0; k < 2; k++) {
-        s->size[k] = (uint32_t)((high[k] - s->low[k]) / s->cell) + 1;
+        s->size[k] = (uint32_t)(wide[k] / s->cell) + 1;
     }
 }
 
@@ -203,18 +206,25 @@ static double distance(const triangle *t, tahr_vec3 a, tahr_vec3 b)
     return best;
 }
 
-static int outside(double a, double b, double c, double low, double high)
+/* Whether one range of numbers is more than reach away from another. */
+static int beyond(double a, double b, const double corners[3], double reach)
 {
-    return fmax(fmax(a, b), c) < low || fmin(fmin(a, b), c) > high;
+    double low = fmin(fmin(corners[0], corners[1]), corners[2]), high = fmax(fmax(corners[0], corners[1]), corners[2]);
+    return high < fmin(a, b) - reach || low > fmax(a, b) + reach;
 }
 
-/* Most triangles of the columns are farther than limit from the segment: above it, below it, or beside it. */
+/* Most triangles are farther than limit from the segment a b along some axis, or by their plane. */
 static int apart(const triangle *t, tahr_vec3 a, tahr_vec3 b, double limit)
 {
     const tahr_vec3 *c = t->corner;
-    return outside(c[0].z, c[1].z, c[2].z, fmin(a.z, b.z) - limit, fmax(a.z, b.z) + limit) ||
-           outside(c[0].x, c[1].x, c[2].x, fmin(a.x, b.x) - limit, fmax(a.x, b.x) + limit) ||
-           outside(c[0].y, c[1].y, c[2].y, fmin(a.y, b.y) - limit, fmax(a.y, b.y) + limit);
+    double from = dot(t->normal, minus(a, c[0])), to = dot(t->normal, minus(b, c[0]));
+    double near = fmin(fabs(from), fabs(to)), reach = limit * (1 + 1e-9);
+    if (from * to > 0 && near * near > reach * reach * dot(t->normal, t->normal)) {
+        return 1;
+    }
+    return beyond(a.x, b.x, (const double[]){c[0].x, c[1].x, c[2].x}, reach) ||
+           beyond(a.y, b.y, (const double[]){c[0].y, c[1].y, c[2].y}, reach) ||
+           beyond(a.z, b.z, (const double[]){c[0].z, c[1].z, c[2].z}, reach);
 }
 
 double scene_solid_distance(const scene_solid *s, tahr_vec3 a, tahr_vec3 b, double limit, uint32_t *index)
@@ -227,7 +237,7 @@ double scene_solid_distance(const scene_solid *s, tahr_vec3 a, tahr_vec3 b, doub
         for (uint32_t i = row[r.low[0]]; i < row[r.high[0] + 1]; i++) {
             triangle t = get(s->mesh, s->items[i]);
             int faces = s->two_sided || dot(t.normal, minus(middle, t.corner[0])) > 0;
-            if (!faces || apart(&t, a, b, limit)) {
+            if (!faces || apart(&t, a, b, best)) {
                 continue;
             }
             double d = distance(&t, a, b);

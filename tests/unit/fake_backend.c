@@ -10,19 +10,20 @@
 
 #include "fake_backend.h"
 
-const char *const lie_fields[LIES] = {"",         "normal",   "normal",   "normal",        "surface_normal",
-                                      "fraction", "fraction", "fraction", "count",         "status",
-                                      "distance", "depth",    "point",    "walkable_rule", "walkable_angle"};
+const char *const lie_fields[LIES] = {
+    "",       "normal",   "normal", "normal", "surface_normal", "fraction",       "fraction", "fraction", "count",
+    "status", "distance", "depth",  "point",  "walkable_rule",  "walkable_angle", "point",    "distance"};
 
-const char *const contact_lie_fields[CONTACT_LIES] = {"",       "normal",         "distance", "count",
-                                                      "status", "surface_normal", "point",    "walkable_rule"};
+const char *const contact_lie_fields[CONTACT_LIES] = {
+    "", "normal", "distance", "count", "status", "surface_normal", "point", "walkable_rule", "point", "distance"};
 
 static void spoil(int lie, tahr_hit *h, uint32_t *count)
 {
     double *bad[LIES] = {NULL,         &h->normal.y, &h->normal.x, NULL, &h->surface_normal.z,
                          &h->fraction, &h->fraction, &h->fraction, NULL, NULL,
-                         &h->distance, &h->depth,    &h->point.y,  NULL, &h->walkable_angle};
-    const double value[LIES] = {0, NAN, 1.5, 0, NAN, -1, 2, NAN, 0, 0, NAN, -1, INFINITY, 0, NAN};
+                         &h->distance, &h->depth,    &h->point.y,  NULL, &h->walkable_angle,
+                         &h->point.x,  &h->distance};
+    const double value[LIES] = {0, NAN, 1.5, 0, NAN, -1, 2, NAN, 0, 0, NAN, -1, INFINITY, 0, NAN, 1.1e8, -1.1e8};
     if (bad[lie]) {
         *bad[lie] = value[lie];
     }
@@ -125,6 +126,8 @@ static tahr_status backend_contacts(void *self, tahr_query_context *context, con
         contacts[0].surface_normal.z = b->contact_lie == CONTACT_LIE_SURFACE ? 9 : contacts[0].surface_normal.z;
         contacts[0].point.z = b->contact_lie == CONTACT_LIE_POINT ? NAN : contacts[0].point.z;
         contacts[0].walkable_rule = b->contact_lie == CONTACT_LIE_RULE ? 9 : contacts[0].walkable_rule;
+        contacts[0].point.x = b->contact_lie == CONTACT_LIE_POINT_FAR ? 1e300 : contacts[0].point.x;
+        contacts[0].distance = b->contact_lie == CONTACT_LIE_DISTANCE_FAR ? 1.1e8 : contacts[0].distance;
     }
     return status;
 }

@@ -24,6 +24,8 @@ enum {
     LIE_POINT,
     LIE_RULE,
     LIE_ANGLE,
+    LIE_POINT_FAR, /* farther out than a state may hold */
+    LIE_DISTANCE_FAR,
     LIES
 };
 /* The field that a message about the lie has to name. */
@@ -39,6 +41,8 @@ enum {
     CONTACT_LIE_SURFACE,
     CONTACT_LIE_POINT,
     CONTACT_LIE_RULE,
+    CONTACT_LIE_POINT_FAR,
+    CONTACT_LIE_DISTANCE_FAR,
     CONTACT_LIES
 };
 extern const char *const contact_lie_fields[CONTACT_LIES];

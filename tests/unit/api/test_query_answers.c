@@ -67,6 +67,38 @@ static void lies_of_contacts_end_the_step_and_are_named(void **unused)
     rig_close(&r);
 }
 
+/* A floor at z = 0, from an engine of single precision or worse. */
+static tahr_status meet_floor(void *user, const tahr_ray *query, tahr_hit *hit)
+{
+    (void)user;
+    hit->blocking = 1;
+    hit->fraction = -query->origin.z / query->motion.z;
+    hit->normal = hit->surface_normal = fake_vec(0, 0, 1 - 9e-4);
+    return TAHR_OK;
+}
+
+static tahr_status meet_nothing(void *user, const tahr_sweep *query, tahr_hit *hit)
+{
+    (void)user, (void)query, (void)hit;
+    return TAHR_OK;
+}
+
+/* A state that held a normal of another length would be refused by the next step. */
+static void normals_of_rays_are_made_exact(void **unused)
+{
+    const tahr_callbacks callbacks = {.struct_size = sizeof callbacks, .sweep = meet_nothing, .ray = meet_floor};
+    const tahr_ray down = {.origin = {0, 0, 2}, .motion = {0, 0, -4}, .mask = 1, .ignore_body = TAHR_NO_BODY};
+    tahr_world *world = NULL;
+    tahr_hit hit;
+    uint32_t count = 0;
+    (void)unused;
+    assert_int_equal(tahr_world_open_callbacks(&callbacks, NULL, &world), TAHR_OK);
+    assert_int_equal(tahr_world_ray(world, &down, &hit, &count), TAHR_OK);
+    assert_int_equal(count, 1);
+    assert_true(fabs(hit.normal.z - 1) < 1e-15 && fabs(hit.surface_normal.z - 1) < 1e-15);
+    tahr_world_close(world);
+}
+
 /* Walks, or falls sideways, into a wall at x = 3 that the backend cannot decide. */
 static void meet_the_unknown(int how, int mode)
 {
@@ -241,6 +273,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(lies_of_a_sweep_end_the_step_and_are_named),
                                        cmocka_unit_test(lies_of_contacts_end_the_step_and_are_named),
+                                       cmocka_unit_test(normals_of_rays_are_made_exact),
                                        cmocka_unit_test(unknown_blocks_at_the_last_free_fraction_with_a_flag),
                                        cmocka_unit_test(unknown_that_does_not_say_blocking_blocks_all_the_same),
                                        cmocka_unit_test(unknown_with_garbage_beside_it_blocks_all_the_same),

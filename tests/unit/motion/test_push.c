@@ -186,6 +186,26 @@ static void closing_walls_crush_only_when_they_leave_no_room(void **unused)
     }
 }
 
+/* Two walls 2 degrees off parallel: 0.2 m nearer, and there is room again 0.2 / tan(2 degrees) = 5.7 m along them. What
+ * pushes goes 0.2 m, and an overlap is left by max_depenetration = 1 m at most: each of two overlaps by itself. */
+static void nobody_is_flung_along_walls_that_close(void **unused)
+{
+    const double dt = 1.0 / 60, lean = 2 * 0.017453292519943295;
+    tahr_body_desc bodies[3] = {stage_ground(), stage_box(fake_vec(0, 1.4, 1.5), fake_vec(20, 1, 1.5)),
+                                stage_box(fake_vec(0, -1.45, 1.5), fake_vec(20, 1, 1.5))};
+    rig r;
+    (void)unused;
+    bodies[2].pose.orientation = stage_yaw(lean);
+    rig_open_bodies(&r, bodies, 3, NULL, fake_vec(0, 0, 1));
+    rig_settle(&r);
+    tahr_vec3 from = r.state.position;
+    tahr_pose pose = {{0, -1.25, 1.5}, stage_yaw(lean)};
+    stage_step(&r, 2, pose, dt);
+    assert_true(stage_distance(from, r.state.position) < 0.2 + 2 * 1.0);
+    assert_true(r.report.flags & TAHR_REPORT_CRUSHED);
+    rig_close(&r);
+}
+
 static void a_press_from_above_squeezes_out_who_is_near_its_edge(void **unused)
 {
     rig r;
@@ -372,6 +392,7 @@ int main(void)
         cmocka_unit_test(a_crushed_character_is_not_pressed_into_the_floor),
         cmocka_unit_test(a_rising_floor_takes_a_character_up_and_a_press_crushes_it_under_the_ceiling),
         cmocka_unit_test(closing_walls_crush_only_when_they_leave_no_room),
+        cmocka_unit_test(nobody_is_flung_along_walls_that_close),
         cmocka_unit_test(a_press_from_above_squeezes_out_who_is_near_its_edge),
         cmocka_unit_test(a_pushed_character_slides_along_what_is_in_the_way),
         cmocka_unit_test(a_pushed_character_steps_up),

@@ -101,3 +101,11 @@ void engine_close(void *user, tahr_world *world)
         }
     }
 }
+
+tahr_world *engine_inside(const tahr_world *world)
+{
+    for (int i = 0; i < MOST; i++) {
+        if (opened[i].outer == world) return opened[i].engine;
+    }
+    return NULL;
+}
