@@ -35,26 +35,24 @@ static int within(const tahr_bounds *b, double reach, tahr_vec3 v0, tahr_vec3 v1
 static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
 {
     const tahr__body *body = &s->query->world->bodies[id];
-    tahr__bvh_walk walk;
+    tahr__wide_walk walk;
     tahr_bounds box = to_mesh(map, &s->box);
     tahr_vec3 near = v_sub(s->query->start, map->offset);
     if (map->turned) near = m_unapply(&map->turn, near);
-    tahr__bvh_walk_begin(&walk, &body->mesh.bvh, &box, s->reach + TAHR__SLACK, near);
+    tahr__wide_walk_begin(&walk, &body->mesh.tree, &box, s->reach + TAHR__SLACK, near);
     tahr__prim prim;
     tahr__prim_begin(body, id, &prim);
-    uint32_t first, count;
-    while (tahr__bvh_walk_next(&walk, &first, &count)) {
-        for (uint32_t i = first; i < first + count; i++) {
-            const uint32_t *vertex = body->mesh.triangles[i].vertex;
-            const tahr_vec3 *v = body->mesh.vertices;
-            if (!within(&box, s->reach + TAHR__SLACK, v[vertex[0]], v[vertex[1]], v[vertex[2]])) continue;
-            tahr__prim_triangle(map, body, i, &prim);
-            s->narrowed = 0;
-            s->visit(s, &prim);
-            if (!s->narrowed) continue;
-            box = to_mesh(map, &s->box);
-            tahr__bvh_walk_narrow(&walk, &box);
-        }
+    uint32_t i;
+    while (tahr__wide_walk_next(&walk, &i)) {
+        const uint32_t *vertex = body->mesh.triangles[i].vertex;
+        const tahr_vec3 *v = body->mesh.vertices;
+        if (!within(&box, s->reach + TAHR__SLACK, v[vertex[0]], v[vertex[1]], v[vertex[2]])) continue;
+        tahr__prim_triangle(map, body, i, &prim);
+        s->narrowed = 0;
+        s->visit(s, &prim);
+        if (!s->narrowed) continue;
+        box = to_mesh(map, &s->box);
+        tahr__wide_walk_narrow(&walk, &box);
     }
 }
 

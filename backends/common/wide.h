@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT
+ * wide.h: a tree of eight children a node over boxes that stay where they are: half a line of memory per five items, and
+ * one look at a node decides about all eight.
+ *
+ * All bounds are whole numbers on a lattice of 2^24 places along the longest side of all that is in the tree. A node is
+ * one line of memory: where its box begins, a power of two per axis, and the bounds of its children as steps of that
+ * size, 0 to 255, rounded outward. Children are nodes, or items; the children of a node follow each other, and so do its
+ * items.
+ *
+ * A walk finds every item whose box is within reach (proof): box_make and the way onto the lattice (tahr__wide_down,
+ * _up) never decrease and round outward, and so do the steps of a node; so a gap on the lattice is never larger than the
+ * true one, and one that is not there stays none. The gap is computed in floats from whole numbers below 2^24, which
+ * are exact, or from a query's bound farther away, which is rounded by 2^-24 of it; the limit is larger by 1e-6, more than
+ * rounding the difference, three squares and two sums may take off. */
+#ifndef TAHR_COMMON_WIDE_H
+#define TAHR_COMMON_WIDE_H
+
+#include "bvh.h"
+
+enum { TAHR__WIDE = 8 };
+
+typedef struct tahr__wide_node {
+    /* Per axis: the low 24 bits: where the box begins; the next five: the logarithm of a step; of axis 0 the last three:
+     * how many children, less one; of axis 1 the last: they are items. */
+    uint32_t base[3];
+    uint32_t first; /* child, or item */
+    uint8_t lo[3][TAHR__WIDE], hi[3][TAHR__WIDE];
+} tahr__wide_node;
+
+/* A box on the lattice, and how near (squared) counts. */
+typedef struct tahr__wide_box {
+    int32_t lo[3], hi[3];
+    float limit;
+} tahr__wide_box;
+
+/* One bit per child within reach. [out] away: squared distances of all children to the point; NULL: nobody asks. */
+typedef uint32_t tahr__wide_fn(const tahr__wide_node *node, const tahr__wide_box *box, const int32_t point[3],
+                               float away[TAHR__WIDE]);
+/* One child at a time; four; eight, where the processor has AVX2. All the same bits. */
+tahr__wide_fn tahr__wide_test_1, tahr__wide_test_4, tahr__wide_test_8;
+/* The fastest that this machine can run. */
+tahr__wide_fn *tahr__wide_best(void);
+
+typedef struct tahr__wide {
+    tahr__wide_node *nodes;
+    uint32_t node_count, node_capacity;
+    tahr__wide_fn *test;
+    tahr_vec3 centre;   /* boxes are relative to it */
+    double low[3];      /* where the lattice begins, relative to the centre */
+    double scale;       /* 1 / step, a power of two */
+} tahr__wide;
+
+/* Builds over count (>= 1) boxes as tahr__bvh_build does. [out] order: the items in the order of the tree. TAHR_OK or
+ * TAHR_E_MEMORY. */
+tahr_status tahr__wide_build(const tahr_host *host, tahr__bvh_box *boxes, uint32_t *order, uint32_t count,
+                             tahr_vec3 centre, tahr__wide *tree);
+void tahr__wide_free(const tahr_host *host, tahr__wide *tree);
+
+/* Items within reach of box; at most capacity of them, in no order that means anything but always the same. Returns how
+ * many; more than capacity: there are others. */
+uint32_t tahr__wide_collect(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t *items,
+                            uint32_t capacity);
+
+/* Every level of the tree leaves at most seven others to look at; 80 levels: see TAHR__BVH_STACK. */
+enum { TAHR__WIDE_STACK = 7 * 80 };
+
+typedef struct tahr__wide_entry {
+    uint32_t child; /* node * 8 + child */
+    uint32_t since; /* tahr__wide_walk.narrowed when it came in */
+    float away;     /* squared distance to the point */
+} tahr__wide_entry;
+
+/* Walks all items within reach of a box, of all nodes and items that are known the nearest to a point first. */
+typedef struct tahr__wide_walk {
+    const tahr__wide *tree;
+    tahr__wide_box box;
+    int32_t near[3];
+    uint32_t top;
+    uint32_t narrowed; /* how often: what came in before may be out of reach */
+    tahr__wide_entry entries[TAHR__WIDE_STACK]; /* the nearest last */
+} tahr__wide_walk;
+
+void tahr__wide_walk_begin(tahr__wide_walk *walk, const tahr__wide *tree, const tahr_bounds *box, double reach,
+                           tahr_vec3 near);
+/* Narrows the box of a walk under way (a hit was found). */
+void tahr__wide_walk_narrow(tahr__wide_walk *walk, const tahr_bounds *box);
+/* 1 and the next item, or 0 at the end. */
+int tahr__wide_walk_next(tahr__wide_walk *walk, uint32_t *item);
+
+#endif
