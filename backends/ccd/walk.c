@@ -44,7 +44,8 @@ static void enter_mesh(tahr__ccd_walk *walk, const tahr__scene_body *body)
     extent = v_mad(extent, v_abs(body->turn.row[2]), half.z);
     box.min = v_sub(centre, extent);
     box.max = v_add(centre, extent);
-    tahr__wide_walk_begin(&walk->tree, &body->mesh->tree, &box, 0, m_unapply(&body->turn, from_body));
+    tahr_vec3 near = m_unapply(&body->turn, from_body);
+    tahr__wide_walk_begin(&walk->tree, &body->mesh->tree, &box, 0, &near);
     walk->inside = 1;
 }
 

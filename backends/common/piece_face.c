@@ -168,7 +168,7 @@ static int corner_surface(fan *f)
     tahr__wide_walk walk;
     uint32_t i;
 
-    tahr__wide_walk_begin(&walk, &mesh->tree, &at, 0, at.min);
+    tahr__wide_walk_begin(&walk, &mesh->tree, &at, 0, NULL);
     while (tahr__wide_walk_next(&walk, &i)) {
         if (!look_at(f, i)) return 0;
     }

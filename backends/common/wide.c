@@ -230,25 +230,30 @@ static uint32_t has_items(const tahr__wide_node *n)
     return n->base[1] >> 29;
 }
 
-uint32_t tahr__wide_collect(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t *items,
-                            uint32_t capacity)
+static uint32_t ones(uint32_t bits)
+{
+    uint32_t count = 0;
+    for (; bits; bits &= bits - 1)
+        count++;
+    return count;
+}
+
+uint32_t tahr__wide_count(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t most)
 {
     uint32_t stack[TAHR__WIDE_STACK], top = 0, count = 0;
     tahr__wide_box b;
     set_box(tree, box, &b);
     b.limit = limit_of(tree, reach);
     stack[top++] = 0;
-    while (top > 0) {
+    while (top > 0 && count <= most) {
         const tahr__wide_node *n = &tree->nodes[stack[--top]];
-        uint32_t near = tree->test(n, &b, b.lo, NULL), items_here = has_items(n), first = n->first;
-        for (uint32_t i = 0; near; i++, near >>= 1) {
-            if (!(near & 1)) continue;
-            if (!items_here)
-                stack[top++] = first + i;
-            else if (count == capacity)
-                return capacity + 1;
-            else
-                items[count++] = first + i;
+        uint32_t near = tree->test(n, &b, b.lo, NULL);
+        if (has_items(n)) {
+            count += ones(near);
+            continue;
+        }
+        for (uint32_t child = n->first; near; child++, near >>= 1) {
+            if (near & 1) stack[top++] = child;
         }
     }
     return count;
@@ -265,8 +270,8 @@ void tahr__wide_walk_narrow(tahr__wide_walk *walk, const tahr_bounds *box)
  * as near the one that came later goes first, of siblings the first. */
 static void push(tahr__wide_walk *w, uint32_t node)
 {
-    float away[TAHR__WIDE];
-    uint32_t near = w->tree->test(&w->tree->nodes[node], &w->box, w->near, away);
+    float away[TAHR__WIDE] = {0};
+    uint32_t near = w->tree->test(&w->tree->nodes[node], &w->box, w->near, w->ordered ? away : NULL);
     for (uint32_t i = TAHR__WIDE; i-- > 0;) {
         if (!(near >> i & 1)) continue;
         uint32_t k = w->top++;
@@ -277,13 +282,14 @@ static void push(tahr__wide_walk *w, uint32_t node)
 }
 
 void tahr__wide_walk_begin(tahr__wide_walk *walk, const tahr__wide *tree, const tahr_bounds *box, double reach,
-                           tahr_vec3 near)
+                           const tahr_vec3 *near)
 {
     walk->tree = tree;
     set_box(tree, box, &walk->box);
     walk->box.limit = limit_of(tree, reach);
-    for (int i = 0; i < 3; i++)
-        walk->near[i] = down(tree, i, v_get(near, i) - v_get(tree->centre, i));
+    walk->ordered = near != NULL;
+    for (int i = 0; near && i < 3; i++)
+        walk->near[i] = down(tree, i, v_get(*near, i) - v_get(tree->centre, i));
     walk->top = walk->narrowed = 0;
     push(walk, 0);
 }

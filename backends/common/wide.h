@@ -56,10 +56,8 @@ tahr_status tahr__wide_build(const tahr_host *host, tahr__bvh_box *boxes, uint32
                              tahr_vec3 centre, tahr__wide *tree);
 void tahr__wide_free(const tahr_host *host, tahr__wide *tree);
 
-/* Items within reach of box; at most capacity of them, in no order that means anything but always the same. Returns how
- * many; more than capacity: there are others. */
-uint32_t tahr__wide_collect(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t *items,
-                            uint32_t capacity);
+/* How many items are within reach of a box; beyond most it stops. */
+uint32_t tahr__wide_count(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t most);
 
 /* Every level of the tree leaves at most seven others to look at; 80 levels: see TAHR__BVH_STACK. */
 enum { TAHR__WIDE_STACK = 7 * 80 };
@@ -70,18 +68,20 @@ typedef struct tahr__wide_entry {
     float away;     /* squared distance to the point */
 } tahr__wide_entry;
 
-/* Walks all items within reach of a box, of all nodes and items that are known the nearest to a point first. */
+/* Walks all items within reach of a box, of all nodes and items that are known the nearest to a point first, or in no
+ * order that means anything. */
 typedef struct tahr__wide_walk {
     const tahr__wide *tree;
     tahr__wide_box box;
     int32_t near[3];
-    uint32_t top;
+    uint32_t ordered, top;
     uint32_t narrowed; /* how often: what came in before may be out of reach */
     tahr__wide_entry entries[TAHR__WIDE_STACK]; /* the nearest last */
 } tahr__wide_walk;
 
+/* near: NULL: in any order. */
 void tahr__wide_walk_begin(tahr__wide_walk *walk, const tahr__wide *tree, const tahr_bounds *box, double reach,
-                           tahr_vec3 near);
+                           const tahr_vec3 *near);
 /* Narrows the box of a walk under way (a hit was found). */
 void tahr__wide_walk_narrow(tahr__wide_walk *walk, const tahr_bounds *box);
 /* 1 and the next item, or 0 at the end. */

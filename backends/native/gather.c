@@ -168,7 +168,9 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     query.ignore_body = TAHR_NO_BODY;
     query.sensors = TAHR__SENSORS_TOO;
     query.start = tahr__frame_box_to_local(&cache->frame, &(tahr_bounds){p->position, p->position}).min;
-    tahr_vec3 m = v_make(world->cache_margin, world->cache_margin, world->cache_margin);
+    double margin;
+    int fits = tahr__margin_choose(&query, &p->bounds, &margin);
+    tahr_vec3 m = v_make(margin, margin, margin);
     cache->bounds.min = v_sub(p->bounds.min, m);
     cache->bounds.max = v_add(p->bounds.max, m);
     cache->local = tahr__frame_box_to_local(&cache->frame, &cache->bounds);
@@ -180,12 +182,16 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     g.search.query = &query;
     g.search.box = cache->local;
     g.search.reach = 0;
-    g.search.narrowed = g.search.reserved = 0;
+    g.search.narrowed = 0;
+    g.search.any_order = 1;
     g.search.visit = store;
     g.blocks = blocks_of(cache);
     g.prims = prims_of(world, cache);
     g.cache = cache;
-    tahr__tree_search(&g.search, &world->fixed);
+    if (fits)
+        tahr__tree_search(&g.search, &world->fixed);
+    else
+        cache->overflow = 1;
     if (world->gather) gather_loose(world, &g);
     cache->revision = world->revision;
     tahr__lanes_end(g.blocks, cache->count);

@@ -6,8 +6,8 @@
 #include <string.h>
 
 enum { CAPACITY_DEFAULT = 128, CAPACITY_MAX = TAHR__CACHE_MOST };
-/* m; a gather lasts 12 steps of a wanderer in a dungeon at 0.75, 15 at 1 and 20 at 1.5, where the longer lists cost the
- * sweeps more than fewer gathers save (measured). */
+/* m, at most: a gather lasts 12 steps of a wanderer in a dungeon at 0.75, 15 at 1 and 20 at 1.5, where the longer lists
+ * cost the sweeps more than fewer gathers save (measured). */
 #define MARGIN_DEFAULT 1.0
 
 /* Says what is wrong with the options, or NULL. */
@@ -49,6 +49,8 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
     world->cull = d.no_simd ? tahr__lanes_cull_1 : tahr__lanes_best();
     world->gather = d.gather;
     world->gather_user = d.gather_user;
+    /* Of the user's triangles nothing is known before they are handed over. */
+    world->fixed_margin = d.cache_margin > 0 || d.gather;
     world->cache_margin = d.cache_margin > 0 ? d.cache_margin : MARGIN_DEFAULT;
     return TAHR_OK;
 }

@@ -48,6 +48,8 @@ typedef struct tahr__native {
     uint32_t round;    /* local coordinates are rounded to float */
     uint32_t capacity; /* of a cache, a multiple of TAHR__LANES */
     uint32_t no_cache;
+    uint32_t fixed_margin; /* 1: cache_margin is the margin, 0: the most it may be */
+    uint32_t reserved;
     tahr__lanes_fn *cull;
     double cache_margin;
     tahr__group fixed, movable;
@@ -159,7 +161,8 @@ typedef struct tahr__search {
     const tahr__query *query;
     tahr_bounds box; /* local, around the core */
     double reach;
-    uint32_t narrowed, reserved;
+    uint32_t narrowed;
+    uint32_t any_order; /* 1: all are wanted, the nearest not before others */
     void (*visit)(struct tahr__search *search, const tahr__prim *prim);
 } tahr__search;
 
@@ -216,6 +219,9 @@ const tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cach
 uint32_t tahr__corner_bucket(const tahr__corners *corners, tahr_vec3 corner);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
 
+/* margin.c: how far around what was announced to gather; 0: there is too much for the cache: not within [out] margin. */
+int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *margin);
+
 /* source.c: the triangles of the user. */
 /* Fills all but the walkable fields of a loose triangle; 0: it has no area. */
 int tahr__loose_make(const tahr__frame *frame, const tahr_triangle *t, tahr__loose *out);
@@ -241,6 +247,8 @@ uint32_t tahr__hull_face(const tahr__mesh *mesh, tahr_vec3 direction);
 
 /* tree.c: primitives of a group of bodies, straight from their trees. */
 void tahr__tree_search(tahr__search *search, const tahr__group *group);
+/* About how many primitives a box (world) concerns, at least as many as a search finds; beyond most it may stop. */
+uint32_t tahr__tree_count(const tahr__query *query, const tahr__group *group, const tahr_bounds *box, uint32_t most);
 /* And of one body alone. */
 void tahr__tree_search_body(tahr__search *search, uint32_t body);
 

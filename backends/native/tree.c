@@ -39,7 +39,7 @@ static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
     tahr_bounds box = to_mesh(map, &s->box);
     tahr_vec3 near = v_sub(s->query->start, map->offset);
     if (map->turned) near = m_unapply(&map->turn, near);
-    tahr__wide_walk_begin(&walk, &body->mesh.tree, &box, s->reach + TAHR__SLACK, near);
+    tahr__wide_walk_begin(&walk, &body->mesh.tree, &box, s->reach + TAHR__SLACK, s->any_order ? NULL : &near);
     tahr__prim prim;
     tahr__prim_begin(body, id, &prim);
     uint32_t i;
@@ -155,6 +155,34 @@ void tahr__tree_search_body(tahr__search *s, uint32_t id)
         s->visit(s, &prim);
     }
     search_mesh(s, id, &map);
+}
+
+static uint32_t count_body(const tahr__query *query, uint32_t id, const tahr_bounds *local, uint32_t most)
+{
+    const tahr__body *body = &query->world->bodies[id];
+    if (!(body->mask & query->mask)) return 0;
+    if (body->type == TAHR_BODY_SPHERE || body->type == TAHR_BODY_CAPSULE) return 1;
+    tahr__map map = tahr__map_make(query->frame, body);
+    tahr_bounds box = to_mesh(&map, local);
+    if (body->type == TAHR_BODY_HEIGHTS) {
+        tahr__heights_range r = tahr__heights_cells(&body->heights, &box);
+        return 2 * (r.column_end - r.column) * (r.row_end - r.row);
+    }
+    return tahr__wide_count(&body->mesh.tree, &box, TAHR__SLACK, most) + (body->type != TAHR_BODY_MESH);
+}
+
+uint32_t tahr__tree_count(const tahr__query *query, const tahr__group *group, const tahr_bounds *box, uint32_t most)
+{
+    tahr_bounds local = tahr__frame_box_to_local(query->frame, box);
+    tahr__bvh_walk walk;
+    uint32_t first, items, count = 0;
+    if (group->count == 0) return 0;
+    tahr__bvh_walk_begin(&walk, &group->tree, box, TAHR__SLACK, query->start);
+    while (count <= most && tahr__bvh_walk_next(&walk, &first, &items)) {
+        for (uint32_t i = first; i < first + items; i++)
+            count += count_body(query, group->order[i], &local, most);
+    }
+    return count;
 }
 
 void tahr__tree_search(tahr__search *s, const tahr__group *group)
