@@ -238,23 +238,59 @@ static uint32_t ones(uint32_t bits)
     return count;
 }
 
+typedef struct looking {
+    const tahr__wide *tree;
+    tahr__wide_box box;
+    uint32_t top, stack[TAHR__WIDE_STACK];
+} looking;
+
+static void look_begin(looking *l, const tahr__wide *tree, const tahr_bounds *box, double reach)
+{
+    l->tree = tree;
+    set_box(tree, box, &l->box);
+    l->box.limit = limit_of(tree, reach);
+    l->stack[0] = 0;
+    l->top = 1;
+}
+
+/* The next node with items within reach, and which of them are; NULL: there is none. */
+static const tahr__wide_node *look_on(looking *l, uint32_t *near)
+{
+    while (l->top > 0) {
+        const tahr__wide_node *n = &l->tree->nodes[l->stack[--l->top]];
+        *near = l->tree->test(n, &l->box, l->box.lo, NULL);
+        if (has_items(n)) return n;
+        for (uint32_t child = n->first, left = *near; left; child++, left >>= 1) {
+            if (left & 1) l->stack[l->top++] = child;
+        }
+    }
+    return NULL;
+}
+
+uint32_t tahr__wide_collect(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t *items,
+                            uint32_t capacity)
+{
+    looking l;
+    uint32_t near, count = 0;
+    const tahr__wide_node *n;
+    look_begin(&l, tree, box, reach);
+    while ((n = look_on(&l, &near)) != NULL) {
+        for (uint32_t item = n->first; near; item++, near >>= 1) {
+            if (!(near & 1)) continue;
+            if (count == capacity) return capacity + 1;
+            items[count++] = item;
+        }
+    }
+    return count;
+}
+
 uint32_t tahr__wide_count(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t most)
 {
-    uint32_t stack[TAHR__WIDE_STACK], top = 0, count = 0;
-    tahr__wide_box b;
-    set_box(tree, box, &b);
-    b.limit = limit_of(tree, reach);
-    stack[top++] = 0;
-    while (top > 0 && count <= most) {
-        const tahr__wide_node *n = &tree->nodes[stack[--top]];
-        uint32_t near = tree->test(n, &b, b.lo, NULL);
-        if (has_items(n)) {
-            count += ones(near);
-            continue;
-        }
-        for (uint32_t child = n->first; near; child++, near >>= 1) {
-            if (near & 1) stack[top++] = child;
-        }
+    looking l;
+    uint32_t near, count = 0;
+    look_begin(&l, tree, box, reach);
+    while (count <= most && look_on(&l, &near)) {
+        count += ones(near);
     }
     return count;
 }

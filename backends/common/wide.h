@@ -56,7 +56,11 @@ tahr_status tahr__wide_build(const tahr_host *host, tahr__bvh_box *boxes, uint32
                              tahr_vec3 centre, tahr__wide *tree);
 void tahr__wide_free(const tahr_host *host, tahr__wide *tree);
 
-/* How many items are within reach of a box; beyond most it stops. */
+/* Items within reach of a box, at most capacity of them, in no order that means anything. Returns how many; more than
+ * capacity: there are others. */
+uint32_t tahr__wide_collect(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t *items,
+                            uint32_t capacity);
+/* How many there are; beyond most it stops. */
 uint32_t tahr__wide_count(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t most);
 
 /* Every level of the tree leaves at most seven others to look at; 80 levels: see TAHR__BVH_STACK. */

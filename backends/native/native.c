@@ -47,6 +47,7 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
         ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
     world->no_cache = d.no_cache;
     world->cull = d.no_simd ? tahr__lanes_cull_1 : tahr__lanes_best();
+    world->former = tahr__former_best(!d.no_simd);
     world->gather = d.gather;
     world->gather_user = d.gather_user;
     /* Of the user's triangles nothing is known before they are handed over. */

@@ -33,6 +33,18 @@ typedef struct tahr__body {
     tahr_bounds bounds; /* world */
 } tahr__body;
 
+struct tahr__map;
+struct tahr__prim;
+
+/* Forms the lanes of some triangles of a mesh at a time (form.c). width 1: there is none. */
+typedef struct tahr__former {
+    void (*form)(const struct tahr__map *map, const tahr__mesh *mesh, const struct tahr__prim *prims, float *lanes);
+    uint32_t width, reserved;
+} tahr__former;
+
+/* The fastest that this machine can run, all of the same bits; simd 0: one by one. */
+tahr__former tahr__former_best(uint32_t simd);
+
 /* A tree over some of the bodies. */
 typedef struct tahr__group {
     tahr__bvh tree;
@@ -51,6 +63,7 @@ typedef struct tahr__native {
     uint32_t fixed_margin; /* 1: cache_margin is the margin, 0: the most it may be */
     uint32_t reserved;
     tahr__lanes_fn *cull;
+    tahr__former former;
     double cache_margin;
     tahr__group fixed, movable;
     tahr__fluids fluids;
@@ -90,7 +103,8 @@ enum {
     /* A triangle of the user's, kept in the cache (item is its index) or the head of a tahr__loose. */
     TAHR__GATHERED = 64,
     TAHR__FRESH = 128,
-    TAHR__FACELESS = 256 /* of a field of heights: its normal is made where it is asked for */
+    TAHR__FACELESS = 256, /* of a field of heights: its normal is made where it is asked for */
+    TAHR__UNFORMED = 512  /* in a cache: nothing but item, kind, body and mask is there yet (form.c) */
 };
 
 /* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. Three lines of
@@ -156,14 +170,19 @@ typedef struct tahr__query {
     tahr_status *failed;               /* what went wrong while gathering */
 } tahr__query;
 
+/* In which order primitives are handed over. */
+enum { TAHR__NEAREST_FIRST = 0, TAHR__ANY_ORDER = 1, TAHR__IN_BULK = 2 };
+
 /* Visits every primitive that may be within reach of box. The visitor may shrink box (and set narrowed) on the way. */
 typedef struct tahr__search {
     const tahr__query *query;
     tahr_bounds box; /* local, around the core */
     double reach;
     uint32_t narrowed;
-    uint32_t any_order; /* 1: all are wanted, the nearest not before others */
+    uint32_t order; /* TAHR__NEAREST_FIRST, ... */
     void (*visit)(struct tahr__search *search, const tahr__prim *prim);
+    /* IN_BULK: takes triangles of a mesh by their names; more than TAHR__CACHE_MOST: not all of them are there. */
+    void (*take)(struct tahr__search *search, uint32_t body, const uint32_t *items, uint32_t count);
 } tahr__search;
 
 /* Static bodies, from the cache if it holds all that is asked for, then movable ones. */

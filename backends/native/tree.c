@@ -32,6 +32,16 @@ static int within(const tahr_bounds *b, double reach, tahr_vec3 v0, tahr_vec3 v1
     return x * x + y * y + z * z <= reach * reach;
 }
 
+/* All of a mesh at once. */
+static void take_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
+{
+    uint32_t items[TAHR__CACHE_MOST];
+    tahr_bounds box = to_mesh(map, &s->box);
+    uint32_t count = tahr__wide_collect(&s->query->world->bodies[id].mesh.tree, &box, s->reach + TAHR__SLACK, items,
+                                        TAHR__CACHE_MOST);
+    s->take(s, id, items, count);
+}
+
 static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
 {
     const tahr__body *body = &s->query->world->bodies[id];
@@ -39,7 +49,7 @@ static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
     tahr_bounds box = to_mesh(map, &s->box);
     tahr_vec3 near = v_sub(s->query->start, map->offset);
     if (map->turned) near = m_unapply(&map->turn, near);
-    tahr__wide_walk_begin(&walk, &body->mesh.tree, &box, s->reach + TAHR__SLACK, s->any_order ? NULL : &near);
+    tahr__wide_walk_begin(&walk, &body->mesh.tree, &box, s->reach + TAHR__SLACK, s->order == TAHR__NEAREST_FIRST ? &near : NULL);
     tahr__prim prim;
     tahr__prim_begin(body, id, &prim);
     uint32_t i;
@@ -154,7 +164,10 @@ void tahr__tree_search_body(tahr__search *s, uint32_t id)
         tahr__prim_solid(&map, body, &prim);
         s->visit(s, &prim);
     }
-    search_mesh(s, id, &map);
+    if (s->order == TAHR__IN_BULK)
+        take_mesh(s, id, &map);
+    else
+        search_mesh(s, id, &map);
 }
 
 static uint32_t count_body(const tahr__query *query, uint32_t id, const tahr_bounds *local, uint32_t most)

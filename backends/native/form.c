@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: MIT
+ * form.c: what a cull needs of gathered triangles, some at a time out of the mesh, and the rest of a triangle when a
+ * query first comes near it: of a hundred that are gathered a dozen are ever measured. The bits are those of
+ * tahr__prim_triangle and tahr__lanes_put. */
+#include "form.h"
+
+#include <string.h>
+
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#endif
+
+/* The corners of this many triangles later are fetched while one is formed: some 100 ns ahead. */
+enum { AHEAD = 8 };
+
+void tahr__form_heads(const tahr__body *body, uint32_t id, const uint32_t *items, uint32_t count, tahr__prim *prims)
+{
+    tahr__prim head;
+    tahr__prim_begin(body, id, &head);
+    for (uint32_t i = 0; i < count; i++) {
+        prims[i].item = items[i];
+        prims[i].kind = head.kind | TAHR__UNFORMED;
+        prims[i].body = id;
+        prims[i].mask = head.mask;
+    }
+}
+
+void tahr__form_rest(const tahr__native *world, const tahr__frame *frame, tahr__prim *prim)
+{
+    const tahr__body *body = &world->bodies[prim->body];
+    tahr__map map = tahr__map_make(frame, body);
+    uint32_t item = prim->item;
+    tahr__prim_begin(body, prim->body, prim);
+    tahr__prim_triangle(&map, body, item, prim);
+}
+
+static void form_one(const tahr__native *world, const tahr__frame *frame, tahr__prim *prim, float *blocks, uint32_t at)
+{
+    tahr__form_rest(world, frame, prim);
+    const tahr_vec3 *v = prim->facet.v;
+    tahr_bounds box = {v_min(v[0], v_min(v[1], v[2])), v_max(v[0], v_max(v[1], v[2]))};
+    tahr__lanes_put(blocks, at, &box, prim->kind & TAHR__PLANELESS ? NULL : &prim->facet);
+}
+
+/* Do as many from there on come from one mesh, with no lane across two blocks? */
+static int alike(const tahr__prim *prims, uint32_t at, uint32_t count, uint32_t width)
+{
+    if (width == 1 || at % width != 0 || at + width > count) return 0;
+    for (uint32_t i = at; i < at + width; i++) {
+        if (!(prims[i].kind & TAHR__UNFORMED) || prims[i].body != prims[at].body) return 0;
+    }
+    return 1;
+}
+
+#if defined(__GNUC__)
+static void fetch(const tahr__native *world, const tahr__prim *prim)
+{
+    const tahr__mesh *mesh = &world->bodies[prim->body].mesh;
+    if (!(prim->kind & TAHR__UNFORMED)) return;
+    __builtin_prefetch(&mesh->vertices[mesh->triangles[prim->item].vertex[0]]);
+    __builtin_prefetch(&mesh->vertices[mesh->triangles[prim->item].vertex[2]]);
+}
+#else
+static void fetch(const tahr__native *world, const tahr__prim *prim)
+{
+    (void)world;
+    (void)prim;
+}
+#endif
+
+void tahr__form_lanes(const tahr__native *world, const tahr__frame *frame, tahr__prim *prims, float *blocks,
+                      uint32_t count)
+{
+    const tahr__former *former = &world->former;
+    uint32_t of = TAHR__NONE;
+    tahr__map map;
+    for (uint32_t at = 0; at < count;) {
+        for (uint32_t i = at + AHEAD; i < at + AHEAD + former->width && i < count; i++)
+            fetch(world, &prims[i]);
+        if (!alike(prims, at, count, former->width)) {
+            if (prims[at].kind & TAHR__UNFORMED) form_one(world, frame, &prims[at], blocks, at);
+            at++;
+            continue;
+        }
+        if (prims[at].body != of) {
+            of = prims[at].body;
+            map = tahr__map_make(frame, &world->bodies[of]);
+        }
+        former->form(&map, &world->bodies[of].mesh, &prims[at], blocks + tahr__lane(at, 0));
+        at += former->width;
+    }
+}
+
+#if defined(__GNUC__)
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+enum { WIDTH = 2 };
+
+typedef double lane __attribute__((vector_size(16)));
+typedef int64_t mask __attribute__((vector_size(16)));
+typedef float half __attribute__((vector_size(8)));
+
+static inline lane root(lane a)
+{
+#if defined(__SSE2__)
+    return (lane)_mm_sqrt_pd((__m128d)a);
+#else
+    return (lane){sqrt(a[0]), sqrt(a[1])};
+#endif
+}
+
+static inline void put(float *to, lane x)
+{
+    half h = {(float)x[0], (float)x[1]};
+    memcpy(to, &h, sizeof h);
+}
+
+static inline lane load(const double *a)
+{
+    return (lane){a[0], a[1]};
+}
+
+#include "form_kernel.h"
+
+static void form_2(const tahr__map *map, const tahr__mesh *mesh, const tahr__prim *prims, float *lanes)
+{
+    form(map, mesh, prims, lanes);
+}
+
+#endif
+
+tahr__former tahr__former_best(uint32_t simd)
+{
+    tahr__former former = {NULL, 1, 0};
+#if defined(__GNUC__)
+    if (!simd) return former;
+    former = (tahr__former){form_2, 2, 0};
+#if defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) former = (tahr__former){tahr__form_4, 4, 0};
+#endif
+#else
+    (void)simd;
+#endif
+    return former;
+}
