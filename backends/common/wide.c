@@ -211,6 +211,7 @@ static void set_box(const tahr__wide *tree, const tahr_bounds *box, tahr__wide_b
         out->lo[i] = down(tree, i, (double)b.lo[i]);
         out->hi[i] = up(tree, i, (double)b.hi[i]);
     }
+    out->lo[3] = out->hi[3] = 0;
 }
 
 static float limit_of(const tahr__wide *tree, double reach)
@@ -230,13 +231,20 @@ static uint32_t has_items(const tahr__wide_node *n)
     return n->base[1] >> 29;
 }
 
-static uint32_t ones(uint32_t bits)
+#if defined(__GNUC__)
+static uint32_t lowest(uint32_t bits)
 {
-    uint32_t count = 0;
-    for (; bits; bits &= bits - 1)
-        count++;
-    return count;
+    return (uint32_t)__builtin_ctz(bits);
 }
+#else
+static uint32_t lowest(uint32_t bits)
+{
+    uint32_t i = 0;
+    while (!(bits >> i & 1))
+        i++;
+    return i;
+}
+#endif
 
 typedef struct looking {
     const tahr__wide *tree;
@@ -260,9 +268,8 @@ static const tahr__wide_node *look_on(looking *l, uint32_t *near)
         const tahr__wide_node *n = &l->tree->nodes[l->stack[--l->top]];
         *near = l->tree->test(n, &l->box, l->box.lo, NULL);
         if (has_items(n)) return n;
-        for (uint32_t child = n->first, left = *near; left; child++, left >>= 1) {
-            if (left & 1) l->stack[l->top++] = child;
-        }
+        for (uint32_t left = *near; left; left &= left - 1)
+            l->stack[l->top++] = n->first + lowest(left);
     }
     return NULL;
 }
@@ -275,10 +282,9 @@ uint32_t tahr__wide_collect(const tahr__wide *tree, const tahr_bounds *box, doub
     const tahr__wide_node *n;
     look_begin(&l, tree, box, reach);
     while ((n = look_on(&l, &near)) != NULL) {
-        for (uint32_t item = n->first; near; item++, near >>= 1) {
-            if (!(near & 1)) continue;
+        for (; near; near &= near - 1) {
             if (count == capacity) return capacity + 1;
-            items[count++] = item;
+            items[count++] = n->first + lowest(near);
         }
     }
     return count;
@@ -290,7 +296,8 @@ uint32_t tahr__wide_count(const tahr__wide *tree, const tahr_bounds *box, double
     uint32_t near, count = 0;
     look_begin(&l, tree, box, reach);
     while (count <= most && look_on(&l, &near)) {
-        count += ones(near);
+        for (; near; near &= near - 1)
+            count++;
     }
     return count;
 }
@@ -326,6 +333,7 @@ void tahr__wide_walk_begin(tahr__wide_walk *walk, const tahr__wide *tree, const 
     walk->ordered = near != NULL;
     for (int i = 0; near && i < 3; i++)
         walk->near[i] = down(tree, i, v_get(*near, i) - v_get(tree->centre, i));
+    walk->near[3] = 0;
     walk->top = walk->narrowed = 0;
     push(walk, 0);
 }
@@ -373,7 +381,7 @@ static float square(float low, float high, float from, float to)
     return gap * gap;
 }
 
-uint32_t tahr__wide_test_1(const tahr__wide_node *n, const tahr__wide_box *box, const int32_t point[3],
+uint32_t tahr__wide_test_1(const tahr__wide_node *n, const tahr__wide_box *box, const int32_t point[4],
                            float away[TAHR__WIDE])
 {
     uint32_t near = 0;

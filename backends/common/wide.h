@@ -29,12 +29,12 @@ typedef struct tahr__wide_node {
 
 /* A box on the lattice, and how near (squared) counts. */
 typedef struct tahr__wide_box {
-    int32_t lo[3], hi[3];
+    int32_t lo[4], hi[4]; /* the last of each is room for vectors */
     float limit;
 } tahr__wide_box;
 
 /* One bit per child within reach. [out] away: squared distances of all children to the point; NULL: nobody asks. */
-typedef uint32_t tahr__wide_fn(const tahr__wide_node *node, const tahr__wide_box *box, const int32_t point[3],
+typedef uint32_t tahr__wide_fn(const tahr__wide_node *node, const tahr__wide_box *box, const int32_t point[4],
                                float away[TAHR__WIDE]);
 /* One child at a time; four; eight, where the processor has AVX2. All the same bits. */
 tahr__wide_fn tahr__wide_test_1, tahr__wide_test_4, tahr__wide_test_8;
@@ -77,7 +77,7 @@ typedef struct tahr__wide_entry {
 typedef struct tahr__wide_walk {
     const tahr__wide *tree;
     tahr__wide_box box;
-    int32_t near[3];
+    int32_t near[4]; /* as well */
     uint32_t ordered, top;
     uint32_t narrowed; /* how often: what came in before may be out of reach */
     tahr__wide_entry entries[TAHR__WIDE_STACK]; /* the nearest last */

@@ -44,7 +44,7 @@ static inline lane steps(const uint8_t *p)
 
 #include "wide_kernel.h"
 
-uint32_t tahr__wide_test_8(const tahr__wide_node *node, const tahr__wide_box *box, const int32_t point[3],
+uint32_t tahr__wide_test_8(const tahr__wide_node *node, const tahr__wide_box *box, const int32_t point[4],
                            float away[TAHR__WIDE])
 {
     return wide_test(node, box, point, away);
@@ -56,7 +56,7 @@ uint32_t tahr__wide_test_8(const tahr__wide_node *node, const tahr__wide_box *bo
 
 #else
 
-uint32_t tahr__wide_test_8(const tahr__wide_node *node, const tahr__wide_box *box, const int32_t point[3],
+uint32_t tahr__wide_test_8(const tahr__wide_node *node, const tahr__wide_box *box, const int32_t point[4],
                            float away[TAHR__WIDE])
 {
     return tahr__wide_test_4(node, box, point, away);

@@ -112,6 +112,21 @@ static inline lane root(lane a)
 #endif
 }
 
+static inline lane choose(mask m, lane a, lane b)
+{
+    return (lane)(((mask)a & m) | ((mask)b & ~m));
+}
+
+static inline lane lower(lane a, lane b)
+{
+    return choose((mask)(a < b), a, b);
+}
+
+static inline lane higher(lane a, lane b)
+{
+    return choose((mask)(a > b), a, b);
+}
+
 static inline void put(float *to, lane x)
 {
     half h = {(float)x[0], (float)x[1]};

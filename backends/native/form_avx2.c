@@ -26,6 +26,21 @@ static inline lane root(lane a)
     return (lane)_mm256_sqrt_pd((__m256d)a);
 }
 
+static inline lane choose(mask m, lane a, lane b)
+{
+    return (lane)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)m);
+}
+
+static inline lane lower(lane a, lane b)
+{
+    return (lane)_mm256_min_pd((__m256d)a, (__m256d)b);
+}
+
+static inline lane higher(lane a, lane b)
+{
+    return (lane)_mm256_max_pd((__m256d)a, (__m256d)b);
+}
+
 static inline void put(float *to, lane x)
 {
     _mm_storeu_ps(to, _mm256_cvtpd_ps((__m256d)x));

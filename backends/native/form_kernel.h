@@ -1,22 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * form_kernel.h: boxes and planes of WIDTH triangles in vectors of doubles, for a file that has said how wide they are:
- * WIDTH, lane, mask, root, put, load. The operations of tahr__map_point, tahr__facet_finish and tahr__lanes_put in their
+ * WIDTH, lane, mask, root, choose (m ? a : b), lower (a < b ? a : b), higher (a > b ? a : b), put, load. The operations of tahr__map_point, tahr__facet_finish and tahr__lanes_put in their
  * order. */
 
 typedef struct vec {
     lane x, y, z;
 } vec;
-
-static inline lane all(double x)
-{
-    return x - (lane){0};
-}
-
-/* m ? a : b */
-static inline lane choose(mask m, lane a, lane b)
-{
-    return (lane)(((mask)a & m) | ((mask)b & ~m));
-}
 
 static inline lane size(lane a)
 {
@@ -43,16 +32,6 @@ static inline vec cross(vec a, vec b)
     return (vec){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-static inline lane lower(lane a, lane b)
-{
-    return choose(a < b, a, b);
-}
-
-static inline lane higher(lane a, lane b)
-{
-    return choose(a > b, a, b);
-}
-
 static inline lane row(tahr_vec3 r, vec v)
 {
     return r.x * v.x + r.y * v.y + r.z * v.z;
@@ -62,7 +41,7 @@ static inline lane row(tahr_vec3 r, vec v)
 static inline lane to_float(lane x)
 {
     lane c = x * 536870913.0;
-    return choose(size(x) < 1e-30, all(0), c - (c - x));
+    return (lane)((mask)(c - (c - x)) & ~(mask)(size(x) < 1e-30));
 }
 
 static inline mask near(vec p)
@@ -99,7 +78,7 @@ static inline void put_up(float *to, lane a, lane b, lane c)
 
 static inline void put_if(float *to, mask m, lane x)
 {
-    put(to, choose(m, x, all(0)));
+    put(to, (lane)((mask)x & m));
 }
 
 /* A plane: direction, and how far along it. */

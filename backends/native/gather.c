@@ -190,7 +190,7 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     query.sensors = TAHR__SENSORS_TOO;
     query.start = tahr__frame_box_to_local(&cache->frame, &(tahr_bounds){p->position, p->position}).min;
     double margin;
-    int fits = tahr__margin_choose(&query, &p->bounds, &margin);
+    int fits = tahr__margin_choose(&query, &p->bounds, &cache->counted, &margin);
     tahr_vec3 m = v_make(margin, margin, margin);
     cache->bounds.min = v_sub(p->bounds.min, m);
     cache->bounds.max = v_add(p->bounds.max, m);

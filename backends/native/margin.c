@@ -17,6 +17,9 @@
 static const double FRACTIONS[] = {1, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
 enum { CHOICES = sizeof FRACTIONS / sizeof FRACTIONS[0] };
 
+/* What fills less of the cache than one in this many may be dense enough with twice the margin. */
+enum { SPARSE = 4 };
+
 static tahr_bounds grown(const tahr_bounds *box, double margin)
 {
     tahr_vec3 m = v_make(margin, margin, margin);
@@ -30,18 +33,23 @@ static double cost(double count, double width, double counted, double margin)
     return (GATHER + FORM * n) / (STEPS_PER_METRE * margin) + KEEP * n;
 }
 
-int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *margin)
+int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *counted, double *margin)
 {
     const tahr__native *world = query->world;
-    double most = world->cache_margin, width = announced->max.x - announced->min.x, counted = 2 * most;
+    double most = world->cache_margin, width = announced->max.x - announced->min.x, at = *counted > 0 ? *counted : most;
     uint32_t room = world->capacity, count;
+    int fitted = 0;
     *margin = most;
     if (world->fixed_margin) return 1;
-    do {
-        counted *= 0.5;
-        tahr_bounds box = grown(announced, counted);
+    for (;;) {
+        tahr_bounds box = grown(announced, at);
         count = tahr__tree_count(query, &world->fixed, &box, room);
-    } while (count > room && counted > FRACTIONS[CHOICES - 1] * most);
+        if (count <= room && (at >= most || count > room / SPARSE || fitted < 0)) break;
+        if (count > room && at <= FRACTIONS[CHOICES - 1] * most) break;
+        if (count > room) fitted = -1;
+        at = count > room ? 0.5 * at : d_min(2 * at, most);
+    }
+    *counted = at;
     /* It will not fit much farther on either. */
     if (count > room) {
         *margin = 0.5 * most;
@@ -49,8 +57,8 @@ int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, 
     }
     double least = 1e300;
     for (int i = 0; i < CHOICES; i++) {
-        double m = FRACTIONS[i] * most, c = cost(count, width, counted, m);
-        if (m > counted || c >= least) continue;
+        double m = FRACTIONS[i] * most, c = cost(count, width, at, m);
+        if (m > at || c >= least) continue;
         least = c;
         *margin = m;
     }

@@ -145,6 +145,7 @@ typedef struct tahr__cache {
     uint32_t announced, gathered, overflow, mask, count;
     uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
     uint64_t revision;  /* of the user's triangles in it */
+    double counted;     /* see tahr__margin_choose */
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
 } tahr__cache;
 
@@ -238,8 +239,9 @@ const tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cach
 uint32_t tahr__corner_bucket(const tahr__corners *corners, tahr_vec3 corner);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
 
-/* margin.c: how far around what was announced to gather; 0: there is too much for the cache: not within [out] margin. */
-int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *margin);
+/* margin.c: how far around what was announced to gather; 0: there is too much for the cache: not within [out] margin.
+ * counted: [in, out] where to begin counting, which was best last time; 0: anywhere. */
+int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *counted, double *margin);
 
 /* source.c: the triangles of the user. */
 /* Fills all but the walkable fields of a loose triangle; 0: it has no area. */
