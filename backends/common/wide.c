@@ -214,11 +214,16 @@ static void set_box(const tahr__wide *tree, const tahr_bounds *box, tahr__wide_b
     out->lo[3] = out->hi[3] = 0;
 }
 
-static float limit_of(const tahr__wide *tree, double reach)
+/* A reach on the lattice. */
+static float places_of(const tahr__wide *tree, double reach)
 {
     /* 1e-3 of a place: what is subtracted on the way onto the lattice is rounded by less. */
-    double places = reach * tree->scale + 1e-3;
-    return d_up(d_min(places, BEYOND) * d_min(places, BEYOND) * (1 + 1e-6));
+    return d_up(d_min(reach * tree->scale + 1e-3, BEYOND));
+}
+
+static float limit_of(float places)
+{
+    return places * places * 1.000001f;
 }
 
 static uint32_t children_of(const tahr__wide_node *n)
@@ -256,7 +261,7 @@ static void look_begin(looking *l, const tahr__wide *tree, const tahr_bounds *bo
 {
     l->tree = tree;
     set_box(tree, box, &l->box);
-    l->box.limit = limit_of(tree, reach);
+    l->box.limit = limit_of(places_of(tree, reach));
     l->stack[0] = 0;
     l->top = 1;
 }
@@ -304,23 +309,32 @@ uint32_t tahr__wide_count(const tahr__wide *tree, const tahr_bounds *box, double
 
 void tahr__wide_walk_narrow(tahr__wide_walk *walk, const tahr_bounds *box)
 {
+    float sum = 0;
     set_box(walk->tree, box, &walk->box);
-    walk->narrowed++;
+    walk->narrowed = 1;
+    if (!walk->ordered) return;
+    /* The corner of the box that is farthest from the point, and the reach, and a place for the point's rounding. */
+    for (int a = 0; a < 3; a++) {
+        float before = (float)(walk->near[a] - walk->box.lo[a]), behind = (float)(walk->box.hi[a] - walk->near[a]);
+        float away = (before > behind ? before : behind) + walk->places + 1;
+        sum += away > 0 ? away * away : 0;
+    }
+    walk->farthest = sum * 1.000001f;
 }
 
 /* Takes in the children within reach. Into their places among all entries: bounds are coarse high up in the tree, so
- * what seems nearest there may not be, and whoever looks for a first hit should not go through all of it before. Of two
- * as near the one that came later goes first, of siblings the first. */
+ * what seems nearest there may not be, and whoever looks for a first hit should not go through all of it before. */
 static void push(tahr__wide_walk *w, uint32_t node)
 {
-    float away[TAHR__WIDE] = {0};
+    float away[TAHR__WIDE];
     uint32_t near = w->tree->test(&w->tree->nodes[node], &w->box, w->near, w->ordered ? away : NULL);
-    for (uint32_t i = TAHR__WIDE; i-- > 0;) {
-        if (!(near >> i & 1)) continue;
-        uint32_t k = w->top++;
-        for (; k > 0 && w->entries[k - 1].away < away[i]; k--)
+    for (; near; near &= near - 1) {
+        uint32_t i = lowest(near), k = w->top++, bits = 0;
+        if (w->ordered) memcpy(&bits, &away[i], sizeof bits);
+        uint64_t entry = (uint64_t)bits << 32 | (node * TAHR__WIDE + i);
+        for (; w->ordered && k > 0 && w->entries[k - 1] < entry; k--)
             w->entries[k] = w->entries[k - 1];
-        w->entries[k] = (tahr__wide_entry){node * TAHR__WIDE + i, w->narrowed, away[i]};
+        w->entries[k] = entry;
     }
 }
 
@@ -329,7 +343,9 @@ void tahr__wide_walk_begin(tahr__wide_walk *walk, const tahr__wide *tree, const 
 {
     walk->tree = tree;
     set_box(tree, box, &walk->box);
-    walk->box.limit = limit_of(tree, reach);
+    walk->places = places_of(tree, reach);
+    walk->box.limit = limit_of(walk->places);
+    walk->farthest = INFINITY;
     walk->ordered = near != NULL;
     for (int i = 0; near && i < 3; i++)
         walk->near[i] = down(tree, i, v_get(*near, i) - v_get(tree->centre, i));
@@ -358,16 +374,20 @@ static int holds(const tahr__wide_walk *w, const tahr__wide_node *n, uint32_t ch
 int tahr__wide_walk_next(tahr__wide_walk *walk, uint32_t *item)
 {
     while (walk->top > 0) {
-        const tahr__wide_entry *e = &walk->entries[--walk->top];
-        uint32_t child = e->child % TAHR__WIDE;
-        const tahr__wide_node *n = &walk->tree->nodes[e->child / TAHR__WIDE];
-        if (e->since != walk->narrowed && !holds(walk, n, child)) continue;
+        uint64_t entry = walk->entries[--walk->top];
+        uint32_t bits = (uint32_t)(entry >> 32), child = (uint32_t)entry % TAHR__WIDE;
+        const tahr__wide_node *n = &walk->tree->nodes[(uint32_t)entry / TAHR__WIDE];
+        float away;
+        memcpy(&away, &bits, sizeof away);
+        if (away > walk->farthest) break; /* so are all others */
+        if (walk->narrowed && !holds(walk, n, child)) continue;
         if (has_items(n)) {
             *item = n->first + child;
             return 1;
         }
         push(walk, n->first + child);
     }
+    walk->top = 0;
     return 0;
 }
 

@@ -66,21 +66,18 @@ uint32_t tahr__wide_count(const tahr__wide *tree, const tahr_bounds *box, double
 /* Every level of the tree leaves at most seven others to look at; 80 levels: see TAHR__BVH_STACK. */
 enum { TAHR__WIDE_STACK = 7 * 80 };
 
-typedef struct tahr__wide_entry {
-    uint32_t child; /* node * 8 + child */
-    uint32_t since; /* tahr__wide_walk.narrowed when it came in */
-    float away;     /* squared distance to the point */
-} tahr__wide_entry;
-
 /* Walks all items within reach of a box, of all nodes and items that are known the nearest to a point first, or in no
  * order that means anything. */
 typedef struct tahr__wide_walk {
     const tahr__wide *tree;
     tahr__wide_box box;
     int32_t near[4]; /* as well */
-    uint32_t ordered, top;
-    uint32_t narrowed; /* how often: what came in before may be out of reach */
-    tahr__wide_entry entries[TAHR__WIDE_STACK]; /* the nearest last */
+    float places;    /* the reach on the lattice, rounded up */
+    float farthest;  /* squared: nothing beyond this distance from the point is within reach */
+    uint32_t ordered, narrowed, top;
+    /* The squared distance to the point, whose bits are ordered as it is, and the child: node * 8 + child. The nearest
+     * last. */
+    uint64_t entries[TAHR__WIDE_STACK];
 } tahr__wide_walk;
 
 /* near: NULL: in any order. */
