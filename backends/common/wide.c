@@ -13,6 +13,8 @@
 /* The lattice, and how far beyond it a query may lie: farther is as far. */
 #define PLACES 16777215.0
 #define BEYOND 1073741824.0
+/* The smallest step (m), 2^-30: of what is smaller than a grain a walk may find all. */
+#define FINEST 9.3132257461547852e-10
 
 static int32_t down(const tahr__wide *t, int axis, double x)
 {
@@ -50,7 +52,7 @@ static void set_lattice(tahr__wide *t, const tahr__bvh_node *root)
     }
     while (longest > PLACES * step)
         step *= 2;
-    while (step > 1e-30 && longest <= PLACES * 0.5 * step)
+    while (step > FINEST && longest <= PLACES * 0.5 * step)
         step *= 0.5;
     t->scale = 1 / step;
 }
@@ -217,8 +219,10 @@ static void set_box(const tahr__wide *tree, const tahr_bounds *box, tahr__wide_b
 /* A reach on the lattice. */
 static float places_of(const tahr__wide *tree, double reach)
 {
-    /* 1e-3 of a place: what is subtracted on the way onto the lattice is rounded by less. */
-    return d_up(d_min(reach * tree->scale + 1e-3, BEYOND));
+    /* 1e-3 of a place: what is subtracted on the way onto the lattice is rounded by less. As far as queries are told
+     * apart a reach finds all. */
+    double places = reach * tree->scale + 1e-3;
+    return places < 0.5 * BEYOND ? d_up(places) : INFINITY;
 }
 
 static float limit_of(float places)
