@@ -147,17 +147,20 @@ static void form_2(const tahr__map *map, const tahr__mesh *mesh, const tahr__pri
 
 #endif
 
+tahr__former tahr__former_of_two(void)
+{
+#if defined(__GNUC__)
+    return (tahr__former){form_2, 2, 0};
+#else
+    return (tahr__former){NULL, 1, 0};
+#endif
+}
+
 tahr__former tahr__former_best(uint32_t simd)
 {
-    tahr__former former = {NULL, 1, 0};
-#if defined(__GNUC__)
-    if (!simd) return former;
-    former = (tahr__former){form_2, 2, 0};
-#if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) former = (tahr__former){tahr__form_4, 4, 0};
+    if (!simd) return (tahr__former){NULL, 1, 0};
+#if defined(__GNUC__) && defined(__x86_64__)
+    if (__builtin_cpu_supports("avx2")) return (tahr__former){tahr__form_4, 4, 0};
 #endif
-#else
-    (void)simd;
-#endif
-    return former;
+    return tahr__former_of_two();
 }

@@ -13,6 +13,9 @@ void tahr__form_lanes(const tahr__native *world, const tahr__frame *frame, tahr_
 /* What is missing of one with a head. */
 void tahr__form_rest(const tahr__native *world, const tahr__frame *frame, tahr__prim *prim);
 
+/* Two at a time, which every machine has by its compiler's vectors. */
+tahr__former tahr__former_of_two(void);
+
 /* Of the first of prims and those after it; lanes: their first place in its block. */
 void tahr__form_4(const tahr__map *map, const tahr__mesh *mesh, const tahr__prim *prims, float *lanes);
 
