@@ -250,6 +250,7 @@ tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *sou
     m.triangle_capacity = source->triangle_count;
     status = remap && m.triangles ? weld(host, source, remap) : TAHR_E_MEMORY;
     if (status == TAHR_OK) status = clean(host, source, remap, m.triangles, &m.triangle_count);
+    m.dropped = source->triangle_count - m.triangle_count;
     if (status == TAHR_OK && m.triangle_count == 0) {
         tahr__log_body(host, source->body, "no triangle of the mesh has an area");
         status = TAHR_E_GEOMETRY;

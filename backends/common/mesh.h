@@ -31,6 +31,7 @@ typedef struct tahr__mesh {
     tahr__triangle *triangles;
     uint32_t vertex_count, triangle_count;
     uint32_t vertex_capacity, triangle_capacity;
+    uint32_t dropped, reserved; /* triangles of the caller that are not there */
     tahr__wide tree;
     tahr_bounds bounds; /* of the vertices in use */
 } tahr__mesh;

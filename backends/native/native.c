@@ -125,6 +125,7 @@ const tahr_backend *tahr_backend_v1_native(void)
         .prepare = native_prepare,
         .place = native_place,
         .fluid = native_fluid,
+        .describe = tahr__native_describe,
     };
     return &backend;
 }

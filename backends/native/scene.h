@@ -348,6 +348,8 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
                                uint32_t capacity, uint32_t *count);
 tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
                                   tahr_contact *contacts, uint32_t capacity, uint32_t *count);
+/* describe.c */
+tahr_status tahr__native_describe(void *self, const tahr_log *to);
 tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr_ray *ray, tahr_hit *hit,
                              uint32_t *count);
 
