@@ -20,7 +20,7 @@ void tahr__log_body(const tahr_host *host, uint32_t body, const char *text)
     host->log.write(host->log.user, TAHR_LOG_ERROR, line);
 }
 
-static tahr_status check(const tahr_host *host, const tahr__mesh_source *s)
+tahr_status tahr__mesh_check(const tahr_host *host, const tahr__mesh_source *s)
 {
     char text[160];
     if (s->triangle_count == 0) {
@@ -243,7 +243,7 @@ tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *sou
 {
     tahr__mesh m;
     memset(&m, 0, sizeof m);
-    tahr_status status = check(host, source);
+    tahr_status status = tahr__mesh_check(host, source);
     if (status != TAHR_OK) return status;
     uint32_t *remap = tahr__room_get(host, source->vertex_count, sizeof *remap);
     m.triangles = tahr__room_get(host, source->triangle_count, sizeof *m.triangles);

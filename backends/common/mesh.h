@@ -45,6 +45,8 @@ typedef struct tahr__mesh_source {
     uint32_t reserved;
 } tahr__mesh_source;
 
+/* Is it fit to be built from? As tahr__mesh_build. */
+tahr_status tahr__mesh_check(const tahr_host *host, const tahr__mesh_source *source);
 /* TAHR_OK, TAHR_E_NULL, TAHR_E_GEOMETRY (with a message in the log), TAHR_E_MEMORY; nothing is kept on failure. */
 tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *source, tahr__mesh *mesh);
 void tahr__mesh_free(const tahr_host *host, tahr__mesh *mesh);

@@ -31,7 +31,13 @@ void tahr__form_rest(const tahr__native *world, const tahr__frame *frame, tahr__
     tahr__map map = tahr__map_make(frame, body);
     uint32_t item = prim->item;
     tahr__prim_begin(body, prim->body, prim);
-    tahr__prim_triangle(&map, body, item, prim);
+    if (body->type == TAHR_BODY_HEIGHTS) {
+        tahr_vec3 v[3];
+        tahr__heights_triangle(&body->heights, item, v);
+        tahr__prim_heights(&map, body, item, v, prim);
+    } else {
+        tahr__prim_triangle(&map, body, item, prim);
+    }
 }
 
 static void form_one(const tahr__native *world, const tahr__frame *frame, tahr__prim *prim, float *blocks, uint32_t at)
@@ -42,10 +48,33 @@ static void form_one(const tahr__native *world, const tahr__frame *frame, tahr__
     tahr__lanes_put(blocks, at, &box, prim->kind & TAHR__PLANELESS ? NULL : &prim->facet);
 }
 
-/* Do as many from there on come from one mesh, with no lane across two blocks? */
-static int alike(const tahr__prim *prims, uint32_t at, uint32_t count, uint32_t width)
+static void load_raw(const tahr__body *body, const tahr__prim *prims, uint32_t width, tahr__raw *raw)
 {
-    if (width == 1 || at % width != 0 || at + width > count) return 0;
+    for (uint32_t i = 0; i < width; i++) {
+        tahr_vec3 v[3];
+        uint32_t item = prims[i].item;
+        if (body->type == TAHR_BODY_HEIGHTS) {
+            tahr__heights_triangle(&body->heights, item, v);
+            raw->thin[i] = 0;
+        } else {
+            const tahr__triangle *t = &body->mesh.triangles[item];
+            for (int k = 0; k < 3; k++)
+                v[k] = body->mesh.vertices[t->vertex[k]];
+            raw->thin[i] = t->source & TAHR__MESH_THIN ? 1 : 0;
+        }
+        for (int k = 0; k < 3; k++) {
+            raw->corner[k][0][i] = v[k].x;
+            raw->corner[k][1][i] = v[k].y;
+            raw->corner[k][2][i] = v[k].z;
+        }
+    }
+}
+
+/* Do as many from there on come from one body, with no lane across two blocks? Fields with triangles that may be thin
+ * find out one by one. */
+static int alike(const tahr__native *world, const tahr__prim *prims, uint32_t at, uint32_t count, uint32_t width)
+{
+    if (world->bodies[prims[at].body].heights.may_be_thin || width == 1 || at % width != 0 || at + width > count) return 0;
     for (uint32_t i = at; i < at + width; i++) {
         if (!(prims[i].kind & TAHR__UNFORMED) || prims[i].body != prims[at].body) return 0;
     }
@@ -56,7 +85,7 @@ static int alike(const tahr__prim *prims, uint32_t at, uint32_t count, uint32_t 
 static void fetch(const tahr__native *world, const tahr__prim *prim)
 {
     const tahr__mesh *mesh = &world->bodies[prim->body].mesh;
-    if (!(prim->kind & TAHR__UNFORMED)) return;
+    if (!(prim->kind & TAHR__UNFORMED) || !mesh->triangles) return;
     __builtin_prefetch(&mesh->vertices[mesh->triangles[prim->item].vertex[0]]);
     __builtin_prefetch(&mesh->vertices[mesh->triangles[prim->item].vertex[2]]);
 }
@@ -74,11 +103,16 @@ void tahr__form_lanes(const tahr__native *world, const tahr__frame *frame, tahr_
     const tahr__former *former = &world->former;
     uint32_t of = TAHR__NONE;
     tahr__map map;
+    tahr__raw raw;
     for (uint32_t at = 0; at < count;) {
         for (uint32_t i = at + AHEAD; i < at + AHEAD + former->width && i < count; i++)
             fetch(world, &prims[i]);
-        if (!alike(prims, at, count, former->width)) {
-            if (prims[at].kind & TAHR__UNFORMED) form_one(world, frame, &prims[at], blocks, at);
+        if (!(prims[at].kind & TAHR__UNFORMED)) {
+            at++;
+            continue;
+        }
+        if (!alike(world, prims, at, count, former->width)) {
+            form_one(world, frame, &prims[at], blocks, at);
             at++;
             continue;
         }
@@ -86,7 +120,8 @@ void tahr__form_lanes(const tahr__native *world, const tahr__frame *frame, tahr_
             of = prims[at].body;
             map = tahr__map_make(frame, &world->bodies[of]);
         }
-        former->form(&map, &world->bodies[of].mesh, &prims[at], blocks + tahr__lane(at, 0));
+        load_raw(&world->bodies[of], &prims[at], former->width, &raw);
+        former->form(&map, &raw, blocks + tahr__lane(at, 0));
         at += former->width;
     }
 }
@@ -140,9 +175,9 @@ static inline lane load(const double *a)
 
 #include "form_kernel.h"
 
-static void form_2(const tahr__map *map, const tahr__mesh *mesh, const tahr__prim *prims, float *lanes)
+static void form_2(const tahr__map *map, const tahr__raw *raw, float *lanes)
 {
-    form(map, mesh, prims, lanes);
+    form(map, raw, lanes);
 }
 
 #endif

@@ -16,7 +16,7 @@ void tahr__form_rest(const tahr__native *world, const tahr__frame *frame, tahr__
 /* Two at a time, which every machine has by its compiler's vectors. */
 tahr__former tahr__former_of_two(void);
 
-/* Of the first of prims and those after it; lanes: their first place in its block. */
-void tahr__form_4(const tahr__map *map, const tahr__mesh *mesh, const tahr__prim *prims, float *lanes);
+/* Lanes of raw triangles; lanes: their first place in its block. */
+void tahr__form_4(const tahr__map *map, const tahr__raw *raw, float *lanes);
 
 #endif

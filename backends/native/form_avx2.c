@@ -53,9 +53,9 @@ static inline lane load(const double *a)
 
 #include "form_kernel.h"
 
-void tahr__form_4(const tahr__map *map, const tahr__mesh *mesh, const tahr__prim *prims, float *lanes)
+void tahr__form_4(const tahr__map *map, const tahr__raw *raw, float *lanes)
 {
-    form(map, mesh, prims, lanes);
+    form(map, raw, lanes);
 }
 
 #if defined(__clang__)
@@ -65,11 +65,10 @@ void tahr__form_4(const tahr__map *map, const tahr__mesh *mesh, const tahr__prim
 #else
 
 /* Nobody takes it: see tahr__former_best. */
-void tahr__form_4(const tahr__map *map, const tahr__mesh *mesh, const tahr__prim *prims, float *lanes)
+void tahr__form_4(const tahr__map *map, const tahr__raw *raw, float *lanes)
 {
     (void)map;
-    (void)mesh;
-    (void)prims;
+    (void)raw;
     (void)lanes;
 }
 

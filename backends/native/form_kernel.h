@@ -49,14 +49,9 @@ static inline mask near(vec p)
     return (mask)(size(p.x) <= 32.0) & (mask)(size(p.y) <= 32.0) & (mask)(size(p.z) <= 32.0);
 }
 
-static inline vec corner(const tahr__map *map, const tahr__mesh *mesh, const tahr__prim *prims, int k)
+static inline vec corner(const tahr__map *map, const double at[3][TAHR__FORMED])
 {
-    double x[WIDTH], y[WIDTH], z[WIDTH];
-    for (int i = 0; i < WIDTH; i++) {
-        const tahr_vec3 *v = &mesh->vertices[mesh->triangles[prims[i].item].vertex[k]];
-        x[i] = v->x, y[i] = v->y, z[i] = v->z;
-    }
-    vec v = {load(x), load(y), load(z)}, p;
+    vec v = {load(at[0]), load(at[1]), load(at[2])}, p;
     if (map->turned) v = (vec){row(map->turn.row[0], v), row(map->turn.row[1], v), row(map->turn.row[2], v)};
     p = (vec){map->offset.x + v.x, map->offset.y + v.y, map->offset.z + v.z};
     if (!map->round) return p;
@@ -90,20 +85,17 @@ static inline void put_plane(float *to, mask m, vec n, vec at)
     put_if(to + 3 * TAHR__LANES, m, dot(n, at));
 }
 
-static inline mask has_plane(const tahr__mesh *mesh, const tahr__prim *prims, const vec v[3], lane length)
+static inline mask has_plane(const double thin[TAHR__FORMED], const vec v[3], lane length)
 {
-    double thin[WIDTH];
-    for (int i = 0; i < WIDTH; i++)
-        thin[i] = mesh->triangles[prims[i].item].source & TAHR__MESH_THIN ? 1 : 0;
     return (mask)(length > 1e-6) & near(v[0]) & near(v[1]) & near(v[2]) & (mask)(load(thin) == 0.0);
 }
 
-static inline void form(const tahr__map *map, const tahr__mesh *mesh, const tahr__prim *prims, float *lanes)
+static inline void form(const tahr__map *map, const tahr__raw *raw, float *lanes)
 {
     vec v[3];
     float *low = lanes + TAHR__LANE_LOW * TAHR__LANES, *high = lanes + TAHR__LANE_HIGH * TAHR__LANES;
     for (int k = 0; k < 3; k++)
-        v[k] = corner(map, mesh, prims, k);
+        v[k] = corner(map, raw->corner[k]);
     put_down(low, v[0].x, v[1].x, v[2].x);
     put_down(low + TAHR__LANES, v[0].y, v[1].y, v[2].y);
     put_down(low + 2 * TAHR__LANES, v[0].z, v[1].z, v[2].z);
@@ -112,7 +104,7 @@ static inline void form(const tahr__map *map, const tahr__mesh *mesh, const tahr
     put_up(high + 2 * TAHR__LANES, v[0].z, v[1].z, v[2].z);
     vec n = cross(sub(v[1], v[0]), sub(v[2], v[0]));
     lane length = root(dot(n, n));
-    mask m = has_plane(mesh, prims, v, length);
+    mask m = has_plane(raw->thin, v, length);
     n = times(n, 1.0 / length);
     put_plane(lanes + TAHR__LANE_NORMAL * TAHR__LANES, m, n, v[0]);
     for (int k = 0; k < 3; k++) {

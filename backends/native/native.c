@@ -25,8 +25,8 @@ static const char *bad_option(const tahr_native_desc *d)
     if (d->no_simd > 1) {
         return "options.no_simd is neither 0 nor 1";
     }
-    if (d->reserved) {
-        return "options.reserved is not 0";
+    if (d->no_fields > 1) {
+        return "options.no_fields is neither 0 nor 1";
     }
     return d->cache_margin >= 0 && d->cache_margin <= 1e3 ? NULL : "options.cache_margin is not within 0 and 1000 m";
 }
@@ -46,6 +46,7 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
     world->capacity =
         ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
     world->no_cache = d.no_cache;
+    world->no_fields = d.no_fields;
     world->cull = d.no_simd ? tahr__lanes_cull_1 : tahr__lanes_best();
     world->former = tahr__former_best(!d.no_simd);
     world->gather = d.gather;

@@ -33,12 +33,17 @@ typedef struct tahr__body {
     tahr_bounds bounds; /* world */
 } tahr__body;
 
-struct tahr__map;
-struct tahr__prim;
+/* Exact corners of some triangles, side by side; thin: 1 where the plane is not to be trusted. */
+enum { TAHR__FORMED = 4 };
+typedef struct tahr__raw {
+    double corner[3][3][TAHR__FORMED]; /* which, coordinate, triangle */
+    double thin[TAHR__FORMED];
+} tahr__raw;
 
-/* Forms the lanes of some triangles of a mesh at a time (form.c). width 1: there is none. */
+/* Forms the lanes of some triangles at a time (form.c). width 1: there is none. */
+struct tahr__map;
 typedef struct tahr__former {
-    void (*form)(const struct tahr__map *map, const tahr__mesh *mesh, const struct tahr__prim *prims, float *lanes);
+    void (*form)(const struct tahr__map *map, const tahr__raw *raw, float *lanes);
     uint32_t width, reserved;
 } tahr__former;
 
@@ -61,7 +66,7 @@ typedef struct tahr__native {
     uint32_t capacity; /* of a cache, a multiple of TAHR__LANES */
     uint32_t no_cache;
     uint32_t fixed_margin; /* 1: cache_margin is the margin, 0: the most it may be */
-    uint32_t reserved;
+    uint32_t no_fields;    /* 1: meshes stay meshes */
     tahr__lanes_fn *cull;
     tahr__former former;
     double cache_margin;

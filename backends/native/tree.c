@@ -85,16 +85,28 @@ typedef struct field_search {
     const tahr__body *body;
     const tahr__map *map;
     tahr_bounds box, around; /* what is searched for, in the field's coordinates; grown by the reach */
+    tahr__heights_range range;
     double reach;
     tahr__prim prim;
 } field_search;
 
+/* Of the whole field nothing is nearer in height than its bounds are: what is left of the reach lies sideways. Without
+ * it a shape that stands would look at all that its foot hides, not at what it touches. */
+static double sideways(const field_search *f)
+{
+    const tahr_bounds *all = &f->body->mesh.bounds;
+    double up = gap(all->min.z, all->max.z, f->box.min.z, f->box.max.z), left = f->reach * f->reach - up * up;
+    return left > 0 ? sqrt(left) * (1 + 1e-9) + TAHR__SLACK : 0;
+}
+
 static void set_field_box(field_search *f)
 {
-    const tahr_vec3 grow = {f->reach, f->reach, f->reach};
     f->box = to_mesh(f->map, &f->search->box);
+    double side = sideways(f);
+    const tahr_vec3 grow = {side, side, f->reach};
     f->around.min = v_sub(f->box.min, grow);
     f->around.max = v_add(f->box.max, grow);
+    f->range = tahr__heights_cells(&f->body->heights, &f->around);
 }
 
 static void search_cell(field_search *f, uint32_t column, uint32_t row)
@@ -121,7 +133,8 @@ static uint32_t outward(uint32_t first, uint32_t end, uint32_t middle, uint32_t 
     return below < above ? middle + i - below : middle + above - i;
 }
 
-/* The same straight from the grid of a field of heights, from the cell of the query's start outward. */
+/* The same straight from the grid of a field of heights, from the cell of the query's start outward. Cells that a
+ * narrower box leaves out are passed over. */
 static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
 {
     field_search f;
@@ -132,15 +145,48 @@ static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
     set_field_box(&f);
     tahr_vec3 near = v_sub(s->query->start, map->offset);
     if (map->turned) near = m_unapply(&map->turn, near);
-    tahr__heights_range r = tahr__heights_cells(&f.body->heights, &f.around);
+    const tahr__heights_range r = f.range;
     tahr__heights_range m = tahr__heights_cells(&f.body->heights, &(tahr_bounds){near, near});
     if (r.column >= r.column_end || r.row >= r.row_end) return;
     uint32_t column = clamp(m.column, r.column, r.column_end - 1), row = clamp(m.row, r.row, r.row_end - 1);
     tahr__prim_begin(f.body, id, &f.prim);
     for (uint32_t i = 0; i < r.row_end - r.row; i++) {
-        for (uint32_t k = 0; k < r.column_end - r.column; k++)
-            search_cell(&f, outward(r.column, r.column_end, column, k), outward(r.row, r.row_end, row, i));
+        uint32_t at = outward(r.row, r.row_end, row, i);
+        for (uint32_t k = 0; k < r.column_end - r.column && at >= f.range.row && at < f.range.row_end; k++) {
+            uint32_t across = outward(r.column, r.column_end, column, k);
+            if (across >= f.range.column && across < f.range.column_end) search_cell(&f, across, at);
+        }
     }
+}
+
+/* All of a field at once: what may be within reach by cells. */
+static void take_heights(tahr__search *s, uint32_t id, const tahr__map *map)
+{
+    uint32_t items[TAHR__CACHE_MOST], count = 0;
+    field_search f;
+    f.search = s;
+    f.body = &s->query->world->bodies[id];
+    f.map = map;
+    f.reach = s->reach + TAHR__SLACK;
+    set_field_box(&f);
+    const tahr__heights *h = &f.body->heights;
+    for (uint32_t row = f.range.row; row < f.range.row_end; row++) {
+        for (uint32_t column = f.range.column; column < f.range.column_end; column++) {
+            const double *low = h->z + (size_t)row * h->columns + column;
+            tahr_vec3 corners[4], v[3];
+            if (cell_beside(low, low + h->columns, &f.around)) continue;
+            tahr__heights_cell(h, column, row, corners);
+            for (uint32_t k = 0; k < 2; k++) {
+                if (!tahr__heights_half(h, corners, k, v) || !within(&f.box, f.reach, v[0], v[1], v[2])) continue;
+                if (count == TAHR__CACHE_MOST) {
+                    s->take(s, id, items, TAHR__CACHE_MOST + 1);
+                    return;
+                }
+                items[count++] = 2 * (row * (h->columns - 1) + column) + k;
+            }
+        }
+    }
+    s->take(s, id, items, count);
 }
 
 void tahr__tree_search_body(tahr__search *s, uint32_t id)
@@ -157,7 +203,10 @@ void tahr__tree_search_body(tahr__search *s, uint32_t id)
         return;
     }
     if (body->type == TAHR_BODY_HEIGHTS) {
-        search_heights(s, id, &map);
+        if (s->order == TAHR__IN_BULK)
+            take_heights(s, id, &map);
+        else
+            search_heights(s, id, &map);
         return;
     }
     if (body->type == TAHR_BODY_BOX || body->type == TAHR_BODY_HULL) {
