@@ -93,6 +93,18 @@ tahr__heights_range tahr__heights_cells(const tahr__heights *h, const tahr_bound
     return r;
 }
 
+static uint32_t cell_at(double x, const double *at, uint32_t corners)
+{
+    double cell = floor((x - at[0]) * ((corners - 1) / (at[corners - 1] - at[0])));
+    return (uint32_t)d_max(0, d_min(cell, corners - 2.0));
+}
+
+void tahr__heights_at(const tahr__heights *h, double x, double y, uint32_t *column, uint32_t *row)
+{
+    *column = cell_at(x, h->x, h->columns);
+    *row = cell_at(y, h->y, h->rows);
+}
+
 /* The least slimness that a triangle of this field may have: its area seen from above over its longest edge. */
 static int may_be_thin(const tahr__heights *h, double range)
 {
@@ -129,6 +141,7 @@ static int finish(tahr__heights *h, tahr_bounds *bounds)
 {
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < samples_of(h); i++) {
+        h->has_holes |= h->z[i] != h->z[i];
         low = d_min(h->z[i], low);
         high = d_max(h->z[i], high);
     }

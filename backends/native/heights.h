@@ -14,7 +14,8 @@ typedef struct tahr__heights {
     double *z;     /* rows * columns; NULL: no field */
     double *x, *y; /* of columns and rows: exact at both ends, so that fields side by side fit */
     uint32_t columns, rows;
-    uint32_t may_be_thin, reserved; /* 0: no triangle of it is thin or without area */
+    uint32_t may_be_thin; /* 0: no triangle of it is thin or without area */
+    uint32_t has_holes;
     double half_x, half_y;
 } tahr__heights;
 
@@ -34,6 +35,8 @@ void tahr__heights_close(const tahr_host *host, tahr__heights *heights);
 
 /* Which cells a box may concern. */
 tahr__heights_range tahr__heights_cells(const tahr__heights *heights, const tahr_bounds *box);
+/* The cell of a place, or the nearest to it. */
+void tahr__heights_at(const tahr__heights *heights, double x, double y, uint32_t *column, uint32_t *row);
 /* Exact corners of a triangle; 0: it is not there. */
 int tahr__heights_triangle(const tahr__heights *heights, uint32_t triangle, tahr_vec3 v[3]);
 /* The same of the four corners of a cell, counter-clockwise from the lowest, and of its triangle k out of them. */

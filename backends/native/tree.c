@@ -125,41 +125,61 @@ static void search_cell(field_search *f, uint32_t column, uint32_t row)
     }
 }
 
-/* i-th of first..end - 1, from `middle` outward. */
-static uint32_t outward(uint32_t first, uint32_t end, uint32_t middle, uint32_t i)
+/* How far from a cell the range goes on. */
+static int64_t farthest(const tahr__heights_range *r, int64_t column, int64_t row)
 {
-    uint32_t below = middle - first, above = end - 1 - middle, both = 2 * (below < above ? below : above);
-    if (i <= both) return i % 2 ? middle + (i + 1) / 2 : middle - i / 2;
-    return below < above ? middle + i - below : middle + above - i;
+    int64_t left = column - r->column, right = (int64_t)r->column_end - 1 - column;
+    int64_t before = row - r->row, behind = (int64_t)r->row_end - 1 - row;
+    int64_t across = left > right ? left : right, along = before > behind ? before : behind;
+    return across > along ? across : along;
 }
 
-/* The same straight from the grid of a field of heights, from the cell of the query's start outward. Cells that a
- * narrower box leaves out are passed over. */
+/* The same straight from the grid of a field of heights: the cell of the query's start, then ring after ring around it.
+ * Cells that a narrower box leaves out are passed over. */
 static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
 {
     field_search f;
+    uint32_t column, row;
     f.search = s;
     f.body = &s->query->world->bodies[id];
     f.map = map;
     f.reach = s->reach + TAHR__SLACK;
     set_field_box(&f);
+    const tahr__heights_range *r = &f.range;
+    if (r->column >= r->column_end || r->row >= r->row_end) return;
     tahr_vec3 near = v_sub(s->query->start, map->offset);
     if (map->turned) near = m_unapply(&map->turn, near);
-    const tahr__heights_range r = f.range;
-    tahr__heights_range m = tahr__heights_cells(&f.body->heights, &(tahr_bounds){near, near});
-    if (r.column >= r.column_end || r.row >= r.row_end) return;
-    uint32_t column = clamp(m.column, r.column, r.column_end - 1), row = clamp(m.row, r.row, r.row_end - 1);
+    tahr__heights_at(&f.body->heights, near.x, near.y, &column, &row);
+    column = clamp(column, r->column, r->column_end - 1);
+    row = clamp(row, r->row, r->row_end - 1);
     tahr__prim_begin(f.body, id, &f.prim);
-    for (uint32_t i = 0; i < r.row_end - r.row; i++) {
-        uint32_t at = outward(r.row, r.row_end, row, i);
-        for (uint32_t k = 0; k < r.column_end - r.column && at >= f.range.row && at < f.range.row_end; k++) {
-            uint32_t across = outward(r.column, r.column_end, column, k);
-            if (across >= f.range.column && across < f.range.column_end) search_cell(&f, across, at);
+    for (int64_t ring = 0; ring <= farthest(r, column, row); ring++) {
+        for (int64_t i = -ring; i <= ring; i++) {
+            int64_t at = row + i, step = i == -ring || i == ring ? 1 : 2 * ring;
+            if (at < r->row || at >= r->row_end) continue;
+            for (int64_t k = -ring; k <= ring; k += step) {
+                int64_t across = column + k;
+                if (across >= r->column && across < r->column_end) search_cell(&f, (uint32_t)across, (uint32_t)at);
+                if (step == 0) break;
+            }
         }
     }
 }
 
-/* All of a field at once: what may be within reach by cells. */
+/* Cells that the box only comes near, for all that rounding may do, are left out. */
+static void trim(const tahr__heights *h, const tahr_bounds *around, tahr__heights_range *r)
+{
+    while (r->column < r->column_end && h->x[r->column + 1] < around->min.x)
+        r->column++;
+    while (r->column < r->column_end && h->x[r->column_end - 1] > around->max.x)
+        r->column_end--;
+    while (r->row < r->row_end && h->y[r->row + 1] < around->min.y)
+        r->row++;
+    while (r->row < r->row_end && h->y[r->row_end - 1] > around->max.y)
+        r->row_end--;
+}
+
+/* All of a field at once: both triangles of every cell that meets the box. */
 static void take_heights(tahr__search *s, uint32_t id, const tahr__map *map)
 {
     uint32_t items[TAHR__CACHE_MOST], count = 0;
@@ -170,19 +190,20 @@ static void take_heights(tahr__search *s, uint32_t id, const tahr__map *map)
     f.reach = s->reach + TAHR__SLACK;
     set_field_box(&f);
     const tahr__heights *h = &f.body->heights;
+    trim(h, &f.around, &f.range);
     for (uint32_t row = f.range.row; row < f.range.row_end; row++) {
         for (uint32_t column = f.range.column; column < f.range.column_end; column++) {
             const double *low = h->z + (size_t)row * h->columns + column;
-            tahr_vec3 corners[4], v[3];
+            uint32_t first = 2 * (row * (h->columns - 1) + column);
             if (cell_beside(low, low + h->columns, &f.around)) continue;
-            tahr__heights_cell(h, column, row, corners);
+            if (count + 2 > TAHR__CACHE_MOST) {
+                s->take(s, id, items, TAHR__CACHE_MOST + 1);
+                return;
+            }
             for (uint32_t k = 0; k < 2; k++) {
-                if (!tahr__heights_half(h, corners, k, v) || !within(&f.box, f.reach, v[0], v[1], v[2])) continue;
-                if (count == TAHR__CACHE_MOST) {
-                    s->take(s, id, items, TAHR__CACHE_MOST + 1);
-                    return;
-                }
-                items[count++] = 2 * (row * (h->columns - 1) + column) + k;
+                tahr_vec3 v[3];
+                if ((h->has_holes || h->may_be_thin) && !tahr__heights_triangle(h, first + k, v)) continue;
+                items[count++] = first + k;
             }
         }
     }
