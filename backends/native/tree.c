@@ -90,6 +90,19 @@ typedef struct field_search {
     tahr__prim prim;
 } field_search;
 
+/* Cells that the box only comes near, for all that rounding may do, are left out. */
+static void trim(const tahr__heights *h, const tahr_bounds *around, tahr__heights_range *r)
+{
+    while (r->column < r->column_end && h->x[r->column + 1] < around->min.x)
+        r->column++;
+    while (r->column < r->column_end && h->x[r->column_end - 1] > around->max.x)
+        r->column_end--;
+    while (r->row < r->row_end && h->y[r->row + 1] < around->min.y)
+        r->row++;
+    while (r->row < r->row_end && h->y[r->row_end - 1] > around->max.y)
+        r->row_end--;
+}
+
 /* Of the whole field nothing is nearer in height than its bounds are: what is left of the reach lies sideways. Without
  * it a shape that stands would look at all that its foot hides, not at what it touches. */
 static double sideways(const field_search *f)
@@ -107,6 +120,7 @@ static void set_field_box(field_search *f)
     f->around.min = v_sub(f->box.min, grow);
     f->around.max = v_add(f->box.max, grow);
     f->range = tahr__heights_cells(&f->body->heights, &f->around);
+    trim(&f->body->heights, &f->around, &f->range);
 }
 
 static void search_cell(field_search *f, uint32_t column, uint32_t row)
@@ -117,7 +131,11 @@ static void search_cell(field_search *f, uint32_t column, uint32_t row)
     if (cell_beside(low, low + h->columns, &f->around)) return;
     tahr__heights_cell(h, column, row, corners);
     for (uint32_t k = 0; k < 2; k++) {
-        if (!tahr__heights_half(h, corners, k, v) || !within(&f->box, f->reach, v[0], v[1], v[2])) continue;
+        v[0] = corners[0];
+        v[1] = corners[1 + k];
+        v[2] = corners[2 + k];
+        if (!within(&f->box, f->reach, v[0], v[1], v[2])) continue;
+        if ((h->has_holes | h->may_be_thin) && !tahr__heights_half(h, corners, k, v)) continue;
         tahr__prim_heights(f->map, f->body, 2 * (row * (h->columns - 1) + column) + k, v, &f->prim);
         f->search->narrowed = 0;
         f->search->visit(f->search, &f->prim);
@@ -166,19 +184,6 @@ static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
     }
 }
 
-/* Cells that the box only comes near, for all that rounding may do, are left out. */
-static void trim(const tahr__heights *h, const tahr_bounds *around, tahr__heights_range *r)
-{
-    while (r->column < r->column_end && h->x[r->column + 1] < around->min.x)
-        r->column++;
-    while (r->column < r->column_end && h->x[r->column_end - 1] > around->max.x)
-        r->column_end--;
-    while (r->row < r->row_end && h->y[r->row + 1] < around->min.y)
-        r->row++;
-    while (r->row < r->row_end && h->y[r->row_end - 1] > around->max.y)
-        r->row_end--;
-}
-
 /* All of a field at once: both triangles of every cell that meets the box. */
 static void take_heights(tahr__search *s, uint32_t id, const tahr__map *map)
 {
@@ -190,7 +195,6 @@ static void take_heights(tahr__search *s, uint32_t id, const tahr__map *map)
     f.reach = s->reach + TAHR__SLACK;
     set_field_box(&f);
     const tahr__heights *h = &f.body->heights;
-    trim(h, &f.around, &f.range);
     for (uint32_t row = f.range.row; row < f.range.row_end; row++) {
         for (uint32_t column = f.range.column; column < f.range.column_end; column++) {
             const double *low = h->z + (size_t)row * h->columns + column;
