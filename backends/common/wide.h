@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: MIT
- * wide.h: a tree of eight children a node over boxes that stay where they are: half a line of memory per five items, and
- * one look at a node decides about all eight.
+ * wide.h: a tree of eight children a node over boxes that stay where they are: about eleven bytes an item, and one look
+ * at a node decides about all eight.
  *
  * All bounds are whole numbers on a lattice of 2^24 places along the longest side of all that is in the tree. A node is
  * one line of memory: where its box begins, a power of two per axis, and the bounds of its children as steps of that
- * size, 0 to 255, rounded outward. Children are nodes, or items; the children of a node follow each other, and so do its
- * items.
+ * size, 0 to 255, rounded outward. Children are nodes, or items; the children of a node follow each other, and so do
+ * its items.
  *
- * A walk finds every item whose box is within reach (proof): box_make and the way onto the lattice (tahr__wide_down,
- * _up) never decrease and round outward, and so do the steps of a node; so a gap on the lattice is never larger than the
- * true one, and one that is not there stays none. The gap is computed in floats from whole numbers below 2^24, which
- * are exact, or from a query's bound farther away, which is rounded by 2^-24 of it; the limit is larger by 1e-6, more than
- * rounding the difference, three squares and two sums may take off. */
+ * A walk finds every item whose box is within reach (proof): tahr__bvh_box_make and the way onto the lattice never
+ * decrease and round outward, and so do the steps of a node; so a gap on the lattice is never larger than the true one,
+ * and where there is none there stays none. A query is told from a farther one up to 2^30 places off, 64 times the size
+ * of the tree: beyond that it only comes nearer, and a reach of half of it finds all. The gap is computed in floats from
+ * whole numbers below 2^24, which are exact, or from a query's bound farther away, which is rounded by 2^-24 of it; the
+ * limit is larger by 1e-6, more than rounding the difference, three squares and two sums may take off. */
 #ifndef TAHR_COMMON_WIDE_H
 #define TAHR_COMMON_WIDE_H
 
@@ -20,8 +21,8 @@
 enum { TAHR__WIDE = 8 };
 
 typedef struct tahr__wide_node {
-    /* Per axis: the low 24 bits: where the box begins; the next five: the logarithm of a step; of axis 0 the last three:
-     * how many children, less one; of axis 1 the last: they are items. */
+    /* Per axis: the low 24 bits: where the box begins; the next five: the logarithm of a step; the last three: of axis
+     * 0 how many children, less one, of axis 1 whether they are items. */
     uint32_t base[3];
     uint32_t first; /* child, or item */
     uint8_t lo[3][TAHR__WIDE], hi[3][TAHR__WIDE];
@@ -45,9 +46,9 @@ typedef struct tahr__wide {
     tahr__wide_node *nodes;
     uint32_t node_count, node_capacity;
     tahr__wide_fn *test;
-    tahr_vec3 centre;   /* boxes are relative to it */
-    double low[3];      /* where the lattice begins, relative to the centre */
-    double scale;       /* 1 / step, a power of two */
+    tahr_vec3 centre; /* boxes are relative to it */
+    double low[3];    /* where the lattice begins, relative to the centre */
+    double scale;     /* 1 / step, a power of two */
 } tahr__wide;
 
 /* Builds over count (>= 1) boxes as tahr__bvh_build does. [out] order: the items in the order of the tree. TAHR_OK or

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * wide_avx2.c: the look at a node, all eight children at once. Only called where the processor has AVX2; without FMA, so
- * that it does the operations of the scalar twin. */
+ * wide_avx2.c: the look at a node, all eight children at once. Only called where the processor has AVX2; without FMA,
+ * so that it does the operations of the scalar twin. */
 #include "wide.h"
 
 #include <string.h>

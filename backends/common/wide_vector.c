@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * wide_vector.c: the look at a node four children at a time, which every machine has by its compiler's vectors, and which
- * one to take. */
+ * wide_vector.c: the look at a node four children at a time, which every machine has by its compiler's vectors, and
+ * which one to take. */
 #include "wide.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * describe.c: what a world is made of, which way queries go through it and why, in words. All of it is found out when it
- * is asked for; nothing is allocated. */
+ * describe.c: what a world is made of, which way queries go through it and why, in words. All of it is found out
+ * when it is asked for; nothing is allocated. */
 #include "form.h"
 
 #include <stdio.h>
@@ -21,7 +21,8 @@ static void say(const tahr_log *to, const char *text)
 }
 
 typedef struct edges {
-    uint64_t open, two, more, flat; /* sides of triangles: without a neighbour, with one, with several; one, in its plane */
+    uint64_t open, two, more,
+        flat; /* sides of triangles: without a neighbour, with one, with several; one, in its plane */
 } edges;
 
 static int is_flat(const tahr__mesh *m, uint32_t a, uint32_t b)
@@ -102,8 +103,8 @@ static grid find_grid(const tahr__mesh *m)
     g.rows = (uint32_t)rows + 1;
     /* As many triangles as a whole one has, no two in one place: duplicates are gone. One above another would have
      * corners of its own. */
-    int whole = 2 * columns * rows == (double)m->triangle_count &&
-                (columns + 1) * (rows + 1) == (double)m->vertex_count;
+    int whole =
+        2 * columns * rows == (double)m->triangle_count && (columns + 1) * (rows + 1) == (double)m->vertex_count;
     return whole ? g : (grid){0, 0, 0};
 }
 
@@ -187,8 +188,8 @@ static void describe_mesh(const tahr__native *world, uint32_t id, const tahr_log
     grid g = find_grid(m);
     if (g.cut == 0) return;
     snprintf(text, sizeof text,
-             "body %u: is a field of %u x %u heights: as TAHR_BODY_HEIGHTS %.1f bytes per triangle, and %s", (unsigned)id,
-             (unsigned)g.columns, (unsigned)g.rows, 8.0 * g.columns * g.rows / m->triangle_count,
+             "body %u: is a field of %u x %u heights: as TAHR_BODY_HEIGHTS %.1f bytes per triangle, and %s",
+             (unsigned)id, (unsigned)g.columns, (unsigned)g.rows, 8.0 * g.columns * g.rows / m->triangle_count,
              g.cut == 1 ? "the same surface" : "with its cells cut the other way");
     say(to, text);
 }
@@ -197,10 +198,11 @@ static void describe_heights(uint32_t id, const tahr__heights *h, const tahr_log
 {
     char text[256];
     double triangles = 2.0 * (h->columns - 1) * (h->rows - 1);
-    snprintf(text, sizeof text,
-             "body %u: field of %u x %u heights, %.0f triangles less its holes; path: straight from the grid; %.1f bytes "
-             "per triangle",
-             (unsigned)id, (unsigned)h->columns, (unsigned)h->rows, triangles, 8.0 * h->columns * h->rows / triangles);
+    snprintf(
+        text, sizeof text,
+        "body %u: field of %u x %u heights, %.0f triangles less its holes; path: straight from the grid; %.1f bytes "
+        "per triangle",
+        (unsigned)id, (unsigned)h->columns, (unsigned)h->rows, triangles, 8.0 * h->columns * h->rows / triangles);
     say(to, text);
 }
 
@@ -217,9 +219,8 @@ tahr_status tahr__native_describe(void *self, const tahr_log *to)
     enum { TYPES = sizeof types / sizeof types[0] };
     const tahr__native *world = self;
     char text[256];
-    int n = snprintf(text, sizeof text, "native, 3D, %s, %s corners: %u movable and %u static bodies,",
-                     lanes_of(world), world->round ? "float" : "double", (unsigned)world->movable.count,
-                     (unsigned)world->fixed.count);
+    int n = snprintf(text, sizeof text, "native, 3D, %s, %s corners: %u movable and %u static bodies,", lanes_of(world),
+                     world->round ? "float" : "double", (unsigned)world->movable.count, (unsigned)world->fixed.count);
     for (int t = 0; t < TYPES; t++) {
         uint32_t count = 0;
         for (uint32_t i = 0; i < world->body_count; i++)

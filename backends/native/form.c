@@ -74,7 +74,8 @@ static void load_raw(const tahr__body *body, const tahr__prim *prims, uint32_t w
  * find out one by one. */
 static int alike(const tahr__native *world, const tahr__prim *prims, uint32_t at, uint32_t count, uint32_t width)
 {
-    if (world->bodies[prims[at].body].heights.may_be_thin || width == 1 || at % width != 0 || at + width > count) return 0;
+    if (world->bodies[prims[at].body].heights.may_be_thin || width == 1 || at % width != 0 || at + width > count)
+        return 0;
     for (uint32_t i = at; i < at + width; i++) {
         if (!(prims[i].kind & TAHR__UNFORMED) || prims[i].body != prims[at].body) return 0;
     }

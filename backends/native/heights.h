@@ -28,7 +28,8 @@ typedef struct tahr__heights_range {
 tahr_status tahr__heights_open(const tahr_host *host, const tahr_body_desc *desc, uint32_t body, tahr__heights *heights,
                                tahr_bounds *bounds);
 /* The field that a mesh is, if its triangles and their corners are those of one, in their order and bit for bit on an
- * even grid: then it answers as the mesh does. TAHR_OK, TAHR_E_NOT_FOUND (it is none), TAHR_E_MEMORY. source: checked. */
+ * even grid: then it answers as the mesh does. TAHR_OK, TAHR_E_NOT_FOUND (it is none), TAHR_E_MEMORY. source:
+ * checked. */
 tahr_status tahr__heights_of_mesh(const tahr_host *host, const tahr__mesh_source *source, tahr__heights *heights,
                                   tahr_bounds *bounds);
 void tahr__heights_close(const tahr_host *host, tahr__heights *heights);

@@ -158,7 +158,8 @@ uint32_t tahr__hull_face(const tahr__mesh *mesh, tahr_vec3 direction)
 {
     uint32_t best = 0, face = TAHR__NONE;
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        double along = v_dot(tahr__mesh_normal(mesh, i), direction), most = v_dot(tahr__mesh_normal(mesh, best), direction);
+        double along = v_dot(tahr__mesh_normal(mesh, i), direction),
+               most = v_dot(tahr__mesh_normal(mesh, best), direction);
         uint32_t source = tahr__triangle_source(&mesh->triangles[i]);
         if (face == TAHR__NONE || along > most || (along == most && source < face)) {
             best = i;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * margin.c: how far around what was announced to gather. Far: seldom, but all that lies there is formed, and every query
- * looks at it. What is best depends on how dense the scene is there, which is found out by counting. It decides nothing
- * but the time: queries answer the same from the cache and from the trees. */
+ * margin.c: how far around what was announced to gather. Far: seldom, but all that lies there is formed, and every
+ * query looks at it. What is best depends on how dense the scene is there, which is found out by counting. It
+ * decides nothing but the time: queries answer the same from the cache and from the trees. */
 #include "scene.h"
 
-/* What things cost, in instructions (callgrind, gcc -O2 with AVX2, walkers in a dungeon and on hills of 0.25 m): a gather
- * without its primitives; forming one; having one more in the cache for a step of two or three queries. */
+/* What things cost, in instructions (callgrind, gcc -O2 with AVX2, walkers in a dungeon and on hills of 0.25 m): a
+ * gather without its primitives; forming one; having one more in the cache for a step of two or three queries. */
 #define GATHER 3000.0
 #define FORM 300.0
 #define KEEP 25.0

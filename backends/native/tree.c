@@ -49,7 +49,8 @@ static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
     tahr_bounds box = to_mesh(map, &s->box);
     tahr_vec3 near = v_sub(s->query->start, map->offset);
     if (map->turned) near = m_unapply(&map->turn, near);
-    tahr__wide_walk_begin(&walk, &body->mesh.tree, &box, s->reach + TAHR__SLACK, s->order == TAHR__NEAREST_FIRST ? &near : NULL);
+    tahr__wide_walk_begin(&walk, &body->mesh.tree, &box, s->reach + TAHR__SLACK,
+                          s->order == TAHR__NEAREST_FIRST ? &near : NULL);
     tahr__prim prim;
     tahr__prim_begin(body, id, &prim);
     uint32_t i;
@@ -244,6 +245,13 @@ void tahr__tree_search_body(tahr__search *s, uint32_t id)
         search_mesh(s, id, &map);
 }
 
+/* Without branches; bounds of bodies are TAHR__SLACK wider than they are. */
+static int meets(const tahr_bounds *a, const tahr_bounds *b)
+{
+    int x = (a->min.x <= b->max.x) & (b->min.x <= a->max.x), y = (a->min.y <= b->max.y) & (b->min.y <= a->max.y);
+    return x & y & (a->min.z <= b->max.z) & (b->min.z <= a->max.z);
+}
+
 static uint32_t count_body(const tahr__query *query, uint32_t id, const tahr_bounds *local, uint32_t most)
 {
     const tahr__body *body = &query->world->bodies[id];
@@ -266,8 +274,10 @@ uint32_t tahr__tree_count(const tahr__query *query, const tahr__group *group, co
     if (group->count == 0) return 0;
     tahr__bvh_walk_begin(&walk, &group->tree, box, TAHR__SLACK, query->start);
     while (count <= most && tahr__bvh_walk_next(&walk, &first, &items)) {
-        for (uint32_t i = first; i < first + items; i++)
-            count += count_body(query, group->order[i], &local, most);
+        for (uint32_t i = first; i < first + items; i++) {
+            if (meets(&query->world->bodies[group->order[i]].bounds, box))
+                count += count_body(query, group->order[i], &local, most);
+        }
     }
     return count;
 }

@@ -85,8 +85,7 @@ static void append_line(void *user, int32_t level, const char *text)
 }
 
 /* What is known of the level, before any option of a walk would count. */
-static const char *const LEVEL_OPTIONS[] = {"--level", "--up", "--backend", "--2d", "--pixels-per-metre",
-                                            "--tiles"};
+static const char *const LEVEL_OPTIONS[] = {"--level", "--up", "--backend", "--2d", "--pixels-per-metre", "--tiles"};
 
 static int is_level_option(const char *argument)
 {
@@ -139,7 +138,8 @@ void info_help(void)
          "Version, ABI, presets, and the collision engines that this shell was built with: what `--backend` and\n"
          "`tahr selftest` take, with their capabilities (TAHR_CAP_* of tahr/backend.h).\n"
          "\n"
-         "With --level: what the scene is made of as the backend opens it, and which way queries go through it and why:\n"
+         "With --level: what the scene is made of as the backend opens it, and which way queries go through it and "
+         "why:\n"
          "triangles and how they meet, what was dropped, bytes per triangle, the densest place, fields of heights.");
 }
 

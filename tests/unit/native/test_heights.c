@@ -152,9 +152,9 @@ static void what_is_not_quite_a_field_stays_a_mesh(void **state)
         make(&f, &r, 0.2, 0);
         uint32_t *t = f.indices + 6 * 77, first = t[0];
         double *v = f.vertices + 3 * 200;
-        if (n == 1) v[0] = nextafter(v[0], 100);        /* a corner beside its column */
+        if (n == 1) v[0] = nextafter(v[0], 100);            /* a corner beside its column */
         if (n == 2) t[0] = t[1], t[1] = t[2], t[2] = first; /* corners in another order */
-        if (n == 3) t[1] = t[4], t[4] = t[1];           /* a triangle turned over */
+        if (n == 3) t[1] = t[4], t[4] = t[1];               /* a triangle turned over */
         if (n == 4) f.mesh_body.triangle_count -= 1;
         if (n == 5) f.mesh_body.vertex_count -= COLUMNS, f.mesh_body.triangle_count = 2 * (COLUMNS - 1) * (ROWS - 3);
         for (uint32_t i = 0; n >= 6 && i < COLUMNS * ROWS; i++) {

@@ -81,8 +81,8 @@ static tahr_bounds random_box(const scene *s, oracle_random *r)
 }
 
 /* How much larger than they are boxes may be in the tree: two places on the lattice of 2^24 and what single precision
- * leaves out, 2^-22 of the size, and the steps of the nodes above an item, each a 255th of its node's box (the next power
- * of two: at most twice that), whose sides halve at least every three levels: a 16th of the size covers all. */
+ * leaves out, 2^-22 of the size, and the steps of the nodes above an item, each a 255th of its node's box (the next
+ * power of two: at most twice that), whose sides halve at least every three levels: a 16th of the size covers all. */
 static double slack(const scene *s)
 {
     return s->size / 16;
@@ -268,7 +268,8 @@ static double nodes_per_walk(uint32_t cells)
         boxes[i] = tahr__bvh_box_make(&box, v_make(0, 0, 0));
     }
     assert_int_equal(tahr__wide_build(&host, boxes, order, count, v_make(0, 0, 0), &tree), TAHR_OK);
-    assert_true((double)memory.live_bytes / count <= 16); /* what the issue of 64 bytes a triangle leaves for the tree */
+    assert_true((double)memory.live_bytes / count <=
+                16); /* what the issue of 64 bytes a triangle leaves for the tree */
     tree.test = count_nodes;
     looked_at = 0;
     for (int q = 0; q < 400; q++) {
