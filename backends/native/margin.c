@@ -4,11 +4,11 @@
  * decides nothing but the time: queries answer the same from the cache and from the trees. */
 #include "scene.h"
 
-/* What things cost, in instructions (callgrind, gcc -O2 with AVX2, walkers in a dungeon and on hills of 0.25 m): a
+/* What things cost, in instructions (callgrind, gcc -O3 with AVX2, walkers in a dungeon and on hills of 0.25 m): a
  * gather without its primitives; forming one; having one more in the cache for a step of two or three queries. */
-#define GATHER 3000.0
-#define FORM 300.0
-#define KEEP 25.0
+#define GATHER 2500.0
+#define FORM 220.0
+#define KEEP 12.0
 /* Steps that a gather lasts for every metre of the margin: a character that wanders at 5 m/s and 60 Hz takes twelve to
  * walk one straight on; measured over margins of 0.25 to 2 m. */
 #define STEPS_PER_METRE 10.7
