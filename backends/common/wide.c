@@ -140,7 +140,7 @@ typedef struct pending {
 
 static void make_nodes(const collapse *b)
 {
-    pending stack[TAHR__WIDE_STACK + TAHR__WIDE];
+    pending stack[TAHR__WIDE_STACK];
     uint32_t top = 0;
     stack[top++] = (pending){0, 0};
     b->tree->node_count = 1;
@@ -336,8 +336,10 @@ static void push(tahr__wide_walk *w, uint32_t node)
         uint32_t i = lowest(near), k = w->top++, bits = 0;
         if (w->ordered) memcpy(&bits, &away[i], sizeof bits);
         uint64_t entry = (uint64_t)bits << 32 | (node * TAHR__WIDE + i);
-        for (; w->ordered && k > 0 && w->entries[k - 1] < entry; k--)
-            w->entries[k] = w->entries[k - 1];
+        if (w->ordered && k < TAHR__WIDE_SORTED) {
+            for (; k > 0 && w->entries[k - 1] < entry; k--)
+                w->entries[k] = w->entries[k - 1];
+        }
         w->entries[k] = entry;
     }
 }
@@ -383,7 +385,10 @@ int tahr__wide_walk_next(tahr__wide_walk *walk, uint32_t *item)
         const tahr__wide_node *n = &walk->tree->nodes[(uint32_t)entry / TAHR__WIDE];
         float away;
         memcpy(&away, &bits, sizeof away);
-        if (away > walk->farthest) break; /* so are all others */
+        if (away > walk->farthest) {
+            if (walk->top < TAHR__WIDE_SORTED) break; /* so are all others */
+            continue;
+        }
         if (walk->narrowed && !holds(walk, n, child)) continue;
         if (has_items(n)) {
             *item = n->first + child;

@@ -10,9 +10,9 @@
  * A walk finds every item whose box is within reach (proof): tahr__bvh_box_make and the way onto the lattice never
  * decrease and round outward, and so do the steps of a node; so a gap on the lattice is never larger than the true one,
  * and where there is none there stays none. A query is told from a farther one up to 2^30 places off, 64 times the size
- * of the tree: beyond that it only comes nearer, and a reach of half of it finds all. The gap is computed in floats from
- * whole numbers below 2^24, which are exact, or from a query's bound farther away, which is rounded by 2^-24 of it; the
- * limit is larger by 1e-6, more than rounding the difference, three squares and two sums may take off. */
+ * of the tree: beyond that it only comes nearer, and a reach of half of it finds all. The gap is computed in floats.
+ * Whole numbers below 2^24 are exact in them, and a query's bound farther away is rounded by 2^-24 of it; the limit is
+ * larger by 1e-6, more than rounding the difference, three squares and two sums may take off. */
 #ifndef TAHR_COMMON_WIDE_H
 #define TAHR_COMMON_WIDE_H
 
@@ -64,8 +64,9 @@ uint32_t tahr__wide_collect(const tahr__wide *tree, const tahr_bounds *box, doub
 /* How many there are; beyond most it stops. */
 uint32_t tahr__wide_count(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t most);
 
-/* Every level of the tree leaves at most seven others to look at; 80 levels: see TAHR__BVH_STACK. */
-enum { TAHR__WIDE_STACK = 7 * 80 };
+/* Every level of the tree leaves at most seven others to look at; 80 levels: see TAHR__BVH_STACK. So many as are SORTED
+ * a walk keeps in the order of their distances; if there are more it goes down to the bottom of each at once. */
+enum { TAHR__WIDE_STACK = 7 * 80 + TAHR__WIDE, TAHR__WIDE_SORTED = 192 };
 
 /* Walks all items within reach of a box, of all nodes and items that are known the nearest to a point first, or in no
  * order that means anything. */
@@ -77,8 +78,8 @@ typedef struct tahr__wide_walk {
     float farthest;  /* squared: nothing beyond this distance from the point is within reach */
     uint32_t ordered, narrowed, top;
     /* The squared distance to the point, whose bits are ordered as it is, and the child: node * 8 + child. The nearest
-     * last. */
-    uint64_t entries[TAHR__WIDE_STACK];
+     * last, of the first TAHR__WIDE_SORTED. */
+    uint64_t entries[TAHR__WIDE_SORTED + TAHR__WIDE_STACK];
 } tahr__wide_walk;
 
 /* near: NULL: in any order. */

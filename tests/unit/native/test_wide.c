@@ -155,6 +155,22 @@ static void a_walk_that_is_narrowed_misses_nothing_in_the_narrower_box(void **st
     discard(&s);
 }
 
+/* More than a walk keeps in order, and all of them wait at once. */
+static void a_walk_finds_all_of_a_tree_that_is_within_reach(void **state)
+{
+    (void)state;
+    static scene s;
+    oracle_random r = {12};
+    for (uint32_t kind = 0; kind < KINDS; kind++) {
+        make(&s, kind, MOST, v_make(0, 0, 0), &r);
+        for (int q = 0; q < 20; q++) {
+            tahr_bounds box = random_box(&s, &r);
+            check_walk(&s, &box, q % 2 ? 9 : 100, &box.min);
+        }
+        discard(&s);
+    }
+}
+
 static void the_nearest_come_first(void **state)
 {
     (void)state;
@@ -324,6 +340,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_walk_finds_every_item_within_reach_once),
         cmocka_unit_test(a_walk_that_is_narrowed_misses_nothing_in_the_narrower_box),
+        cmocka_unit_test(a_walk_finds_all_of_a_tree_that_is_within_reach),
         cmocka_unit_test(the_nearest_come_first),
         cmocka_unit_test(collecting_and_counting_find_what_a_walk_finds),
         cmocka_unit_test(every_width_sees_the_same_bits),
