@@ -85,8 +85,9 @@ static int alike(const tahr__native *world, const tahr__prim *prims, uint32_t at
 #if defined(__GNUC__)
 static void fetch(const tahr__native *world, const tahr__prim *prim)
 {
+    if (!(prim->kind & TAHR__UNFORMED)) return; /* its body may be the user's */
     const tahr__mesh *mesh = &world->bodies[prim->body].mesh;
-    if (!(prim->kind & TAHR__UNFORMED) || !mesh->triangles) return;
+    if (!mesh->triangles) return;
     __builtin_prefetch(&mesh->vertices[mesh->triangles[prim->item].vertex[0]]);
     __builtin_prefetch(&mesh->vertices[mesh->triangles[prim->item].vertex[2]]);
 }
