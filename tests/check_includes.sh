@@ -68,7 +68,7 @@ for backend in backends/*/; do
     fcl) third='|<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>' ;;
     box2d) third='|<box2d/[a-z0-9_]+\.h>|<[a-z_]+>' ;;
     threads) third='|<(pthread|unistd)\.h>' ;;
-    native) third='|<[ei]mmintrin\.h>' ;; # the processor's own vectors
+    native | common) third='|<[ei]mmintrin\.h>' ;; # the processor's own vectors
     *) third= ;;
     esac
     check "backends/$name" "backends/$name" \

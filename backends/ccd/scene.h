@@ -23,8 +23,8 @@ tahr_status tahr__ccd_place(void *self, const tahr_body_pose *poses, uint32_t co
 typedef struct tahr__ccd_walk {
     tahr__piece_query query;
     tahr__body_walk bodies;
-    tahr__bvh_walk tree; /* of a mesh */
-    uint32_t body, inside, first, count;
+    tahr__wide_walk tree; /* of a mesh */
+    uint32_t body, inside;
 } tahr__ccd_walk;
 
 extern const tahr__piece_finder tahr__ccd_finder;

@@ -26,7 +26,7 @@ static void rewind_walk(tahr__piece_query *q)
     tahr__ccd_walk *walk = (tahr__ccd_walk *)q;
     tahr_bounds world = tahr__piece_query_box(q);
 
-    walk->inside = walk->first = walk->count = 0;
+    walk->inside = 0;
     tahr__body_walk_begin(&walk->bodies, &tahr__ccd_scene_of(q)->tree, &world, q->start.origin);
 }
 
@@ -44,9 +44,9 @@ static void enter_mesh(tahr__ccd_walk *walk, const tahr__scene_body *body)
     extent = v_mad(extent, v_abs(body->turn.row[2]), half.z);
     box.min = v_sub(centre, extent);
     box.max = v_add(centre, extent);
-    tahr__bvh_walk_begin(&walk->tree, &body->mesh->bvh, &box, 0, m_unapply(&body->turn, from_body));
+    tahr_vec3 near = m_unapply(&body->turn, from_body);
+    tahr__wide_walk_begin(&walk->tree, &body->mesh->tree, &box, 0, &near);
     walk->inside = 1;
-    walk->count = 0;
 }
 
 /* A body and a triangle of it. */
@@ -60,12 +60,11 @@ static int next(tahr__piece_query *q, uint64_t *name)
     tahr__ccd_walk *walk = (tahr__ccd_walk *)q;
 
     for (;;) {
-        if (walk->inside && walk->count > 0) {
-            walk->count--;
-            *name = name_of(walk->body, walk->first++);
+        uint32_t triangle;
+        if (walk->inside && tahr__wide_walk_next(&walk->tree, &triangle)) {
+            *name = name_of(walk->body, triangle);
             return 1;
         }
-        if (walk->inside && tahr__bvh_walk_next(&walk->tree, &walk->first, &walk->count)) continue;
         walk->inside = 0;
         do {
             if (!tahr__body_walk_next(&walk->bodies, &walk->body)) return 0;

@@ -7,6 +7,9 @@
 
 enum { BINS = 12, SAH_LEVELS = 48 };
 
+/* Of a range: there is no node for it, a leaf holds it. */
+#define IN_LEAF 0xFFFFFFFFu
+
 typedef struct builder {
     tahr__bvh_box *boxes;
     uint32_t *order;
@@ -151,6 +154,14 @@ static uint32_t partition(builder *b, const range *r, const tahr__bvh_box *middl
     return left == 0 || left == r->count ? r->count / 2 : left;
 }
 
+static void put_box(tahr__bvh_node *node, const tahr__bvh_box *box)
+{
+    memcpy(node->lo, box->lo, sizeof node->lo);
+    memcpy(node->hi, box->hi, sizeof node->hi);
+}
+
+/* Splits down to TAHR__BVH_LEAF whatever the leaves hold: the order of the items, and what goes by it, is one for all
+ * trees. */
 static void build_ranges(builder *b, uint32_t count)
 {
     range stack[TAHR__BVH_STACK];
@@ -167,18 +178,23 @@ static void build_ranges(builder *b, uint32_t count)
             box_grow(&box, &b->boxes[i]);
             box_grow(&middles, &middle);
         }
-        tahr__bvh_node *node = &b->bvh->nodes[r.node];
-        memcpy(node->lo, box.lo, sizeof node->lo);
-        memcpy(node->hi, box.hi, sizeof node->hi);
-        node->first = r.first;
-        node->count = r.count;
+        uint32_t child[2] = {IN_LEAF, IN_LEAF};
+        if (r.node != IN_LEAF) {
+            tahr__bvh_node *node = &b->bvh->nodes[r.node];
+            put_box(node, &box);
+            node->first = r.first;
+            node->count = r.count;
+            if (r.count > b->bvh->leaf) {
+                child[0] = node->first = b->bvh->node_count;
+                child[1] = child[0] + 1;
+                node->count = 0;
+                b->bvh->node_count += 2;
+            }
+        }
         if (r.count <= TAHR__BVH_LEAF) continue;
-        uint32_t left = partition(b, &r, &middles), child = b->bvh->node_count;
-        node->first = child;
-        node->count = 0;
-        b->bvh->node_count += 2;
-        stack[top++] = (range){child + 1, r.first + left, r.count - left, r.level + 1};
-        stack[top++] = (range){child, r.first, left, r.level + 1};
+        uint32_t left = partition(b, &r, &middles);
+        stack[top++] = (range){child[1], r.first + left, r.count - left, r.level + 1};
+        stack[top++] = (range){child[0], r.first, left, r.level + 1};
     }
 }
 
@@ -190,6 +206,7 @@ tahr_status tahr__bvh_build(const tahr_host *host, tahr__bvh_box *boxes, uint32_
     uint32_t capacity = 2 * count - 1;
     builder b = {boxes, order, bvh};
     bvh->centre = centre;
+    if (bvh->leaf == 0) bvh->leaf = TAHR__BVH_LEAF;
     bvh->node_capacity = capacity;
     bvh->nodes = a->alloc(a->user, capacity * sizeof *bvh->nodes, 64);
     if (!bvh->nodes) return TAHR_E_MEMORY;
@@ -226,8 +243,7 @@ void tahr__bvh_refit(tahr__bvh *bvh, const tahr__bvh_box *boxes)
             memcpy(child.hi, bvh->nodes[node->first + k].hi, sizeof child.hi);
             box_grow(&box, &child);
         }
-        memcpy(node->lo, box.lo, sizeof node->lo);
-        memcpy(node->hi, box.hi, sizeof node->hi);
+        put_box(node, &box);
     }
 }
 

@@ -23,6 +23,8 @@ typedef struct tahr__bvh {
     uint32_t node_count;
     uint32_t node_capacity; /* what was allocated */
     tahr_vec3 centre;
+    uint32_t leaf; /* most items of a leaf */
+    uint32_t reserved;
 } tahr__bvh;
 
 /* Bounds of one item, relative to the centre and rounded outward. */
@@ -32,8 +34,8 @@ typedef struct tahr__bvh_box {
 
 tahr__bvh_box tahr__bvh_box_make(const tahr_bounds *bounds, tahr_vec3 centre);
 
-/* Builds over count (>= 1) boxes. [out] order (count entries): the items in leaf order. boxes is scratch of the caller
- * and is reordered with it. TAHR_OK or TAHR_E_MEMORY. */
+/* Builds over count (>= 1) boxes. bvh: zeroed but for leaf, 0: TAHR__BVH_LEAF. [out] order (count entries): the items
+ * in leaf order. boxes is scratch of the caller and is reordered with it. TAHR_OK or TAHR_E_MEMORY. */
 tahr_status tahr__bvh_build(const tahr_host *host, tahr__bvh_box *boxes, uint32_t *order, uint32_t count,
                             tahr_vec3 centre, tahr__bvh *bvh);
 void tahr__bvh_free(const tahr_host *host, tahr__bvh *bvh);

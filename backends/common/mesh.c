@@ -20,7 +20,7 @@ void tahr__log_body(const tahr_host *host, uint32_t body, const char *text)
     host->log.write(host->log.user, TAHR_LOG_ERROR, line);
 }
 
-static tahr_status check(const tahr_host *host, const tahr__mesh_source *s)
+tahr_status tahr__mesh_check(const tahr_host *host, const tahr__mesh_source *s)
 {
     char text[160];
     if (s->triangle_count == 0) {
@@ -192,7 +192,7 @@ static tahr_status build_tree(const tahr_host *host, tahr__mesh *mesh)
         tahr_bounds bounds = {v_min(a, v_min(b, c)), v_max(a, v_max(b, c))};
         boxes[i] = tahr__bvh_box_make(&bounds, centre);
     }
-    if (status == TAHR_OK) status = tahr__bvh_build(host, boxes, order, n, centre, &mesh->bvh);
+    if (status == TAHR_OK) status = tahr__wide_build(host, boxes, order, n, centre, &mesh->tree);
     tahr__room_put(host, boxes, n, sizeof *boxes);
     if (status == TAHR_OK) {
         for (uint32_t i = 0; i < n; i++)
@@ -239,29 +239,18 @@ static tahr_status connect(const tahr_host *host, tahr__mesh *mesh)
     return TAHR_OK;
 }
 
-static tahr_status set_normals(const tahr_host *host, tahr__mesh *mesh)
-{
-    mesh->normals = tahr__room_get(host, mesh->triangle_count, sizeof *mesh->normals);
-    if (!mesh->normals) return TAHR_E_MEMORY;
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        const uint32_t *v = mesh->triangles[i].vertex;
-        tahr_vec3 a = mesh->vertices[v[0]];
-        mesh->normals[i] = v_unit(v_cross(v_sub(mesh->vertices[v[1]], a), v_sub(mesh->vertices[v[2]], a)));
-    }
-    return TAHR_OK;
-}
-
 tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *source, tahr__mesh *mesh)
 {
     tahr__mesh m;
     memset(&m, 0, sizeof m);
-    tahr_status status = check(host, source);
+    tahr_status status = tahr__mesh_check(host, source);
     if (status != TAHR_OK) return status;
     uint32_t *remap = tahr__room_get(host, source->vertex_count, sizeof *remap);
     m.triangles = tahr__room_get(host, source->triangle_count, sizeof *m.triangles);
     m.triangle_capacity = source->triangle_count;
     status = remap && m.triangles ? weld(host, source, remap) : TAHR_E_MEMORY;
     if (status == TAHR_OK) status = clean(host, source, remap, m.triangles, &m.triangle_count);
+    m.dropped = source->triangle_count - m.triangle_count;
     if (status == TAHR_OK && m.triangle_count == 0) {
         tahr__log_body(host, source->body, "no triangle of the mesh has an area");
         status = TAHR_E_GEOMETRY;
@@ -270,7 +259,6 @@ tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *sou
     tahr__room_put(host, remap, source->vertex_count, sizeof *remap);
     if (status == TAHR_OK) status = build_tree(host, &m);
     if (status == TAHR_OK) status = connect(host, &m);
-    if (status == TAHR_OK) status = set_normals(host, &m);
     if (status == TAHR_OK)
         *mesh = m;
     else
@@ -281,8 +269,7 @@ tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *sou
 void tahr__mesh_free(const tahr_host *host, tahr__mesh *mesh)
 {
     tahr__room_put(host, mesh->vertices, mesh->vertex_capacity, sizeof *mesh->vertices);
-    tahr__room_put(host, mesh->normals, mesh->triangle_count, sizeof *mesh->normals);
     tahr__room_put(host, mesh->triangles, mesh->triangle_capacity, sizeof *mesh->triangles);
-    tahr__bvh_free(host, &mesh->bvh);
+    tahr__wide_free(host, &mesh->tree);
     memset(mesh, 0, sizeof *mesh);
 }

@@ -8,7 +8,7 @@
 #ifndef TAHR_COMMON_MESH_H
 #define TAHR_COMMON_MESH_H
 
-#include "bvh.h"
+#include "wide.h"
 
 /* Height over longest edge: below the first a triangle has no usable normal; below the second (an aspect of 1e4) its
  * normal is not trusted to rule a contact out early. */
@@ -28,11 +28,11 @@ typedef struct tahr__triangle {
 
 typedef struct tahr__mesh {
     tahr_vec3 *vertices;
-    tahr_vec3 *normals; /* of the triangles: unit, from exact corners */
     tahr__triangle *triangles;
     uint32_t vertex_count, triangle_count;
     uint32_t vertex_capacity, triangle_capacity;
-    tahr__bvh bvh;
+    uint32_t dropped, reserved; /* triangles of the caller that are not there */
+    tahr__wide tree;
     tahr_bounds bounds; /* of the vertices in use */
 } tahr__mesh;
 
@@ -45,6 +45,8 @@ typedef struct tahr__mesh_source {
     uint32_t reserved;
 } tahr__mesh_source;
 
+/* Is it fit to be built from? As tahr__mesh_build. */
+tahr_status tahr__mesh_check(const tahr_host *host, const tahr__mesh_source *source);
 /* TAHR_OK, TAHR_E_NULL, TAHR_E_GEOMETRY (with a message in the log), TAHR_E_MEMORY; nothing is kept on failure. */
 tahr_status tahr__mesh_build(const tahr_host *host, const tahr__mesh_source *source, tahr__mesh *mesh);
 void tahr__mesh_free(const tahr_host *host, tahr__mesh *mesh);
@@ -52,6 +54,14 @@ void tahr__mesh_free(const tahr_host *host, tahr__mesh *mesh);
 static inline uint32_t tahr__triangle_source(const tahr__triangle *t)
 {
     return t->source & ~TAHR__MESH_THIN;
+}
+
+/* Of a triangle: unit, from its exact corners. Made anew each time: to read it would cost a line of memory. */
+static inline tahr_vec3 tahr__mesh_normal(const tahr__mesh *mesh, uint32_t triangle)
+{
+    const uint32_t *v = mesh->triangles[triangle].vertex;
+    tahr_vec3 a = mesh->vertices[v[0]];
+    return v_unit(v_cross(v_sub(mesh->vertices[v[1]], a), v_sub(mesh->vertices[v[2]], a)));
 }
 
 /* Height over longest edge, 0 for no area at all. */

@@ -165,14 +165,12 @@ static int corner_surface(fan *f)
 {
     const tahr__mesh *mesh = f->piece->mesh;
     tahr_bounds at = {mesh->vertices[f->a], mesh->vertices[f->a]};
-    tahr__bvh_walk walk;
-    uint32_t first, count;
+    tahr__wide_walk walk;
+    uint32_t i;
 
-    tahr__bvh_walk_begin(&walk, &mesh->bvh, &at, 0, at.min);
-    while (tahr__bvh_walk_next(&walk, &first, &count)) {
-        for (uint32_t i = first; i < first + count; i++) {
-            if (!look_at(f, i)) return 0;
-        }
+    tahr__wide_walk_begin(&walk, &mesh->tree, &at, 0, NULL);
+    while (tahr__wide_walk_next(&walk, &i)) {
+        if (!look_at(f, i)) return 0;
     }
     return 1;
 }

@@ -102,7 +102,8 @@ tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const
     s.search.query = &query;
     s.search.box = tahr__query_box(&query, 0);
     s.search.reach = query.radius + query.margin;
-    s.search.narrowed = s.search.reserved = 0;
+    s.search.narrowed = 0;
+    s.search.order = TAHR__ANY_ORDER;
     s.search.visit = visit;
     s.margin = contact_query->margin;
     s.count = s.lost = 0;

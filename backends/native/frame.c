@@ -133,7 +133,8 @@ void tahr__prim_triangle(const tahr__map *map, const tahr__body *body, uint32_t 
     for (int i = 0; i < 3; i++)
         prim->facet.v[i] = tahr__map_point(map, mesh->vertices[t->vertex[i]]);
     tahr__facet_finish(&prim->facet);
-    prim->face = map->turned ? m_apply(&map->turn, mesh->normals[triangle]) : mesh->normals[triangle];
+    tahr_vec3 normal = tahr__mesh_normal(mesh, triangle);
+    prim->face = map->turned ? m_apply(&map->turn, normal) : normal;
     prim->item = triangle;
     prim->feature = tahr__triangle_source(t);
     prim->kind = (prim->kind & ~(uint32_t)TAHR__PLANELESS) | (t->source & TAHR__MESH_THIN ? TAHR__PLANELESS : 0u);

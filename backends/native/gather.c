@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * gather.c: one character's cache of nearby static primitives, and the search that uses it where it holds
  * everything. */
-#include "scene.h"
+#include "form.h"
 
 #include <string.h>
 
@@ -86,16 +86,37 @@ typedef struct gather {
     tahr__cache *cache;
 } gather;
 
+/* Nothing more to find: what does not fit is never kept in part. */
+static void give_up(gather *g)
+{
+    g->cache->overflow = 1;
+    g->search.box.min = v_make(1e30, 1e30, 1e30);
+    g->search.box.max = g->search.box.min;
+    g->search.narrowed = 1;
+}
+
+/* Triangles of a mesh: their names, to be formed together. */
+static void take(tahr__search *search, uint32_t body, const uint32_t *items, uint32_t count)
+{
+    gather *g = (gather *)search;
+    const tahr__native *world = search->query->world;
+    uint32_t n = g->cache->count;
+    if (count == 0) return;
+    if (count > world->capacity - n) {
+        give_up(g);
+        return;
+    }
+    tahr__form_heads(&world->bodies[body], body, items, count, &g->prims[n]);
+    g->cache->plain &= !(g->prims[n].kind & TAHR__SENSOR);
+    g->cache->count = n + count;
+}
+
 static void store(tahr__search *search, const tahr__prim *prim)
 {
     gather *g = (gather *)search;
     uint32_t n = g->cache->count;
     if (n == search->query->world->capacity) {
-        /* Nothing more to find: what does not fit is never kept in part. */
-        g->cache->overflow = 1;
-        search->box.min = v_make(1e30, 1e30, 1e30);
-        search->box.max = search->box.min;
-        search->narrowed = 1;
+        give_up(g);
         return;
     }
     const tahr_bounds box = tahr__prim_bounds(search->query, prim);
@@ -168,7 +189,9 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     query.ignore_body = TAHR_NO_BODY;
     query.sensors = TAHR__SENSORS_TOO;
     query.start = tahr__frame_box_to_local(&cache->frame, &(tahr_bounds){p->position, p->position}).min;
-    tahr_vec3 m = v_make(world->cache_margin, world->cache_margin, world->cache_margin);
+    double margin;
+    int fits = tahr__margin_choose(&query, &p->bounds, &cache->counted, &margin);
+    tahr_vec3 m = v_make(margin, margin, margin);
     cache->bounds.min = v_sub(p->bounds.min, m);
     cache->bounds.max = v_add(p->bounds.max, m);
     cache->local = tahr__frame_box_to_local(&cache->frame, &cache->bounds);
@@ -180,14 +203,20 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     g.search.query = &query;
     g.search.box = cache->local;
     g.search.reach = 0;
-    g.search.narrowed = g.search.reserved = 0;
+    g.search.narrowed = 0;
+    g.search.order = TAHR__IN_BULK;
     g.search.visit = store;
+    g.search.take = take;
     g.blocks = blocks_of(cache);
     g.prims = prims_of(world, cache);
     g.cache = cache;
-    tahr__tree_search(&g.search, &world->fixed);
+    if (fits)
+        tahr__tree_search(&g.search, &world->fixed);
+    else
+        cache->overflow = 1;
     if (world->gather) gather_loose(world, &g);
     cache->revision = world->revision;
+    if (!cache->overflow) tahr__form_lanes(world, &cache->frame, g.prims, g.blocks, cache->count);
     tahr__lanes_end(g.blocks, cache->count);
     context->gathers++;
 }
@@ -237,21 +266,34 @@ static int concerns(const tahr__query *query, const tahr__prim *prim)
     return query->sensors != (prim->kind & TAHR__SENSOR ? TAHR__SENSORS_NONE : TAHR__SENSORS_ONLY);
 }
 
+/* What is near enough to be asked is formed in full. */
+static void form_found(const tahr__query *query, tahr__prim *all, const tahr__lanes_found *found, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        tahr__prim *prim = &all[found[i].index];
+        if (prim->kind & TAHR__UNFORMED) tahr__form_rest(query->world, query->frame, prim);
+    }
+}
+
 uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr__lanes_found *found)
 {
     const tahr__query *query = s->query;
     tahr__lanes lanes = {blocks_of(query->cache), query->cache->count};
-    const tahr__prim *all = *prims = prims_of(query->world, query->cache);
+    tahr__prim *all = prims_of(query->world, query->cache);
+    *prims = all;
     tahr__lanes_query q;
     lanes_query(s, &q);
     uint32_t count = query->world->cull(&lanes, &q, found), kept = 0;
     if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY &&
-        query->sensors != TAHR__SENSORS_ONLY)
+        query->sensors != TAHR__SENSORS_ONLY) {
+        form_found(query, all, found, count);
         return count;
+    }
     for (uint32_t i = 0; i < count; i++) {
         found[kept] = found[i];
         kept += (uint32_t)concerns(query, &all[found[i].index]);
     }
+    form_found(query, all, found, kept);
     return kept;
 }
 

@@ -9,8 +9,10 @@
 /* Two triangles a cell, and names of primitives have 28 bits. */
 #define MOST_CELLS (1u << 27)
 
-/* Half a cell more than rounding could be wrong by. */
+/* Half a cell: more than rounding could be wrong by, and places that are UNEVEN. */
 #define OUTWARD 0.5
+/* Corners of a mesh may be off an even grid by this part of a cell. */
+#define UNEVEN 1e-3
 
 static size_t samples_of(const tahr__heights *h)
 {
@@ -74,11 +76,11 @@ uint32_t tahr__heights_around(const tahr__heights *h, uint32_t triangle, uint32_
     return count;
 }
 
-/* First and last cell of [low, high] along one way. */
-static void span(double low, double high, double half, uint32_t corners, uint32_t *first, uint32_t *end)
+/* First and last cell of [low, high] along one way; at: of the corners. */
+static void span(double low, double high, const double *at, uint32_t corners, uint32_t *first, uint32_t *end)
 {
-    double scale = (corners - 1) / (2 * half), most = corners - 1;
-    double from = floor((low + half) * scale - OUTWARD), to = floor((high + half) * scale + OUTWARD) + 1;
+    double scale = (corners - 1) / (at[corners - 1] - at[0]), most = corners - 1;
+    double from = floor((low - at[0]) * scale - OUTWARD), to = floor((high - at[0]) * scale + OUTWARD) + 1;
     *first = (uint32_t)d_max(0, d_min(from, most));
     *end = (uint32_t)d_max(0, d_min(to, most));
 }
@@ -86,9 +88,21 @@ static void span(double low, double high, double half, uint32_t corners, uint32_
 tahr__heights_range tahr__heights_cells(const tahr__heights *h, const tahr_bounds *box)
 {
     tahr__heights_range r;
-    span(box->min.x, box->max.x, h->half_x, h->columns, &r.column, &r.column_end);
-    span(box->min.y, box->max.y, h->half_y, h->rows, &r.row, &r.row_end);
+    span(box->min.x, box->max.x, h->x, h->columns, &r.column, &r.column_end);
+    span(box->min.y, box->max.y, h->y, h->rows, &r.row, &r.row_end);
     return r;
+}
+
+static uint32_t cell_at(double x, const double *at, uint32_t corners)
+{
+    double cell = floor((x - at[0]) * ((corners - 1) / (at[corners - 1] - at[0])));
+    return (uint32_t)d_max(0, d_min(cell, corners - 2.0));
+}
+
+void tahr__heights_at(const tahr__heights *h, double x, double y, uint32_t *column, uint32_t *row)
+{
+    *column = cell_at(x, h->x, h->columns);
+    *row = cell_at(y, h->y, h->rows);
 }
 
 /* The least slimness that a triangle of this field may have: its area seen from above over its longest edge. */
@@ -112,34 +126,113 @@ static int find_bounds(const tahr__heights *h, tahr_bounds *bounds)
     return found != 0;
 }
 
+/* Room for a field of that size. */
+static tahr_status give_room(const tahr_host *host, tahr__heights *h)
+{
+    h->z = host->allocator.alloc(host->allocator.user, bytes_of(h), 64);
+    if (!h->z) return TAHR_E_MEMORY;
+    h->x = h->z + samples_of(h);
+    h->y = h->x + h->columns;
+    return TAHR_OK;
+}
+
+/* What there is to know once all numbers are there; 0: it has no triangle. */
+static int finish(tahr__heights *h, tahr_bounds *bounds)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < samples_of(h); i++) {
+        h->has_holes |= h->z[i] != h->z[i];
+        low = d_min(h->z[i], low);
+        high = d_max(h->z[i], high);
+    }
+    h->may_be_thin = low <= high ? (uint32_t)may_be_thin(h, high - low) : 0;
+    return find_bounds(h, bounds);
+}
+
 tahr_status tahr__heights_open(const tahr_host *host, const tahr_body_desc *d, uint32_t body, tahr__heights *heights,
                                tahr_bounds *bounds)
 {
     tahr__heights h = {
         .columns = d->columns, .rows = d->rows, .half_x = d->half_extents.x, .half_y = d->half_extents.y};
-    double low = INFINITY, high = -INFINITY;
     if ((uint64_t)(h.columns - 1) * (h.rows - 1) > MOST_CELLS) {
         tahr__log_body(host, body, "columns times rows is above 2^27");
         return TAHR_E_UNSUPPORTED;
     }
-    h.z = host->allocator.alloc(host->allocator.user, bytes_of(&h), 64);
-    if (!h.z) return TAHR_E_MEMORY;
-    h.x = h.z + samples_of(&h);
-    h.y = h.x + h.columns;
+    if (give_room(host, &h) != TAHR_OK) return TAHR_E_MEMORY;
     for (uint32_t i = 0; i < h.columns; i++)
         h.x[i] = place(i, h.columns, h.half_x);
     for (uint32_t i = 0; i < h.rows; i++)
         h.y[i] = place(i, h.rows, h.half_y);
     memcpy(h.z, d->heights, samples_of(&h) * sizeof *h.z);
-    for (size_t i = 0; i < samples_of(&h); i++) {
-        low = d_min(h.z[i], low);
-        high = d_max(h.z[i], high);
-    }
-    h.may_be_thin = low <= high ? (uint32_t)may_be_thin(&h, high - low) : 0;
-    if (!find_bounds(&h, bounds)) {
+    if (!finish(&h, bounds)) {
         tahr__log_body(host, body, "heights: no triangle of the field is without a hole at a corner");
         tahr__heights_close(host, &h);
         return TAHR_E_GEOMETRY;
+    }
+    *heights = h;
+    return TAHR_OK;
+}
+
+/* Are the triangles of a mesh those of a field with that many columns, corner by corner and in their order? */
+static int has_field_order(const tahr__mesh_source *s, uint32_t columns)
+{
+    uint32_t wide = columns - 1;
+    for (uint32_t i = 0; i < s->triangle_count; i++) {
+        uint32_t cell = i / 2, lowest = cell / wide * columns + cell % wide;
+        for (int k = 0; k < 3; k++) {
+            const uint8_t *at = CORNERS[i % 2][k];
+            if (s->indices[3 * (size_t)i + (size_t)k] != lowest + at[0] + at[1] * columns) return 0;
+        }
+    }
+    return 1;
+}
+
+/* Do they grow evenly? */
+static int is_even(const double *at, uint32_t count)
+{
+    double step = (at[count - 1] - at[0]) / (count - 1);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(fabs(at[i] - (at[0] + i * step)) <= UNEVEN * step)) return 0;
+    }
+    return step > 0;
+}
+
+/* Takes the corners over; 0: they are not on a grid. */
+static int take_corners(const tahr__mesh_source *s, tahr__heights *h)
+{
+    for (uint32_t i = 0; i < h->columns; i++)
+        h->x[i] = s->vertices[3 * (size_t)i] + 0.0;
+    for (uint32_t i = 0; i < h->rows; i++)
+        h->y[i] = s->vertices[3 * (size_t)i * h->columns + 1] + 0.0;
+    if (!is_even(h->x, h->columns) || !is_even(h->y, h->rows)) return 0;
+    for (uint32_t row = 0; row < h->rows; row++) {
+        for (uint32_t column = 0; column < h->columns; column++) {
+            size_t i = (size_t)row * h->columns + column;
+            const double *v = s->vertices + 3 * i;
+            if (v[0] != h->x[column] || v[1] != h->y[row]) return 0;
+            h->z[i] = v[2];
+        }
+    }
+    h->half_x = 0.5 * (h->x[h->columns - 1] - h->x[0]);
+    h->half_y = 0.5 * (h->y[h->rows - 1] - h->y[0]);
+    return 1;
+}
+
+tahr_status tahr__heights_of_mesh(const tahr_host *host, const tahr__mesh_source *s, tahr__heights *heights,
+                                  tahr_bounds *bounds)
+{
+    const uint32_t *first = s->indices;
+    if (s->triangle_count < 2 || first[0] != 0 || first[1] != 1 || first[2] < 3) return TAHR_E_NOT_FOUND;
+    tahr__heights h = {.columns = first[2] - 1};
+    h.rows = s->vertex_count / h.columns;
+    uint64_t cells = (uint64_t)(h.columns - 1) * (h.rows - 1);
+    if (h.rows < 2 || h.rows * h.columns != s->vertex_count || cells > MOST_CELLS || 2 * cells != s->triangle_count)
+        return TAHR_E_NOT_FOUND;
+    if (!has_field_order(s, h.columns)) return TAHR_E_NOT_FOUND;
+    if (give_room(host, &h) != TAHR_OK) return TAHR_E_MEMORY;
+    if (!take_corners(s, &h) || !finish(&h, bounds)) {
+        tahr__heights_close(host, &h);
+        return TAHR_E_NOT_FOUND;
     }
     *heights = h;
     return TAHR_OK;

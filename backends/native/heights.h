@@ -6,7 +6,7 @@
 #ifndef TAHR_NATIVE_HEIGHTS_H
 #define TAHR_NATIVE_HEIGHTS_H
 
-#include "../common/vec.h"
+#include "../common/mesh.h"
 
 #include <tahr/backend.h>
 
@@ -14,7 +14,8 @@ typedef struct tahr__heights {
     double *z;     /* rows * columns; NULL: no field */
     double *x, *y; /* of columns and rows: exact at both ends, so that fields side by side fit */
     uint32_t columns, rows;
-    uint32_t may_be_thin, reserved; /* 0: no triangle of it is thin or without area */
+    uint32_t may_be_thin; /* 0: no triangle of it is thin or without area */
+    uint32_t has_holes;
     double half_x, half_y;
 } tahr__heights;
 
@@ -26,10 +27,17 @@ typedef struct tahr__heights_range {
 /* TAHR_OK, TAHR_E_GEOMETRY, TAHR_E_UNSUPPORTED (with a message), TAHR_E_MEMORY. [out] bounds of its surface. */
 tahr_status tahr__heights_open(const tahr_host *host, const tahr_body_desc *desc, uint32_t body, tahr__heights *heights,
                                tahr_bounds *bounds);
+/* The field that a mesh is, if its triangles and their corners are those of one, in their order and bit for bit on an
+ * even grid: then it answers as the mesh does. TAHR_OK, TAHR_E_NOT_FOUND (it is none), TAHR_E_MEMORY. source:
+ * checked. */
+tahr_status tahr__heights_of_mesh(const tahr_host *host, const tahr__mesh_source *source, tahr__heights *heights,
+                                  tahr_bounds *bounds);
 void tahr__heights_close(const tahr_host *host, tahr__heights *heights);
 
 /* Which cells a box may concern. */
 tahr__heights_range tahr__heights_cells(const tahr__heights *heights, const tahr_bounds *box);
+/* The cell of a place, or the nearest to it. */
+void tahr__heights_at(const tahr__heights *heights, double x, double y, uint32_t *column, uint32_t *row);
 /* Exact corners of a triangle; 0: it is not there. */
 int tahr__heights_triangle(const tahr__heights *heights, uint32_t triangle, tahr_vec3 v[3]);
 /* The same of the four corners of a cell, counter-clockwise from the lowest, and of its triangle k out of them. */

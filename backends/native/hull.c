@@ -120,7 +120,7 @@ static void name_faces(tahr__mesh *mesh)
             uint32_t t = stack[--top];
             for (int k = 0; k < 3; k++) {
                 uint32_t next = mesh->triangles[t].ring[k];
-                tahr_vec3 d = v_sub(mesh->normals[next], mesh->normals[at[source]]);
+                tahr_vec3 d = v_sub(tahr__mesh_normal(mesh, next), tahr__mesh_normal(mesh, at[source]));
                 if (name[next] != TAHR__NONE || v_dot(d, d) > ONE_FACE * ONE_FACE) continue;
                 name[next] = names - 1;
                 stack[top++] = next;
@@ -158,7 +158,8 @@ uint32_t tahr__hull_face(const tahr__mesh *mesh, tahr_vec3 direction)
 {
     uint32_t best = 0, face = TAHR__NONE;
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        double along = v_dot(mesh->normals[i], direction), most = v_dot(mesh->normals[best], direction);
+        double along = v_dot(tahr__mesh_normal(mesh, i), direction),
+               most = v_dot(tahr__mesh_normal(mesh, best), direction);
         uint32_t source = tahr__triangle_source(&mesh->triangles[i]);
         if (face == TAHR__NONE || along > most || (along == most && source < face)) {
             best = i;
@@ -227,7 +228,7 @@ double tahr__hull_leave(const tahr__core *core, tahr_vec3 centre, const tahr__me
     for (int i = 0; i < core->axis_count; i++)
         w.core.axis[i] = m_unapply(&map->turn, core->axis[i]);
     for (uint32_t i = 0; i < mesh->triangle_count && w.depth >= 0; i++)
-        try_way(&w, mesh->normals[i], mesh->vertices[mesh->triangles[i].vertex[0]]);
+        try_way(&w, tahr__mesh_normal(mesh, i), mesh->vertices[mesh->triangles[i].vertex[0]]);
     for (uint32_t i = 0; i < mesh->triangle_count && w.depth >= 0; i++) {
         for (uint32_t k = 0; k < 3; k++) {
             if (mesh->triangles[i].ring[k] >= i) try_edge(&w, mesh, i, k);

@@ -6,8 +6,8 @@
 #include <string.h>
 
 enum { CAPACITY_DEFAULT = 128, CAPACITY_MAX = TAHR__CACHE_MOST };
-/* m; a gather lasts 12 steps of a wanderer in a dungeon at 0.75, 15 at 1 and 20 at 1.5, where the longer lists cost the
- * sweeps more than fewer gathers save (measured). */
+/* m, at most: a gather lasts 12 steps of a wanderer in a dungeon at 0.75, 15 at 1 and 20 at 1.5, where the longer lists
+ * cost the sweeps more than fewer gathers save (measured). */
 #define MARGIN_DEFAULT 1.0
 
 /* Says what is wrong with the options, or NULL. */
@@ -25,8 +25,8 @@ static const char *bad_option(const tahr_native_desc *d)
     if (d->no_simd > 1) {
         return "options.no_simd is neither 0 nor 1";
     }
-    if (d->reserved) {
-        return "options.reserved is not 0";
+    if (d->no_fields > 1) {
+        return "options.no_fields is neither 0 nor 1";
     }
     return d->cache_margin >= 0 && d->cache_margin <= 1e3 ? NULL : "options.cache_margin is not within 0 and 1000 m";
 }
@@ -46,9 +46,13 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
     world->capacity =
         ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
     world->no_cache = d.no_cache;
+    world->no_fields = d.no_fields;
     world->cull = d.no_simd ? tahr__lanes_cull_1 : tahr__lanes_best();
+    world->former = tahr__former_best(!d.no_simd);
     world->gather = d.gather;
     world->gather_user = d.gather_user;
+    /* Of the user's triangles nothing is known before they are handed over. */
+    world->fixed_margin = d.cache_margin > 0 || d.gather;
     world->cache_margin = d.cache_margin > 0 ? d.cache_margin : MARGIN_DEFAULT;
     return TAHR_OK;
 }
@@ -122,6 +126,7 @@ const tahr_backend *tahr_backend_v1_native(void)
         .prepare = native_prepare,
         .place = native_place,
         .fluid = native_fluid,
+        .describe = tahr__native_describe,
     };
     return &backend;
 }

@@ -118,7 +118,7 @@ tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr
     s.search.query = &query;
     s.search.box = tahr__query_box(&query, 1.0);
     s.search.reach = 0;
-    s.search.narrowed = s.search.reserved = 0;
+    s.search.narrowed = s.search.order = 0;
     s.search.visit = visit;
     s.found = 0;
     set_axes(&s, query.motion);

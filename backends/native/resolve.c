@@ -39,7 +39,7 @@ typedef struct work {
 /* Unit face normal in the local frame, from the unrounded corners. */
 static tahr_vec3 face_normal(const work *w, uint32_t triangle)
 {
-    tahr_vec3 n = w->body->mesh.normals[triangle];
+    tahr_vec3 n = tahr__mesh_normal(&w->body->mesh, triangle);
     return w->map.turned ? m_apply(&w->map.turn, n) : n;
 }
 

@@ -34,6 +34,23 @@ typedef struct tahr__body {
     tahr_bounds bounds; /* world */
 } tahr__body;
 
+/* Exact corners of some triangles, side by side; thin: 1 where the plane is not to be trusted. */
+enum { TAHR__FORMED = 4 };
+typedef struct tahr__raw {
+    double corner[3][3][TAHR__FORMED]; /* which, coordinate, triangle */
+    double thin[TAHR__FORMED];
+} tahr__raw;
+
+/* Forms the lanes of some triangles at a time (form.c). width 1: there is none. */
+struct tahr__map;
+typedef struct tahr__former {
+    void (*form)(const struct tahr__map *map, const tahr__raw *raw, float *lanes);
+    uint32_t width, reserved;
+} tahr__former;
+
+/* The fastest that this machine can run, all of the same bits; simd 0: one by one. */
+tahr__former tahr__former_best(uint32_t simd);
+
 /* A tree over some of the bodies. */
 typedef struct tahr__group {
     tahr__bvh tree;
@@ -49,7 +66,10 @@ typedef struct tahr__native {
     uint32_t round;    /* local coordinates are rounded to float */
     uint32_t capacity; /* of a cache, a multiple of TAHR__LANES */
     uint32_t no_cache;
+    uint32_t fixed_margin; /* 1: cache_margin is the margin, 0: the most it may be */
+    uint32_t no_fields;    /* 1: meshes stay meshes */
     tahr__lanes_fn *cull;
+    tahr__former former;
     double cache_margin;
     tahr__group fixed, movable;
     tahr__fluids fluids;
@@ -98,7 +118,8 @@ enum {
     /* A triangle of the user's, kept in the cache (item is its index) or the head of a tahr__loose. */
     TAHR__GATHERED = 64,
     TAHR__FRESH = 128,
-    TAHR__FACELESS = 256 /* of a field of heights: its normal is made where it is asked for */
+    TAHR__FACELESS = 256, /* of a field of heights: its normal is made where it is asked for */
+    TAHR__UNFORMED = 512  /* in a cache: nothing but item, kind, body and mask is there yet (form.c) */
 };
 
 /* All that a query needs, so that neither mesh nor body is looked up where a primitive is cached. Three lines of
@@ -139,6 +160,7 @@ typedef struct tahr__cache {
     uint32_t announced, gathered, overflow, mask, count;
     uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
     uint64_t revision;  /* of the user's triangles in it */
+    double counted;     /* see tahr__margin_choose */
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
 } tahr__cache;
 
@@ -164,13 +186,19 @@ typedef struct tahr__query {
     tahr_status *failed;               /* what went wrong while gathering */
 } tahr__query;
 
+/* In which order primitives are handed over. */
+enum { TAHR__NEAREST_FIRST = 0, TAHR__ANY_ORDER = 1, TAHR__IN_BULK = 2 };
+
 /* Visits every primitive that may be within reach of box. The visitor may shrink box (and set narrowed) on the way. */
 typedef struct tahr__search {
     const tahr__query *query;
     tahr_bounds box; /* local, around the core */
     double reach;
-    uint32_t narrowed, reserved;
+    uint32_t narrowed;
+    uint32_t order; /* TAHR__NEAREST_FIRST, ... */
     void (*visit)(struct tahr__search *search, const tahr__prim *prim);
+    /* IN_BULK: takes triangles of a mesh by their names; more than TAHR__CACHE_MOST: not all of them are there. */
+    void (*take)(struct tahr__search *search, uint32_t body, const uint32_t *items, uint32_t count);
 } tahr__search;
 
 /* Static bodies, from the cache if it holds all that is asked for, then movable ones. */
@@ -226,6 +254,10 @@ const tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cach
 uint32_t tahr__corner_bucket(const tahr__corners *corners, tahr_vec3 corner);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
 
+/* margin.c: how far around what was announced to gather; 0: there is too much for the cache: not within [out] margin.
+ * counted: [in, out] where to begin counting, which was best last time; 0: anywhere. */
+int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *counted, double *margin);
+
 /* source.c: the triangles of the user. */
 /* Fills all but the walkable fields of a loose triangle; 0: it has no area. */
 int tahr__loose_make(const tahr__frame *frame, const tahr_triangle *t, tahr__loose *out);
@@ -251,6 +283,8 @@ uint32_t tahr__hull_face(const tahr__mesh *mesh, tahr_vec3 direction);
 
 /* tree.c: primitives of a group of bodies, straight from their trees. */
 void tahr__tree_search(tahr__search *search, const tahr__group *group);
+/* About how many primitives a box (world) concerns, at least as many as a search finds; beyond most it may stop. */
+uint32_t tahr__tree_count(const tahr__query *query, const tahr__group *group, const tahr_bounds *box, uint32_t most);
 /* And of one body alone. */
 void tahr__tree_search_body(tahr__search *search, uint32_t body);
 
@@ -329,6 +363,8 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
                                uint32_t capacity, uint32_t *count);
 tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
                                   tahr_contact *contacts, uint32_t capacity, uint32_t *count);
+/* describe.c */
+tahr_status tahr__native_describe(void *self, const tahr_log *to);
 tahr_status tahr__native_ray(void *self, tahr_query_context *context, const tahr_ray *ray, tahr_hit *hit,
                              uint32_t *count);
 

@@ -332,7 +332,7 @@ static void begin(sweep_state *s, const tahr__query *query)
     s->search.query = query;
     s->search.box = tahr__query_box(query, 1.0);
     s->search.reach = query->radius + query->margin;
-    s->search.narrowed = s->search.reserved = 0;
+    s->search.narrowed = s->search.order = 0;
     s->search.visit = visit;
     s->limit = 1;
     s->stopper = NULL;

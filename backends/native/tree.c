@@ -32,29 +32,38 @@ static int within(const tahr_bounds *b, double reach, tahr_vec3 v0, tahr_vec3 v1
     return x * x + y * y + z * z <= reach * reach;
 }
 
+/* All of a mesh at once. */
+static void take_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
+{
+    uint32_t items[TAHR__CACHE_MOST];
+    tahr_bounds box = to_mesh(map, &s->box);
+    uint32_t count = tahr__wide_collect(&s->query->world->bodies[id].mesh.tree, &box, s->reach + TAHR__SLACK, items,
+                                        TAHR__CACHE_MOST);
+    s->take(s, id, items, count);
+}
+
 static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
 {
     const tahr__body *body = &s->query->world->bodies[id];
-    tahr__bvh_walk walk;
+    tahr__wide_walk walk;
     tahr_bounds box = to_mesh(map, &s->box);
     tahr_vec3 near = v_sub(s->query->start, map->offset);
     if (map->turned) near = m_unapply(&map->turn, near);
-    tahr__bvh_walk_begin(&walk, &body->mesh.bvh, &box, s->reach + TAHR__SLACK, near);
+    tahr__wide_walk_begin(&walk, &body->mesh.tree, &box, s->reach + TAHR__SLACK,
+                          s->order == TAHR__NEAREST_FIRST ? &near : NULL);
     tahr__prim prim;
     tahr__prim_begin(body, id, &prim);
-    uint32_t first, count;
-    while (tahr__bvh_walk_next(&walk, &first, &count)) {
-        for (uint32_t i = first; i < first + count; i++) {
-            const uint32_t *vertex = body->mesh.triangles[i].vertex;
-            const tahr_vec3 *v = body->mesh.vertices;
-            if (!within(&box, s->reach + TAHR__SLACK, v[vertex[0]], v[vertex[1]], v[vertex[2]])) continue;
-            tahr__prim_triangle(map, body, i, &prim);
-            s->narrowed = 0;
-            s->visit(s, &prim);
-            if (!s->narrowed) continue;
-            box = to_mesh(map, &s->box);
-            tahr__bvh_walk_narrow(&walk, &box);
-        }
+    uint32_t i;
+    while (tahr__wide_walk_next(&walk, &i)) {
+        const uint32_t *vertex = body->mesh.triangles[i].vertex;
+        const tahr_vec3 *v = body->mesh.vertices;
+        if (!within(&box, s->reach + TAHR__SLACK, v[vertex[0]], v[vertex[1]], v[vertex[2]])) continue;
+        tahr__prim_triangle(map, body, i, &prim);
+        s->narrowed = 0;
+        s->visit(s, &prim);
+        if (!s->narrowed) continue;
+        box = to_mesh(map, &s->box);
+        tahr__wide_walk_narrow(&walk, &box);
     }
 }
 
@@ -77,16 +86,42 @@ typedef struct field_search {
     const tahr__body *body;
     const tahr__map *map;
     tahr_bounds box, around; /* what is searched for, in the field's coordinates; grown by the reach */
+    tahr__heights_range range;
     double reach;
     tahr__prim prim;
 } field_search;
 
+/* Cells that the box only comes near, for all that rounding may do, are left out. */
+static void trim(const tahr__heights *h, const tahr_bounds *around, tahr__heights_range *r)
+{
+    while (r->column < r->column_end && h->x[r->column + 1] < around->min.x)
+        r->column++;
+    while (r->column < r->column_end && h->x[r->column_end - 1] > around->max.x)
+        r->column_end--;
+    while (r->row < r->row_end && h->y[r->row + 1] < around->min.y)
+        r->row++;
+    while (r->row < r->row_end && h->y[r->row_end - 1] > around->max.y)
+        r->row_end--;
+}
+
+/* Of the whole field nothing is nearer in height than its bounds are: what is left of the reach lies sideways. Without
+ * it a shape that stands would look at all that its foot hides, not at what it touches. */
+static double sideways(const field_search *f)
+{
+    const tahr_bounds *all = &f->body->mesh.bounds;
+    double up = gap(all->min.z, all->max.z, f->box.min.z, f->box.max.z), left = f->reach * f->reach - up * up;
+    return left > 0 ? sqrt(left) * (1 + 1e-9) + TAHR__SLACK : 0;
+}
+
 static void set_field_box(field_search *f)
 {
-    const tahr_vec3 grow = {f->reach, f->reach, f->reach};
     f->box = to_mesh(f->map, &f->search->box);
+    double side = sideways(f);
+    const tahr_vec3 grow = {side, side, f->reach};
     f->around.min = v_sub(f->box.min, grow);
     f->around.max = v_add(f->box.max, grow);
+    f->range = tahr__heights_cells(&f->body->heights, &f->around);
+    trim(&f->body->heights, &f->around, &f->range);
 }
 
 static void search_cell(field_search *f, uint32_t column, uint32_t row)
@@ -97,7 +132,11 @@ static void search_cell(field_search *f, uint32_t column, uint32_t row)
     if (cell_beside(low, low + h->columns, &f->around)) return;
     tahr__heights_cell(h, column, row, corners);
     for (uint32_t k = 0; k < 2; k++) {
-        if (!tahr__heights_half(h, corners, k, v) || !within(&f->box, f->reach, v[0], v[1], v[2])) continue;
+        v[0] = corners[0];
+        v[1] = corners[1 + k];
+        v[2] = corners[2 + k];
+        if (!within(&f->box, f->reach, v[0], v[1], v[2])) continue;
+        if ((h->has_holes | h->may_be_thin) && !tahr__heights_half(h, corners, k, v)) continue;
         tahr__prim_heights(f->map, f->body, 2 * (row * (h->columns - 1) + column) + k, v, &f->prim);
         f->search->narrowed = 0;
         f->search->visit(f->search, &f->prim);
@@ -105,34 +144,75 @@ static void search_cell(field_search *f, uint32_t column, uint32_t row)
     }
 }
 
-/* i-th of first..end - 1, from `middle` outward. */
-static uint32_t outward(uint32_t first, uint32_t end, uint32_t middle, uint32_t i)
+/* How far from a cell the range goes on. */
+static int64_t farthest(const tahr__heights_range *r, int64_t column, int64_t row)
 {
-    uint32_t below = middle - first, above = end - 1 - middle, both = 2 * (below < above ? below : above);
-    if (i <= both) return i % 2 ? middle + (i + 1) / 2 : middle - i / 2;
-    return below < above ? middle + i - below : middle + above - i;
+    int64_t left = column - r->column, right = (int64_t)r->column_end - 1 - column;
+    int64_t before = row - r->row, behind = (int64_t)r->row_end - 1 - row;
+    int64_t across = left > right ? left : right, along = before > behind ? before : behind;
+    return across > along ? across : along;
 }
 
-/* The same straight from the grid of a field of heights, from the cell of the query's start outward. */
+/* The same straight from the grid of a field of heights: the cell of the query's start, then ring after ring around it.
+ * Cells that a narrower box leaves out are passed over. */
 static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
 {
+    field_search f;
+    uint32_t column, row;
+    f.search = s;
+    f.body = &s->query->world->bodies[id];
+    f.map = map;
+    f.reach = s->reach + TAHR__SLACK;
+    set_field_box(&f);
+    const tahr__heights_range *r = &f.range;
+    if (r->column >= r->column_end || r->row >= r->row_end) return;
+    tahr_vec3 near = v_sub(s->query->start, map->offset);
+    if (map->turned) near = m_unapply(&map->turn, near);
+    tahr__heights_at(&f.body->heights, near.x, near.y, &column, &row);
+    column = clamp(column, r->column, r->column_end - 1);
+    row = clamp(row, r->row, r->row_end - 1);
+    tahr__prim_begin(f.body, id, &f.prim);
+    for (int64_t ring = 0; ring <= farthest(r, column, row); ring++) {
+        for (int64_t i = -ring; i <= ring; i++) {
+            int64_t at = row + i, step = i == -ring || i == ring ? 1 : 2 * ring;
+            if (at < r->row || at >= r->row_end) continue;
+            for (int64_t k = -ring; k <= ring; k += step) {
+                int64_t across = column + k;
+                if (across >= r->column && across < r->column_end) search_cell(&f, (uint32_t)across, (uint32_t)at);
+                if (step == 0) break;
+            }
+        }
+    }
+}
+
+/* All of a field at once: both triangles of every cell that meets the box. */
+static void take_heights(tahr__search *s, uint32_t id, const tahr__map *map)
+{
+    uint32_t items[TAHR__CACHE_MOST], count = 0;
     field_search f;
     f.search = s;
     f.body = &s->query->world->bodies[id];
     f.map = map;
     f.reach = s->reach + TAHR__SLACK;
     set_field_box(&f);
-    tahr_vec3 near = v_sub(s->query->start, map->offset);
-    if (map->turned) near = m_unapply(&map->turn, near);
-    tahr__heights_range r = tahr__heights_cells(&f.body->heights, &f.around);
-    tahr__heights_range m = tahr__heights_cells(&f.body->heights, &(tahr_bounds){near, near});
-    if (r.column >= r.column_end || r.row >= r.row_end) return;
-    uint32_t column = clamp(m.column, r.column, r.column_end - 1), row = clamp(m.row, r.row, r.row_end - 1);
-    tahr__prim_begin(f.body, id, &f.prim);
-    for (uint32_t i = 0; i < r.row_end - r.row; i++) {
-        for (uint32_t k = 0; k < r.column_end - r.column; k++)
-            search_cell(&f, outward(r.column, r.column_end, column, k), outward(r.row, r.row_end, row, i));
+    const tahr__heights *h = &f.body->heights;
+    for (uint32_t row = f.range.row; row < f.range.row_end; row++) {
+        for (uint32_t column = f.range.column; column < f.range.column_end; column++) {
+            const double *low = h->z + (size_t)row * h->columns + column;
+            uint32_t first = 2 * (row * (h->columns - 1) + column);
+            if (cell_beside(low, low + h->columns, &f.around)) continue;
+            if (count + 2 > TAHR__CACHE_MOST) {
+                s->take(s, id, items, TAHR__CACHE_MOST + 1);
+                return;
+            }
+            for (uint32_t k = 0; k < 2; k++) {
+                tahr_vec3 v[3];
+                if ((h->has_holes || h->may_be_thin) && !tahr__heights_triangle(h, first + k, v)) continue;
+                items[count++] = first + k;
+            }
+        }
     }
+    s->take(s, id, items, count);
 }
 
 void tahr__tree_search_body(tahr__search *s, uint32_t id)
@@ -149,14 +229,57 @@ void tahr__tree_search_body(tahr__search *s, uint32_t id)
         return;
     }
     if (body->type == TAHR_BODY_HEIGHTS) {
-        search_heights(s, id, &map);
+        if (s->order == TAHR__IN_BULK)
+            take_heights(s, id, &map);
+        else
+            search_heights(s, id, &map);
         return;
     }
     if (body->type == TAHR_BODY_BOX || body->type == TAHR_BODY_HULL) {
         tahr__prim_solid(&map, body, &prim);
         s->visit(s, &prim);
     }
-    search_mesh(s, id, &map);
+    if (s->order == TAHR__IN_BULK)
+        take_mesh(s, id, &map);
+    else
+        search_mesh(s, id, &map);
+}
+
+/* Without branches; bounds of bodies are TAHR__SLACK wider than they are. */
+static int meets(const tahr_bounds *a, const tahr_bounds *b)
+{
+    int x = (a->min.x <= b->max.x) & (b->min.x <= a->max.x), y = (a->min.y <= b->max.y) & (b->min.y <= a->max.y);
+    return x & y & (a->min.z <= b->max.z) & (b->min.z <= a->max.z);
+}
+
+static uint32_t count_body(const tahr__query *query, uint32_t id, const tahr_bounds *local, uint32_t most)
+{
+    const tahr__body *body = &query->world->bodies[id];
+    if (!(body->mask & query->mask)) return 0;
+    if (body->type == TAHR_BODY_SPHERE || body->type == TAHR_BODY_CAPSULE) return 1;
+    tahr__map map = tahr__map_make(query->frame, body);
+    tahr_bounds box = to_mesh(&map, local);
+    if (body->type == TAHR_BODY_HEIGHTS) {
+        tahr__heights_range r = tahr__heights_cells(&body->heights, &box);
+        return 2 * (r.column_end - r.column) * (r.row_end - r.row);
+    }
+    return tahr__wide_count(&body->mesh.tree, &box, TAHR__SLACK, most) + (body->type != TAHR_BODY_MESH);
+}
+
+uint32_t tahr__tree_count(const tahr__query *query, const tahr__group *group, const tahr_bounds *box, uint32_t most)
+{
+    tahr_bounds local = tahr__frame_box_to_local(query->frame, box);
+    tahr__bvh_walk walk;
+    uint32_t first, items, count = 0;
+    if (group->count == 0) return 0;
+    tahr__bvh_walk_begin(&walk, &group->tree, box, TAHR__SLACK, query->start);
+    while (count <= most && tahr__bvh_walk_next(&walk, &first, &items)) {
+        for (uint32_t i = first; i < first + items; i++) {
+            if (meets(&query->world->bodies[group->order[i]].bounds, box))
+                count += count_body(query, group->order[i], &local, most);
+        }
+    }
+    return count;
 }
 
 void tahr__tree_search(tahr__search *s, const tahr__group *group)

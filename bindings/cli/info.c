@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * info.c: `tahr info`: version, ABI, presets, collision engines and what they can do. */
+ * info.c: `tahr info`: version, ABI, presets, collision engines and what they can do; what a level is made of. */
 #include "info.h"
 
-#include "backends.h"
+#include "options.h"
+#include "run.h"
 #include "say.h"
 
 #include <jansson.h>
@@ -70,12 +71,76 @@ static void info_json(void)
     json_decref(root);
 }
 
+static void print_line(void *user, int32_t level, const char *text)
+{
+    (void)user;
+    (void)level;
+    puts(text);
+}
+
+static void append_line(void *user, int32_t level, const char *text)
+{
+    (void)level;
+    json_array_append_new(user, json_string(text));
+}
+
+/* What is known of the level, before any option of a walk would count. */
+static const char *const LEVEL_OPTIONS[] = {"--level", "--up", "--backend", "--2d", "--pixels-per-metre", "--tiles"};
+
+static int is_level_option(const char *argument)
+{
+    size_t length = strcspn(argument, "=");
+    for (size_t i = 0; i < sizeof LEVEL_OPTIONS / sizeof LEVEL_OPTIONS[0]; i++) {
+        if (strlen(LEVEL_OPTIONS[i]) == length && strncmp(argument, LEVEL_OPTIONS[i], length) == 0) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static int describe_level(const struct options *options, int json)
+{
+    json_t *lines = json ? json_array() : NULL;
+    tahr_log to = {lines, json ? append_line : print_line};
+    int failed = run_describe(options, &to);
+    if (json && !failed) {
+        json_t *root = json_object();
+        json_object_set(root, "scene", lines);
+        json_dumpf(root, stdout, JSON_INDENT(2));
+        putchar('\n');
+        json_decref(root);
+    }
+    json_decref(lines);
+    return failed ? EXIT_USAGE : EXIT_GOOD;
+}
+
+/* argv without --json. */
+static int info_level(int argc, char **argv, int json)
+{
+    struct options options;
+    for (int i = 1; i < argc; i++) {
+        if (argv[i][0] == '-' && !is_level_option(argv[i])) {
+            say_error("info: unexpected argument '%s'; known with --level are --up, --backend and --json, and --2d "
+                      "--pixels-per-metre --tiles of two dimensions",
+                      argv[i]);
+            return EXIT_USAGE;
+        }
+    }
+    int code = options_parse(&options, argc, argv) == 0 ? describe_level(&options, json) : EXIT_USAGE;
+    options_close(&options);
+    return code;
+}
+
 void info_help(void)
 {
-    puts("usage: tahr info [--json]\n"
+    puts("usage: tahr info [--json] [--level FILE [--up y|z] [--backend NAME]]\n"
          "\n"
          "Version, ABI, presets, and the collision engines that this shell was built with: what `--backend` and\n"
-         "`tahr selftest` take, with their capabilities (TAHR_CAP_* of tahr/backend.h).");
+         "`tahr selftest` take, with their capabilities (TAHR_CAP_* of tahr/backend.h).\n"
+         "\n"
+         "With --level: what the scene is made of as the backend opens it, and which way queries go through it and "
+         "why:\n"
+         "triangles and how they meet, what was dropped, bytes per triangle, the densest place, fields of heights.");
 }
 
 int info_command(int argc, char **argv)
@@ -84,9 +149,24 @@ int info_command(int argc, char **argv)
         info_help();
         return EXIT_GOOD;
     }
-    int json = argc > 1 && strcmp(argv[1], "--json") == 0;
+    int json = 0, kept = 1, level = 0;
+    for (int i = 1; i < argc; i++) {
+        level |= strncmp(argv[i], "--level", 7) == 0;
+    }
+    for (int i = 1; level && i < argc; i++) {
+        if (strcmp(argv[i], "--json") == 0) {
+            json = 1;
+        } else {
+            argv[kept++] = argv[i];
+        }
+    }
+    if (level) {
+        argv[kept] = NULL;
+        return info_level(kept, argv, json);
+    }
+    json = argc > 1 && strcmp(argv[1], "--json") == 0;
     if (argc > 1 + json) {
-        say_error("info: unexpected argument '%s'; known is --json", argv[1 + json]);
+        say_error("info: unexpected argument '%s'; known are --json and --level", argv[1 + json]);
         return EXIT_USAGE;
     }
     if (json) {

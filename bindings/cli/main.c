@@ -45,7 +45,8 @@ static void print_commands(void)
          "  run              characters walk through a level; see `tahr run --help`\n"
          "  replay FILE      repeats a run from the file that `tahr run --trace FILE` or a program left\n"
          "  level [NAME]     writes a bundled level to standard output\n"
-         "  info [--json]    version, ABI, collision engines and what they can do\n"
+         "  info [--json]    version, ABI, collision engines and what they can do; --level FILE: what a scene is made "
+         "of\n"
          "  selftest NAME    does a backend keep its promises? see `tahr selftest --help`\n"
          "  help [COMMAND]   this text, or that of one command\n"
          "  --version");

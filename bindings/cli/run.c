@@ -365,6 +365,18 @@ static int finish(struct run *run)
     return 0;
 }
 
+int run_describe(const struct options *options, const tahr_log *to)
+{
+    struct run run = {.options = options};
+    int opened = load_level(&run) == 0 && open_world(&run) == 0;
+    int described = opened && tahr_world_describe(run.world, to) >= 0;
+    if (opened && !described) {
+        say_error("backend '%s' cannot describe its scene", options->backend->name);
+    }
+    close_run(&run);
+    return described ? 0 : -1;
+}
+
 int run_command(int argc, char **argv)
 {
     struct options options;

@@ -44,6 +44,9 @@ struct result {
     size_t finding_count;
 };
 
+/* Opens the level that the options name and has its world described. 0, or -1 after a message. */
+int run_describe(const struct options *options, const tahr_log *to);
+
 /* `tahr run`. Returns an exit code. */
 int run_command(int argc, char **argv);
 

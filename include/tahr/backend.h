@@ -112,6 +112,9 @@ typedef struct tahr_backend {
      * TAHR_BODY_FLUID in it needs the slot. */
     tahr_status (*body_motion)(void *self, uint32_t body, tahr_body_motion *motion);
     tahr_status (*fluid)(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *fluid);
+
+    /* Optional: see tahr_world_describe. to is valid during the call, write never NULL. Nothing is allocated. */
+    tahr_status (*describe)(void *self, const tahr_log *to);
 } tahr_backend;
 
 /* What a shared object exports as `tahr_backend_v1`, and a static build as `tahr_backend_v1_<name>`. Static memory. */

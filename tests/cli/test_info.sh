@@ -24,6 +24,18 @@ expect 2 "--nonsense"
 tahr info --json more
 expect 2 "more"
 
+# Of a level: one triangle mesh of two triangles in a file of ours, Y up.
+printf 'v 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nf 1 2 3\nf 1 3 4\n' >"$work/two.obj"
+tahr info --level "$work/two.obj"
+expect 0 "native, 3D" "1 static bodies" "body 0: "
+tahr info --level "$work/two.obj" --json --backend native-double
+expect 0 '"scene"' "double corners"
+is_json || fail "info --level --json is no JSON"
+tahr info --level "$work/nowhere.obj"
+expect 2 "nowhere.obj"
+tahr info --level "$work/two.obj" --characters 3
+expect 2 "--characters"
+
 # Every command explains itself, in both ways; a command that does not exist has no help.
 for command in run replay level info selftest; do
     tahr help $command

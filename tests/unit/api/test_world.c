@@ -249,7 +249,7 @@ static void messages_of_backends_name_the_function(void **unused)
     fake_log log;
     tahr_log l = fake_log_of(&log);
     tahr_body_desc b = mesh();
-    tahr_native_desc options = {.struct_size = sizeof options, .reserved = 1};
+    tahr_native_desc options = {.struct_size = sizeof options, .no_fields = 2};
     tahr_world_desc desc;
     tahr_world *world = NULL;
     fake_memory memory = {0};
@@ -261,7 +261,7 @@ static void messages_of_backends_name_the_function(void **unused)
     desc.log = &l;
     desc.options = &options;
     assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_E_ARGUMENT);
-    assert_string_equal(log.text, "tahr_world_open: options.reserved is not 0");
+    assert_string_equal(log.text, "tahr_world_open: options.no_fields is neither 0 nor 1");
     desc.options = NULL;
     b.vertices = broken;
     assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_E_GEOMETRY);

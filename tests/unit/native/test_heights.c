@@ -82,20 +82,90 @@ static void a_field_answers_as_its_mesh_bit_for_bit(void **state)
         set_both(&f, flags, poses[n % 2]);
         soup s; /* says where to ask */
         soup_make(&s, &f.mesh_body, 0);
-        fixture worlds[4];
-        for (uint32_t i = 0; i < 4; i++) {
+        fixture worlds[5];
+        for (uint32_t i = 0; i < 5; i++) {
             tahr_native_desc o = fixture_options(n % 2);
+            o.no_fields = i == 0;
             o.no_cache = i == 1;
             o.no_simd = i == 2;
             o.cache_triangles = i == 3 ? 64 : 1500;
             fixture_init(&worlds[i]);
-            assert_int_equal(fixture_open(&worlds[i], i ? &f.heights_body : &f.mesh_body, 1, &o, 1), TAHR_OK);
+            assert_int_equal(fixture_open(&worlds[i], i % 4 ? &f.heights_body : &f.mesh_body, 1, &o, 1), TAHR_OK);
         }
-        uint32_t hits = soup_compare(worlds, 4, &s, rough[n / 2] > 1 ? 60 : 400);
+        /* The fifth is a mesh that has been found to be a field. */
+        assert_int_equal(holes[n % 4] == 0, 4 * worlds[4].bytes < worlds[0].bytes);
+        uint32_t hits = soup_compare(worlds, 5, &s, rough[n / 2] > 1 ? 60 : 400);
         if (rough[n / 2] < 1 && holes[n % 4] < 900) assert_true(hits > 80);
-        for (int i = 0; i < 4; i++)
+        for (int i = 0; i < 5; i++)
             native_close(&worlds[i]);
         soup_free(&s);
+    }
+}
+
+/* Opens the mesh of a field, with a cache: as it is, or as a mesh whatever it is. Returns the bytes of the scene. */
+static size_t open_mesh(fixture *w, const field *f, uint32_t precision, uint32_t no_fields)
+{
+    tahr_native_desc o = fixture_options(precision);
+    o.no_fields = no_fields;
+    o.cache_triangles = 1500;
+    fixture_init(w);
+    assert_int_equal(fixture_open(w, &f->mesh_body, 1, &o, 1), TAHR_OK);
+    return w->bytes;
+}
+
+/* Somewhere, on a grid that is no more even than it must be: a thousandth of a cell either way. */
+static void a_mesh_on_an_uneven_grid_answers_as_a_mesh_bit_for_bit(void **state)
+{
+    (void)state;
+    static field f;
+    oracle_random r = {29};
+    for (uint32_t n = 0; n < 4; n++) {
+        make(&f, &r, n < 2 ? 0.2 : 0.7, 0);
+        set_both(&f, n % 2 ? (uint32_t)TAHR_BODY_TWO_SIDED : 0u, (tahr_pose){{-3, 1, 0}, {0, 0, 0, 1}});
+        double off[COLUMNS];
+        for (uint32_t i = 0; i < COLUMNS; i++)
+            off[i] = 3.7 + (i % (COLUMNS - 1) ? oracle_uniform(&r, -0.0004, 0.0004) : 0); /* cells of 0.465 m */
+        for (uint32_t i = 0; i < COLUMNS * ROWS; i++) {
+            f.vertices[3 * i] += off[i % COLUMNS];
+            f.vertices[3 * i + 1] -= 1.3;
+        }
+        soup s;
+        fixture worlds[2];
+        soup_make(&s, &f.mesh_body, 0);
+        size_t as_mesh = open_mesh(&worlds[0], &f, n % 2, 1), as_field = open_mesh(&worlds[1], &f, n % 2, 0);
+        assert_true(4 * as_field < as_mesh);
+        assert_true(soup_compare(worlds, 2, &s, 400) > 80);
+        native_close(&worlds[0]);
+        native_close(&worlds[1]);
+        soup_free(&s);
+    }
+}
+
+/* One thing after the other that no field has. */
+static void what_is_not_quite_a_field_stays_a_mesh(void **state)
+{
+    (void)state;
+    static field f;
+    oracle_random r = {31};
+    fixture w;
+    for (int n = 0; n < 8; n++) {
+        make(&f, &r, 0.2, 0);
+        uint32_t *t = f.indices + 6 * 77, first = t[0];
+        double *v = f.vertices + 3 * 200;
+        if (n == 1) v[0] = nextafter(v[0], 100);            /* a corner beside its column */
+        if (n == 2) t[0] = t[1], t[1] = t[2], t[2] = first; /* corners in another order */
+        if (n == 3) t[1] = t[4], t[4] = t[1];               /* a triangle turned over */
+        if (n == 4) f.mesh_body.triangle_count -= 1;
+        if (n == 5) f.mesh_body.vertex_count -= COLUMNS, f.mesh_body.triangle_count = 2 * (COLUMNS - 1) * (ROWS - 3);
+        for (uint32_t i = 0; n >= 6 && i < COLUMNS * ROWS; i++) {
+            double *c = f.vertices + 3 * i + (n == 6 ? 0 : 1);
+            *c += 0.01 * *c * *c; /* cells that grow */
+        }
+        size_t as_mesh = open_mesh(&w, &f, 0, 1);
+        native_close(&w);
+        size_t as_found = open_mesh(&w, &f, 0, 0);
+        native_close(&w);
+        assert_int_equal(as_found == as_mesh, n > 0);
     }
 }
 
@@ -169,6 +239,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_field_answers_as_its_mesh_bit_for_bit),
+        cmocka_unit_test(a_mesh_on_an_uneven_grid_answers_as_a_mesh_bit_for_bit),
+        cmocka_unit_test(what_is_not_quite_a_field_stays_a_mesh),
         cmocka_unit_test(a_field_takes_little_more_than_its_heights),
         cmocka_unit_test(a_sphere_rests_on_a_slope_of_heights),
         cmocka_unit_test(bad_fields_are_refused),

@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: MIT
+ * test_form.c: triangles that are formed some at a time are, bit for bit, those that are formed one by one. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "dice.h"
+#include "fake_host.h"
+#include "native/form.h"
+
+enum { TRIANGLES = 120, BLOCKS = TRIANGLES / TAHR__LANES };
+
+typedef struct scene {
+    fake_memory memory;
+    fake_log log;
+    tahr_host host;
+    tahr__native world;
+    tahr__body bodies[2];
+    tahr__prim prims[TRIANGLES], expected[TRIANGLES];
+    float blocks[BLOCKS * TAHR__LANE_ROWS * TAHR__LANES], expected_blocks[BLOCKS * TAHR__LANE_ROWS * TAHR__LANES];
+} scene;
+
+/* Triangles of 1 mm to 10 m up to 60 m away, of which some are thin and some flat: with planes and without. */
+static void build_mesh(scene *s, tahr__body *body, oracle_random *r)
+{
+    double vertices[9 * TRIANGLES];
+    uint32_t indices[3 * TRIANGLES];
+    for (uint32_t i = 0; i < TRIANGLES; i++) {
+        double size = pow(10, oracle_uniform(r, -3, 1));
+        tahr_vec3 at = dice_vec(r, -60, 60), v[3];
+        if (i % 2) at = dice_vec(r, -3, 3);
+        for (int k = 0; k < 3; k++) {
+            v[k] = v_add(at, v_scale(dice_vec(r, -1, 1), size));
+            if (i % 3 == 0) v[k].z = 0.25;
+        }
+        if (i % 10 == 0) v[2] = v_add(v_mad(v[0], v_sub(v[1], v[0]), 0.4), v_scale(dice_vec(r, -1, 1), 1e-6 * size));
+        for (int k = 0; k < 3; k++) {
+            vertices[9 * i + 3 * (uint32_t)k] = v[k].x;
+            vertices[9 * i + 3 * (uint32_t)k + 1] = v[k].y;
+            vertices[9 * i + 3 * (uint32_t)k + 2] = v[k].z;
+            indices[3 * i + (uint32_t)k] = 3 * i + (uint32_t)k;
+        }
+    }
+    tahr__mesh_source source = {vertices, indices, 3 * TRIANGLES, TRIANGLES, 0, 0};
+    assert_int_equal(tahr__mesh_build(&s->host, &source, &body->mesh), TAHR_OK);
+    assert_int_equal(body->mesh.triangle_count, TRIANGLES);
+}
+
+static void begin(scene *s, oracle_random *r)
+{
+    memset(s, 0, sizeof *s);
+    s->host.allocator = fake_allocator(&s->memory);
+    s->host.log = fake_log_of(&s->log);
+    s->world.host = &s->host;
+    s->world.bodies = s->bodies;
+    s->world.body_count = 2;
+    for (int i = 0; i < 2; i++) {
+        tahr__body *b = &s->bodies[i];
+        b->type = TAHR_BODY_MESH;
+        b->mask = 7;
+        b->surface = 40 + (uint32_t)i;
+        b->turn = m_identity();
+        b->position = i ? v_make(1.5, -2.25, 0.125) : v_make(0, 0, 0);
+        b->flags = i ? (uint32_t)TAHR_BODY_TWO_SIDED : 0u;
+        build_mesh(s, b, r);
+    }
+    s->bodies[1].turn = m_upright(dice_direction(r));
+    s->bodies[1].turned = 1;
+}
+
+static void end(scene *s)
+{
+    for (int i = 0; i < 2; i++)
+        tahr__mesh_free(&s->host, &s->bodies[i].mesh);
+    assert_int_equal(s->memory.live_blocks, 0);
+}
+
+/* Some of body 0, then some of body 1, in steps of three and seven: groups begin anywhere. Returns how many. */
+static uint32_t put_heads(scene *s, uint32_t first)
+{
+    uint32_t items[TRIANGLES], count[2] = {0, 0};
+    for (uint32_t i = 0; i < TRIANGLES / 2 - 3; i++)
+        items[i] = i * 7 % TRIANGLES;
+    count[0] = first;
+    count[1] = TRIANGLES / 2 - 3;
+    tahr__form_heads(&s->bodies[0], 0, items, count[0], s->prims);
+    tahr__form_heads(&s->bodies[1], 1, items, count[1], s->prims + count[0]);
+    return count[0] + count[1];
+}
+
+static void expect(scene *s, const tahr__frame *frame, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        tahr__prim *p = &s->expected[i];
+        const tahr__body *body = &s->bodies[s->prims[i].body];
+        tahr__map map = tahr__map_make(frame, body);
+        tahr__prim_begin(body, s->prims[i].body, p);
+        tahr__prim_triangle(&map, body, s->prims[i].item, p);
+        const tahr_vec3 *v = p->facet.v;
+        tahr_bounds box = {v_min(v[0], v_min(v[1], v[2])), v_max(v[0], v_max(v[1], v[2]))};
+        tahr__lanes_put(s->expected_blocks, i, &box, p->kind & TAHR__PLANELESS ? NULL : &p->facet);
+    }
+    tahr__lanes_end(s->expected_blocks, count);
+}
+
+/* How many of the lanes have planes. */
+static uint32_t compare(scene *s, const tahr__frame *frame, uint32_t count)
+{
+    uint32_t planes = 0;
+    tahr__form_lanes(&s->world, frame, s->prims, s->blocks, count);
+    tahr__lanes_end(s->blocks, count);
+    uint32_t used = (count + TAHR__LANES - 1) / TAHR__LANES;
+    assert_memory_equal(s->blocks, s->expected_blocks, used * TAHR__LANE_ROWS * TAHR__LANES * sizeof(float));
+    for (uint32_t i = 0; i < count; i++) {
+        const float *n = &s->blocks[tahr__lane(i, TAHR__LANE_NORMAL)];
+        planes += n[0] != 0 || n[TAHR__LANES] != 0 || n[2 * TAHR__LANES] != 0;
+        if (s->prims[i].kind & TAHR__UNFORMED) tahr__form_rest(&s->world, frame, &s->prims[i]);
+        assert_memory_equal(&s->prims[i], &s->expected[i], sizeof s->prims[i]);
+    }
+    return planes;
+}
+
+static void check(const tahr__former *former)
+{
+    static scene s;
+    oracle_random r = {21};
+    uint32_t planes = 0, all = 0;
+    for (uint32_t n = 0; n < 48; n++) {
+        begin(&s, &r);
+        s.world.former = *former;
+        s.world.round = n % 2;
+        tahr__frame frame =
+            tahr__frame_make(&s.world, dice_vec(&r, -20, 20), n % 3 ? v_make(0, 0, 1) : dice_direction(&r));
+        uint32_t count = put_heads(&s, n);
+        expect(&s, &frame, count);
+        planes += compare(&s, &frame, count);
+        all += count;
+        end(&s);
+    }
+    assert_true(planes > all / 8 && planes < all); /* both kinds have been seen */
+}
+
+static void formed_together_is_formed_one_by_one(void **state)
+{
+    (void)state;
+    tahr__former best = tahr__former_best(1), none = tahr__former_best(0);
+    assert_int_equal(none.width, 1);
+    check(&none);
+    check(&best);
+}
+
+static void formed_two_at_a_time_is_formed_one_by_one(void **state)
+{
+    (void)state;
+    tahr__former two = tahr__former_of_two();
+    if (two.width == 1) {
+        printf("SKIP: formed_two_at_a_time_is_formed_one_by_one: this compiler has no vectors\n");
+        return;
+    }
+    check(&two);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(formed_together_is_formed_one_by_one),
+        cmocka_unit_test(formed_two_at_a_time_is_formed_one_by_one),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
