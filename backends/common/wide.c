@@ -319,7 +319,8 @@ void tahr__wide_walk_narrow(tahr__wide_walk *walk, const tahr_bounds *box)
     if (!walk->ordered) return;
     /* The corner of the box that is farthest from the point, and the reach, and a place for the point's rounding. */
     for (int a = 0; a < 3; a++) {
-        float before = (float)(walk->near[a] - walk->box.lo[a]), behind = (float)(walk->box.hi[a] - walk->near[a]);
+        const int64_t at = walk->near[a]; /* twice BEYOND is more than 32 bits hold */
+        float before = (float)(at - walk->box.lo[a]), behind = (float)(walk->box.hi[a] - at);
         float away = (before > behind ? before : behind) + walk->places + 1;
         sum += away > 0 ? away * away : 0;
     }
