@@ -180,6 +180,9 @@ static void run(tahr__step *step, double dt, int plain)
     if (left > MIN_SLICE) {
         step->report.time_lost += left;
     }
+    if (step->report.time_lost > 0) {
+        step->report.flags |= TAHR_REPORT_TIME_LOST;
+    }
     if (!step->limits->usual && step->iterations + step->apexes > step->report.slices) {
         step->report.slices = step->iterations + step->apexes; /* a mode cut its slices into more */
     }

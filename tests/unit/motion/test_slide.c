@@ -28,6 +28,24 @@ static void slide_leaves_every_plane_and_never_lengthens(void **unused)
     }
 }
 
+/* Two faces that rise by `a` from upright, a gutter along y between them, however narrow: sweeps take 1e-12 of a motion
+ * for parallel. The least way off both, each by 1e-10 of the motion's length, is that over sin a, upward. */
+static void no_gutter_is_too_narrow_to_leave_both_of_its_sides(void **unused)
+{
+    const double some[] = {0.5, 0.1, 0.01, 0.001};
+    (void)unused;
+    for (int i = 0; i < 4; i++) {
+        double a = some[i], part = 1e-10 / sin(a);
+        tahr__plane sides[2] = {{.normal = {cos(a), 0, sin(a)}}, {.normal = {-cos(a), 0, sin(a)}, .feature = 1}};
+        vec3 motion = vec(0.3, 1, -1), x = tahr__slide(sides, 2, motion);
+        double size = length(motion);
+        assert_true(dot(sides[0].normal, x) > 5e-12 * size && dot(sides[1].normal, x) > 5e-12 * size);
+        assert_near(x.x, 0, 1e-11);
+        assert_near(x.y, 1, 1e-15);
+        assert_true(x.z > 0 && x.z < 1.1 * part * size);
+    }
+}
+
 static void no_plane_keeps_the_motion_and_a_dead_end_stops_it(void **unused)
 {
     tahr__plane wall = {.normal = {-1, 0, 0}};
@@ -75,6 +93,7 @@ static void leaning_walls_become_level_and_parallel_ceilings_nothing(void **unus
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(slide_leaves_every_plane_and_never_lengthens),
+                                       cmocka_unit_test(no_gutter_is_too_narrow_to_leave_both_of_its_sides),
                                        cmocka_unit_test(no_plane_keeps_the_motion_and_a_dead_end_stops_it),
                                        cmocka_unit_test(planes_are_forgotten_beyond_a_skin),
                                        cmocka_unit_test(leaning_walls_become_level_and_parallel_ceilings_nothing)};
