@@ -172,7 +172,7 @@ typedef struct tahr_report {
     uint64_t escapes;
     double step_offset; /* m along up: sudden rise or drop by steps and snaps, for smoothing what is shown */
     double residual;    /* m, deepest overlap that is left */
-    double time_lost;   /* s, not simulated because a cap was reached or nothing could be moved; then TIME_LOST is set */
+    double time_lost; /* s, not simulated because a cap was reached or nothing could be moved; then TIME_LOST is set */
 } tahr_report;
 
 /* "landed", "step_up"; "?" for a number that is none. Static memory. May run on several threads. Since 0.1. */
