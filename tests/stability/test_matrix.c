@@ -50,6 +50,7 @@ static void what_was_broken_once_stays_whole(void **unused)
         {"wedge", "native", TAHR_PRESET_PRECISE, 556},
         {"blocks", "native", TAHR_PRESET_PRECISE, 547},          /* a gap as wide as the foot */
         {"soup", "native-double", TAHR_PRESET_PRECISE, 268},     /* on and off an edge, again and again in one step */
+        {"blocks", "native", TAHR_PRESET_PLATFORMER, 872},       /* a head beside something lower than itself */
         {"shortcuts", "native-double", TAHR_PRESET_PRECISE, 11}, /* at rest just over the border of a cell */
     };
     (void)unused;
