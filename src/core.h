@@ -183,6 +183,10 @@ struct tahr__step {
     uint32_t apexes;          /* of them cut short at an apex */
 };
 
+/* Walking and falling may hand a step to each other this often (an edge that holds for a hair's breadth); then it ends.
+ * Each time costs some 40 queries to find where the floor ended. */
+enum { TAHR__MAX_SLICES = 6 };
+
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */
 typedef struct tahr__next {
     uint32_t mode;

@@ -35,7 +35,7 @@ static double head_height(const tahr__step *step)
 }
 
 /* m aside, along a level direction, at which the head passes; or more than corner_correction. */
-static double way_aside(tahr__step *step, vec3 direction)
+static double way_aside(tahr__step *step, const tahr_hit *met, vec3 direction)
 {
     const tahr_shape *shape = &step->limits->shape;
     double skin = step->config->skin, most = step->config->corner_correction, none = 2 * most;
@@ -51,7 +51,10 @@ static double way_aside(tahr__step *step, vec3 direction)
     }
     at = add_scaled(at, step->state.up, height);
     tahr__sweep(step, shape, at, scale(direction, -aside), skin, 0, &hit);
-    if (hit.start_overlap || hit.unknown) {
+    /* Nothing beside the widest part of a round head that is under the corner by more than rounding: what it met is
+     * not as high as the head, and has no side to go past. */
+    double under = shape_is_round(shape) ? shape->radius * (1 - length(step_level(step, met->normal))) : 0;
+    if (hit.start_overlap || hit.unknown || (!hit.blocking && under > clear)) {
         return none;
     }
     return min_of(aside * (1 - hit.fraction) + clear, aside);
@@ -101,7 +104,7 @@ int tahr__clear_corner(tahr__step *step, const tahr_hit *hit, vec3 *aside)
     }
     uint32_t count = directions_of(step, hit, directions);
     for (uint32_t i = 0; i < count; i++) {
-        double way = way_aside(step, directions[i]);
+        double way = way_aside(step, hit, directions[i]);
         if (way < least) {
             least = way;
             best = i;

@@ -271,7 +271,7 @@ static void step_part(void *argument, uint32_t index)
 static tahr_status hold(const tahr__tick *t, uint32_t i)
 {
     tahr_report *report = tick_report(t, i);
-    tahr__turn_report(report, TAHR_REPORT_QUERY_CAP);
+    tahr__turn_report(report, TAHR_REPORT_QUERY_CAP | TAHR_REPORT_TIME_LOST);
     if (report) {
         report->time_lost = t->asked->dt;
     }

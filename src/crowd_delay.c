@@ -199,9 +199,10 @@ static int is_plain(const tahr_state *a, const tahr_state *b, const tahr_report 
     const int walks = a->mode == TAHR_MODE_WALKING && a->floor.body == b->floor.body &&
                       a->floor.flags == b->floor.flags && vec_equal(a->floor.surface_normal, b->floor.surface_normal);
     return (falls || walks) && a->mode == b->mode && a->flags == b->flags && r->event_count + r->events_lost == 0 &&
-           r->slides == 0 && r->step_offset == 0 && a->base.body == TAHR_NO_BODY && b->base.body == TAHR_NO_BODY &&
-           a->touched_count == b->touched_count && a->radius == b->radius && a->half_height == b->half_height &&
-           vec_equal(a->up, b->up) && memcmp(&a->orientation, &b->orientation, sizeof a->orientation) == 0;
+           r->slides == 0 && r->step_offset == 0 && r->time_lost == 0 && a->base.body == TAHR_NO_BODY &&
+           b->base.body == TAHR_NO_BODY && a->touched_count == b->touched_count && a->radius == b->radius &&
+           a->half_height == b->half_height && vec_equal(a->up, b->up) &&
+           memcmp(&a->orientation, &b->orientation, sizeof a->orientation) == 0;
 }
 
 /* Takes one step for several ticks, if it meets nothing, and shows its begin. s: where the character is now. Returns 1

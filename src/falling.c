@@ -192,6 +192,10 @@ static int lands(tahr__step *step, const tahr_hit *hit, tahr_floor *floor)
     if (up < 1e-3 || leaves || step->error < 0) { /* 1e-3: a wall */
         return tahr__decide(step, TAHR_RULE_LANDING, 0, hit, up, 1e-3, "not met from above");
     }
+    if (step->report.slices + 1 >= TAHR__MAX_SLICES) {
+        return tahr__decide(step, TAHR_RULE_LANDING, 0, hit, step->report.slices, TAHR__MAX_SLICES,
+                            "lost the floor too often in this step: slides");
+    }
     tahr__supplied met = {.hit = hit};
     tahr__find_floor(step, step->config->snap_distance, &met, floor);
     /* Which of the faces of an edge a motion meets is the motion's affair, what stands on it is not: a wish along the

@@ -102,6 +102,13 @@ static int wedge(tahr__step *step, tahr_floor *floor)
     return 1;
 }
 
+/* May an edge of something walkable, at the rim of the foot, be a side of a wedge, as in a gap that is too narrow to
+ * fall through? To who falls into it, and for as long as it holds him; who walks over an edge walks off it. */
+static int comes_to_rest(const tahr__step *step)
+{
+    return step->state.mode == TAHR_MODE_FALLING || (step->state.floor.flags & TAHR_FLOOR_WEDGED);
+}
+
 static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor)
 {
     const tahr_config *c = step->config;
@@ -141,7 +148,7 @@ static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied,
     if (!ok && !surface && !rim) {
         ok = tahr__holds_on_lip(step, &hit);
     }
-    if (!ok && !surface) {
+    if (!ok && (!surface || comes_to_rest(step))) {
         ok = wedge(step, floor);
     }
     floor->flags |= ok ? TAHR_FLOOR_WALKABLE : 0u;

@@ -30,10 +30,6 @@ enum { USED = offsetof(tahr_state, reserved) };
 /* Slices shorter than this are rounding of the times of contacts. */
 static const double MIN_SLICE = 1e-9;
 
-/* Walking and falling may hand a step to each other this often (a gap as wide as the foot); then it ends, and says so.
- * Each time costs some 40 queries to find where the floor ended. */
-enum { MAX_SLICES = 6 };
-
 tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **out)
 {
     const char *field = NULL;
@@ -169,7 +165,7 @@ static void run(tahr__step *step, double dt, int plain)
     tahr__begin_jump(step);
     tahr__time_slice(step);
     double left = dt;
-    while (left > MIN_SLICE && step->error >= 0 && step->report.slices < MAX_SLICES &&
+    while (left > MIN_SLICE && step->error >= 0 && step->report.slices < TAHR__MAX_SLICES &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         step->report.slices++;
         if (!plain && press_is_remembered(step) && step->state.mode == TAHR_MODE_WALKING) {
@@ -179,6 +175,9 @@ static void run(tahr__step *step, double dt, int plain)
     }
     if (left > MIN_SLICE) {
         step->report.time_lost += left;
+    }
+    if (step->report.time_lost > 0) {
+        step->report.flags |= TAHR_REPORT_TIME_LOST;
     }
     if (!step->limits->usual && step->iterations + step->apexes > step->report.slices) {
         step->report.slices = step->iterations + step->apexes; /* a mode cut its slices into more */

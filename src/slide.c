@@ -7,6 +7,33 @@
 
 #include "plane.h"
 
+/* Parts of a motion: what it is lifted off a plane by; and what it has to leave it by at the least: five times what a
+ * backend takes for parallel (1e-12), so that no sweep meets again what the motion was bent along. */
+static const double LIFT = 1e-10, LEAST_LIFT = 5e-12;
+
+/* By how much x leaves the plane that it leaves least; < 0: it approaches one. */
+static double least_lift(const tahr__plane *planes, uint32_t count, vec3 x)
+{
+    double least = INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        least = min_of(least, dot(planes[i].normal, x));
+    }
+    return least;
+}
+
+/* The normals of faces that face each other cancel out: their sum leaves neither. What does is the nearest point a lift
+ * away from all planes. Where planes leave but a line there is none, and on the line it must stay. */
+static vec3 lift_between(const tahr__plane *planes, uint32_t count, vec3 x, double lift)
+{
+    tahr__plane lifted[TAHR__MAX_PLANES];
+    vec3 y;
+    for (uint32_t i = 0; i < count; i++) {
+        lifted[i].normal = planes[i].normal;
+        lifted[i].offset = lift;
+    }
+    return tahr__project(lifted, count, x, &y) ? y : x;
+}
+
 vec3 tahr__bend(const tahr__plane *planes, uint32_t count, vec3 motion)
 {
     vec3 x, off = vec(0, 0, 0);
@@ -16,11 +43,13 @@ vec3 tahr__bend(const tahr__plane *planes, uint32_t count, vec3 motion)
         return vec(0, 0, 0);
     }
     for (uint32_t i = 0; i < count; i++) {
-        if (dot(planes[i].normal, x) < 1e-10 * size) {
+        if (dot(planes[i].normal, x) < LIFT * size) {
             off = add(off, planes[i].normal);
         }
     }
-    return add_scaled(x, off, 1e-10 * size);
+    vec3 lifted = add_scaled(x, off, LIFT * size);
+    return least_lift(planes, count, lifted) >= LEAST_LIFT * size ? lifted
+                                                                  : lift_between(planes, count, x, LIFT * size);
 }
 
 tahr__plane tahr__plane_of(const tahr__step *step, const tahr_hit *hit)

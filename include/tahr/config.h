@@ -100,13 +100,15 @@ typedef struct tahr_config {
     double walkable_hysteresis; /* rad [1 degree | 0] a floor that was walkable stays so this much longer */
     double floor_target;        /* of skin [1.25 | 2.15/1.9] clearance that a correction aims at */
     double floor_max; /* of skin [1.5 | 2.4/1.9] clearance up to which nothing is corrected; the band starts at skin */
-    double step_height;       /* m [0.4 | 0.45] highest step, floor to landing face */
-    double snap_distance;     /* m [0.4 | 0.45] how far down the floor is followed while walking */
-    double perch_threshold;   /* m [0.15 | 0] a contact in the outermost ring of this width needs a floor further in */
-    double perch_extra;       /* m [0.4] how much deeper than snap_distance that floor may lie */
-    double edge_tolerance;    /* m [1e-4 | 0.0015] impacts this close to the rim of the shape are no floor */
-    uint32_t cached_floor;    /* [1 | 0] 0: look for the floor even when nothing changed */
-    uint32_t walk_off_ledges; /* [1] 0: stop at ledges instead of falling */
+    double step_height;     /* m [0.4 | 0.45] highest step, floor to landing face */
+    double snap_distance;   /* m [0.4 | 0.45] how far down the floor is followed while walking */
+    double perch_threshold; /* m [0.15 | 0] a contact in the outermost ring of this width needs a floor further in */
+    double perch_extra;     /* m [0.4] how much deeper than snap_distance that floor may lie */
+    double edge_tolerance;  /* m [1e-4 | 0.0015] impacts this close to the rim of the shape are no floor */
+    /* [1 | 0] 0: look for the floor even when nothing changed. It is the same one, to the last bit but where a walk that
+     * ended in another 4 m cell than its last step began in comes to rest: native rounds in the cell of the begin. */
+    uint32_t cached_floor;
+    uint32_t walk_off_ledges;          /* [1] 0: stop at ledges instead of falling */
     uint32_t walk_off_ledges_crouched; /* [1 | 0] */
     uint32_t reserved_floor;           /* 0 */
 

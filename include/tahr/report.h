@@ -138,7 +138,8 @@ enum {
     TAHR_REPORT_BASE_LOST = 1 << 9,     /* could not follow its base the whole way */
     TAHR_REPORT_TOUCHED_LOST = 1 << 10, /* inside of more sensors than a state remembers */
     TAHR_REPORT_MODE_REFUSED = 1 << 11, /* the mode asked for has no function, no floor below or no fluid around it */
-    TAHR_REPORT_DEFERRED = 1 << 12      /* in a crowd: shown on its way, not computed in this tick */
+    TAHR_REPORT_DEFERRED = 1 << 12,     /* in a crowd: shown on its way, not computed in this tick */
+    TAHR_REPORT_TIME_LOST = 1 << 13     /* a part of the step was not simulated: time_lost is not 0 */
 };
 
 /* The most queries one step may ask, whatever the world answers; then it stops where it is and says so. */
@@ -171,7 +172,7 @@ typedef struct tahr_report {
     uint64_t escapes;
     double step_offset; /* m along up: sudden rise or drop by steps and snaps, for smoothing what is shown */
     double residual;    /* m, deepest overlap that is left */
-    double time_lost;   /* s, not simulated because a cap was reached */
+    double time_lost; /* s, not simulated because a cap was reached or nothing could be moved; then TIME_LOST is set */
 } tahr_report;
 
 /* "landed", "step_up"; "?" for a number that is none. Static memory. May run on several threads. Since 0.1. */

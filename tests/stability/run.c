@@ -19,6 +19,7 @@ typedef struct runner {
     tahr_event events[WATCH_EVENTS];
     tahr_report report, report_twin;
     double time;
+    int crossed; /* the last step that moved the character ended in another cell than it began in */
 } runner;
 
 static double now_seconds(void)
@@ -208,6 +209,26 @@ static int on_the_edge(runner *r, int step, const tahr_state *before, double wor
     return 0;
 }
 
+static int same_cell(double a, double b)
+{
+    return floor(a / 4) == floor(b / 4);
+}
+
+/* Native's geometry is local to the 4 m cell in which a step begins. A floor that was kept over the border of one is
+ * rounded in another cell than one that is looked for again: config.cached_floor says so. That much, and nothing else,
+ * may differ where the character came to rest there; then both go on from the same floor. */
+static void share_floor(runner *r, const tahr_state *before)
+{
+    const tahr_floor *one = &r->state.floor, *other = &r->state_twin.floor;
+    const tahr_vec3 from = before->position, to = r->state.position;
+    if (memcmp(&from, &to, sizeof from) != 0) {
+        r->crossed = !same_cell(from.x, to.x) || !same_cell(from.y, to.y) || !same_cell(from.z, to.z);
+    }
+    int rounded = one->body == other->body && one->flags == other->flags &&
+                  fabs(one->distance - other->distance) <= r->request->subject->gap;
+    if ((r->twin.without & WITHOUT_CACHED_FLOOR) && r->crossed && rounded) r->state_twin.floor = r->state.floor;
+}
+
 static void compare(runner *r, int step, const tahr_state *before, tahr_status one, tahr_status other)
 {
     const twin *w = &r->twin;
@@ -229,6 +250,7 @@ static void compare(runner *r, int step, const tahr_state *before, tahr_status o
         watch_accuse(&r->watch, KEEPS_RELATION, step, r->state_twin.mode, r->state.mode, "another mode");
     if (allowed > 0 && worst / allowed > r->watch.worst.used) r->watch.worst.used = worst / allowed;
     if (!(worst <= allowed)) watch_accuse(&r->watch, KEEPS_RELATION, step, worst, allowed, "goes another way by, m");
+    share_floor(r, before);
     if (w->tolerance == 0 && w->exactness == 0 && !w->in_step && memcmp(&r->state, &r->state_twin, sizeof due) != 0)
         watch_accuse(&r->watch, KEEPS_RELATION, step, worst, 0, "another state, bit for bit");
 }

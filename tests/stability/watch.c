@@ -104,6 +104,7 @@ static void check_report(watch *w, int step, const tahr_report *r, double dt)
                isfinite(e->value);
         time = e->time;
     }
+    good = good && (r->time_lost > 0) == ((r->flags & TAHR_REPORT_TIME_LOST) != 0);
     if (!good) watch_accuse(w, KEEPS_REPORT, step, 1, 0, "a number of the report, or the order of its events");
 }
 

@@ -365,9 +365,36 @@ static void weightless_input_gravity_flies_straight(void **unused)
     rig_close(&r);
 }
 
+/* Between the edge of a low block at x = 0, z = 0 and a high wall at x = 0.66: a radius and a skin from the wall and from
+ * the edge, 0.3 m beside it; the lower core point is as high as the third side of that triangle. The edge is at the rim
+ * of the foot, too steep for a floor, and belongs to a face that is one. */
+static void a_gap_that_is_too_narrow_to_fall_through_holds(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < RIG_RATES; i++) {
+        fake_world w;
+        rig r;
+        fake_world_init(&w);
+        fake_add_box(&w, fake_vec(-5, -5, -3), fake_vec(0, 5, 0));
+        fake_add_box(&w, fake_vec(0.66, -5, -3), fake_vec(5, 5, 9));
+        rig_open(&r, &w, NULL, fake_vec(0.25, 0, 1.5));
+        for (int k = 0; k < 2 * rig_rates[i]; k++) {
+            rig_step(&r, 1.0 / rig_rates[i]);
+            assert_true(r.report.time_lost == 0);
+        }
+        assert_int_equal(r.state.mode, TAHR_MODE_WALKING);
+        assert_true(r.state.floor.flags & TAHR_FLOOR_WEDGED);
+        assert_int_equal(r.report.event_count, 0);
+        assert_near(r.state.position.x, 0.66 - 0.36, 1e-6);
+        assert_near(r.state.position.z, sqrt(0.36 * 0.36 - 0.3 * 0.3) + 0.9 - 0.35, 1e-6);
+        rig_close(&r);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(free_fall_lands_when_and_where_the_parabola_says),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_gap_that_is_too_narrow_to_fall_through_holds),
+                                       cmocka_unit_test(free_fall_lands_when_and_where_the_parabola_says),
                                        cmocka_unit_test(jump_has_its_apex_and_landing_where_the_parabola_says),
                                        cmocka_unit_test(jump_events_come_in_order_and_once),
                                        cmocka_unit_test(running_jump_covers_the_closed_distance),

@@ -113,6 +113,7 @@ static void motion_dropped_at_the_cap_of_slides_is_reported_as_time(void **unuse
     rig_step(&r, 0.5);
     assert_near(r.state.position.y, 1 - 0.36, 1e-9);
     assert_near(r.report.time_lost, 0.5 - (1 - 0.36) / 3.6, 1e-9);
+    assert_int_equal(r.report.flags, TAHR_REPORT_TIME_LOST);
     assert_near(r.state.position.x, 4.8 * (0.5 - r.report.time_lost), 1e-9);
     rig_close(&r);
 }

@@ -28,6 +28,24 @@ static void slide_leaves_every_plane_and_never_lengthens(void **unused)
     }
 }
 
+/* Two faces that lean out by `a`, a gutter along y between them: sweeps take 1e-12 of a motion for parallel. The least
+ * way off both, each by 1e-10 of the motion's length, is that over sin a, upward. */
+static void both_sides_of_a_gutter_are_left_down_to_a_degree(void **unused)
+{
+    const double some[] = {0.5, 0.2, 0.1, 0.01};
+    (void)unused;
+    for (int i = 0; i < 4; i++) {
+        double a = some[i], part = 1e-10 / sin(a);
+        tahr__plane sides[2] = {{.normal = {cos(a), 0, sin(a)}}, {.normal = {-cos(a), 0, sin(a)}, .feature = 1}};
+        vec3 motion = vec(0.3, 1, -1), x = tahr__slide(sides, 2, motion);
+        double size = length(motion);
+        assert_true(dot(sides[0].normal, x) > 5e-12 * size && dot(sides[1].normal, x) > 5e-12 * size);
+        assert_near(x.x, 0, 1e-11);
+        assert_near(x.y, 1, 1e-15);
+        assert_true(x.z > 0 && x.z < 1.1 * part * size);
+    }
+}
+
 static void no_plane_keeps_the_motion_and_a_dead_end_stops_it(void **unused)
 {
     tahr__plane wall = {.normal = {-1, 0, 0}};
@@ -72,9 +90,28 @@ static void leaning_walls_become_level_and_parallel_ceilings_nothing(void **unus
     assert_near(ceiling.normal.x, -1, 1e-15);
 }
 
+/* A floor that rises toward -x below a ceiling that comes down to it, and an upright plane across: what they leave is
+ * the line along y and nothing beside it, and any way off one of them is a way into another. */
+static void on_the_line_that_planes_leave_nothing_is_lifted(void **unused)
+{
+    tahr__plane planes[3] = {{.normal = {0.28, 0, 0.96}},
+                             {.normal = {-0.352, 0, -0.936}, .feature = 1},
+                             {.normal = {1, 0, 0}, .feature = 2}};
+    (void)unused;
+    vec3 motion = vec(-1.4, -0.7, 0.4), x = tahr__slide(planes, 3, motion);
+    for (int i = 0; i < 3; i++) {
+        assert_true(dot(planes[i].normal, x) >= -1e-12 * length(x));
+    }
+    assert_near(x.x, 0, 1e-12);
+    assert_near(x.y, -0.7, 1e-12);
+    assert_near(x.z, 0, 1e-12);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(slide_leaves_every_plane_and_never_lengthens),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(on_the_line_that_planes_leave_nothing_is_lifted),
+                                       cmocka_unit_test(slide_leaves_every_plane_and_never_lengthens),
+                                       cmocka_unit_test(both_sides_of_a_gutter_are_left_down_to_a_degree),
                                        cmocka_unit_test(no_plane_keeps_the_motion_and_a_dead_end_stops_it),
                                        cmocka_unit_test(planes_are_forgotten_beyond_a_skin),
                                        cmocka_unit_test(leaning_walls_become_level_and_parallel_ceilings_nothing)};
