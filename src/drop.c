@@ -93,11 +93,11 @@ void tahr__begin_drop(tahr__step *step)
     tahr_hit from = {.body = s->floor.body, .feature = s->floor.feature, .normal = s->floor.normal};
     double away = dot(s->velocity, s->floor.normal);
     tahr__leave_floor(step);
-    /* Down a slope: along it, else it would fly over it for a while instead of dropping. No one-way body holds at a
-     * normal that leans more (one_way.h); what a backend says that does may even be level. */
-    double upward = dot(s->floor.normal, s->up);
-    if (away > 0 && upward >= 0.5 && is_face(s->floor.normal, s->floor.surface_normal)) {
-        s->velocity = add_scaled(s->velocity, s->up, -away / upward);
+    /* Down a slope: along it, else it would fly over it for a while instead of dropping. A slope that no one-way body
+     * holds at is only what a backend says, and may even be upright. */
+    int holds = tahr_one_way_blocks(&s->up, &s->floor.normal, 0, 0, 0);
+    if (away > 0 && holds && is_face(s->floor.normal, s->floor.surface_normal)) {
+        s->velocity = add_scaled(s->velocity, s->up, -away / dot(s->floor.normal, s->up));
     }
     s->floor_revision = 0;
     s->flags |= TAHR_STATE_DROPPING;

@@ -14,26 +14,7 @@
 #pragma GCC target("avx2")
 #endif
 
-#include <immintrin.h>
-
-enum { WIDTH = 8 };
-
-typedef float lane __attribute__((vector_size(32)));
-
-static inline lane splat(float x)
-{
-    return (lane){x, x, x, x, x, x, x, x};
-}
-
-static inline lane larger(lane a, lane b)
-{
-    return (lane)_mm256_max_ps((__m256)a, (__m256)b);
-}
-
-static inline uint32_t bits_within(lane x, float limit)
-{
-    return (uint32_t)_mm256_movemask_ps((__m256)(x <= splat(limit)));
-}
+#include "lane_8.h"
 
 static inline lane steps(const uint8_t *p)
 {

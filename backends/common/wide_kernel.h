@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * wide_kernel.h: the look at a node in vectors, for a file that has said how wide they are: WIDTH, lane, splat, larger,
- * bits_within, steps. The bits of tahr__wide_test_1: distances are taken in steps of the node and multiplied by the
+ * wide_kernel.h: the look at a node in vectors, for a file that has said how wide they are: lane_4.h or lane_8.h, and
+ * steps. The bits of tahr__wide_test_1: distances are taken in steps of the node and multiplied by the
  * step, a power of two, which rounds nothing. */
 typedef int32_t four __attribute__((vector_size(16)));
 typedef float four_floats __attribute__((vector_size(16)));
@@ -30,7 +30,7 @@ static inline uint32_t wide_test(const tahr__wide_node *n, const tahr__wide_box 
         lane x0 = steps(&n->lo[0][i]), y0 = steps(&n->lo[1][i]), z0 = steps(&n->lo[2][i]);
         lane x1 = steps(&n->hi[0][i]), y1 = steps(&n->hi[1][i]), z1 = steps(&n->hi[2][i]);
         lane x = square_gap(x0, x1, from[0], to[0], step[0]), y = square_gap(y0, y1, from[1], to[1], step[1]);
-        near |= bits_within((x + y) + square_gap(z0, z1, from[2], to[2], step[2]), box->limit) << i;
+        near |= bits((x + y) + square_gap(z0, z1, from[2], to[2], step[2]) <= splat(box->limit)) << i;
         if (!away) continue;
         four_floats at = __builtin_convertvector(load_four(point) - low, four_floats) * per;
         x = square_gap(x0, x1, at[0], at[0], step[0]);

@@ -11,40 +11,7 @@
 
 #if defined(__GNUC__)
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
-enum { WIDTH = 4 };
-
-typedef float lane __attribute__((vector_size(16)));
-typedef int32_t mask __attribute__((vector_size(16)));
-
-static inline lane splat(float x)
-{
-    return (lane){x, x, x, x};
-}
-
-/* a > b ? a : b; one instruction where the compiler does not see that by itself. */
-static inline lane larger(lane a, lane b)
-{
-#if defined(__SSE2__)
-    return (lane)_mm_max_ps((__m128)a, (__m128)b);
-#else
-    mask m = a > b;
-    return (lane)(((mask)a & m) | ((mask)b & ~m));
-#endif
-}
-
-static inline uint32_t bits_within(lane x, float limit)
-{
-    mask m = x <= splat(limit);
-#if defined(__SSE2__)
-    return (uint32_t)_mm_movemask_ps((__m128)m);
-#else
-    return (uint32_t)((m[0] & 1) | (m[1] & 2) | (m[2] & 4) | (m[3] & 8));
-#endif
-}
+#include "lane_4.h"
 
 static inline lane steps(const uint8_t *p)
 {

@@ -12,32 +12,7 @@
 #pragma GCC target("avx2")
 #endif
 
-#include <immintrin.h>
-
-enum { WIDTH = 8 };
-
-typedef float lane __attribute__((vector_size(32)));
-typedef int32_t mask __attribute__((vector_size(32)));
-
-static inline lane splat(float x)
-{
-    return (lane){x, x, x, x, x, x, x, x};
-}
-
-static inline unsigned bits(mask m)
-{
-    return (unsigned)_mm256_movemask_ps((__m256)m);
-}
-
-static inline lane larger(lane a, lane b)
-{
-    return (lane)_mm256_max_ps((__m256)a, (__m256)b);
-}
-
-static inline lane root(lane a)
-{
-    return (lane)_mm256_sqrt_ps((__m256)a);
-}
+#include "../common/lane_8.h"
 
 #include "lanes_kernel.h"
 

@@ -23,18 +23,11 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static int time_ticks(chart_throng *t, chart_row *row)
+/* Times of a character in every tick, ns; sorts them. */
+static void put_times(chart_row *row, double *ns, uint32_t ticks)
 {
-    static double ns[MAX_TICKS];
-    uint32_t ticks = (uint32_t)fmin(MAX_TICKS, fmax(MIN_TICKS, TICK_STEPS / t->count));
     double sum = 0;
-    for (uint32_t k = 0; k < WARM_UP_TICKS; k++) {
-        if (chart_throng_tick(t) < 0) return 0;
-    }
     for (uint32_t k = 0; k < ticks; k++) {
-        double seconds = chart_throng_tick(t);
-        if (seconds < 0) return 0;
-        ns[k] = 1e9 * seconds / t->count;
         sum += ns[k];
     }
     qsort(ns, ticks, sizeof ns[0], by_value);
@@ -43,6 +36,21 @@ static int time_ticks(chart_throng *t, chart_row *row)
     row->ns_mean = sum / ticks;
     row->rate = 60;
     row->ns_second = row->ns_mean * 60;
+}
+
+static int time_ticks(chart_throng *t, chart_row *row)
+{
+    static double ns[MAX_TICKS];
+    uint32_t ticks = (uint32_t)fmin(MAX_TICKS, fmax(MIN_TICKS, TICK_STEPS / t->count));
+    for (uint32_t k = 0; k < WARM_UP_TICKS; k++) {
+        if (chart_throng_tick(t) < 0) return 0;
+    }
+    for (uint32_t k = 0; k < ticks; k++) {
+        double seconds = chart_throng_tick(t);
+        if (seconds < 0) return 0;
+        ns[k] = 1e9 * seconds / t->count;
+    }
+    put_times(row, ns, ticks);
     row->samples = (uint64_t)ticks * t->count;
     return 1;
 }
@@ -81,24 +89,18 @@ static double apart(const tahr_state *a, const tahr_state *b)
 
 static int compare_ticks(chart_throng *cheap, chart_throng *exact, chart_row *row, double *errors)
 {
-    double ns[BUDGET_TICKS], sum = 0;
+    double ns[BUDGET_TICKS];
     uint32_t count = 0;
     for (uint32_t k = 0; k < WARM_UP_TICKS + BUDGET_TICKS; k++) {
         double seconds = chart_throng_tick(cheap);
         if (seconds < 0 || chart_throng_tick(exact) < 0) return 0;
         if (k < WARM_UP_TICKS) continue;
         ns[k - WARM_UP_TICKS] = 1e9 * seconds / cheap->count;
-        sum += ns[k - WARM_UP_TICKS];
         for (uint32_t i = 0; i < cheap->count; i++) {
             errors[count++] = apart(&cheap->states[i], &exact->states[i]);
         }
     }
-    qsort(ns, BUDGET_TICKS, sizeof ns[0], by_value);
-    row->ns_p50 = ns[BUDGET_TICKS / 2];
-    row->ns_p99 = ns[BUDGET_TICKS - 1 - BUDGET_TICKS / 100];
-    row->ns_mean = sum / BUDGET_TICKS;
-    row->rate = 60;
-    row->ns_second = row->ns_mean * 60;
+    put_times(row, ns, BUDGET_TICKS);
     row->samples = count;
     chart_row_errors(row, errors, count);
     return 1;

@@ -168,22 +168,7 @@ def _table(peers: Sequence[Peer]) -> page.Table:
         "progress",
         "flips / s",
     ]
-    names = (
-        "ns_median",
-        "ns_p99",
-        "ns_cpu_mean",
-        "queries",
-        "tunnelled",
-        "embedded",
-        "invalid",
-        "left",
-        "stuck",
-        "deepest",
-        "clearance",
-        "progress",
-        "flips",
-    )
-    return page.Table(columns, [[p.course, p.method] + [p[n] for n in names] for p in peers if not p.left_out])
+    return page.Table(columns, [[p.course, p.method] + [p[n] for n in NUMBERS if n != "steps"] for p in peers if not p.left_out])
 
 
 def section(peers: Sequence[Peer], out: Path) -> str:
