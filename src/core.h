@@ -136,6 +136,10 @@ struct tahr_mover {
     size_t cache_size;
     uint32_t busy;
     uint32_t plain; /* 1: neither world nor config hold anything that a state remembers */
+    uint32_t may_stroll;
+    uint32_t stroll_rest;   /* steps that go the long way before the short one is tried again, */
+    uint32_t stroll_failed; /* and how often in a row it was of no use */
+    uint32_t reserved;
     tahr__custom custom;
     uint32_t record_round;         /* of the recording that has numbered it, */
     uint32_t record_number;        /* and the number */

@@ -21,6 +21,7 @@
 #include "request.h"
 #include "sleep.h"
 #include "stance.h"
+#include "stroll.h"
 #include "trail.h"
 #include "turning.h"
 
@@ -66,6 +67,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
+    mover->may_stroll = (uint32_t)tahr__may_stroll(world, config, &mover->limits);
     mover->cache = cache;
     mover->cache_size = cache_size;
     *out = mover;
@@ -321,6 +323,10 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
             tahr__sleep_report(mover, report);
         }
         return worst(mover->sleep.report.flags);
+    }
+    if (blank && usual && mover->may_stroll && !around && tahr__tries_stroll(mover) &&
+        tahr__stroll(mover, input, dt, state, report)) {
+        return TAHR_OK;
     }
     tahr__step step;
     tahr__pull pull;

@@ -33,12 +33,7 @@ static inline void set_law(tahr__path *w, const tahr__step *step)
         kept = length(wish) / size;
         size *= kept;
     }
-    w->law.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0);
-    w->law.speed = asked * kept;
-    w->law.acceleration = c->acceleration * kept;
-    w->law.turn_friction = c->turn_friction;
-    w->law.braking = c->braking_deceleration;
-    w->law.drag = c->braking_drag;
+    w->law = tahr__law_of_wish(c, wish, size, asked, kept);
 }
 
 /* Ramps are not merged as walls are: two faces that differ by a hair both carry, and the steeper one decides. */
@@ -167,14 +162,14 @@ static vec3 along_floor(const tahr__path *w, const tahr__step *step, vec3 level)
     if (rise == 0 && w->ease == 0 && climb == 0) {
         return level;
     }
-    double size = length(level);
-    vec3 lifted = add_scaled(level, step->state.up, rise + w->ease * size);
+    double size = length(level), whole = rise + w->ease * size;
     if (rise * rise > 1.5 * size * size) { /* steeper than 51 degrees is only walkable by an override, and never a
                                             * bevel */
         climb = rise;
     }
-    return step->config->keep_level_speed ? tahr__cap_rise(step, lifted, rise, size)
-                                          : scale(lifted, size / sqrt(size * size + climb * climb));
+    return step->config->keep_level_speed
+               ? tahr__cap_rise(step, add_scaled(level, step->state.up, whole), rise, size)
+               : tahr__lift(level, step->state.up, whole, climb);
 }
 
 /* m: heights that are rounding of the backends, and nothing to step up on. */

@@ -55,6 +55,25 @@ double tahr__path_look_ahead(tahr__step *step, const tahr__path *w);
 /* A wall was added to the set: the rest of the slice is a piece of its own. No query. */
 void tahr__path_bend(tahr__step *step, tahr__path *w);
 
+/* How a wish (m/s, across up, of `size`) is approached, of which walls leave the part `kept`: `asked` m/s. No query. */
+static inline tahr__law tahr__law_of_wish(const tahr_config *c, vec3 wish, double size, double asked, double kept)
+{
+    tahr__law law = {.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0),
+                     .speed = asked * kept,
+                     .acceleration = c->acceleration * kept,
+                     .turn_friction = c->turn_friction,
+                     .braking = c->braking_deceleration,
+                     .drag = c->braking_drag};
+    return law;
+}
+
+/* A level displacement with its rise, as long as it is level on a slope that it climbs by `climb`. No query. */
+static inline vec3 tahr__lift(vec3 level, vec3 up, double rise, double climb)
+{
+    double size = length(level);
+    return scale(add_scaled(level, up, rise), size / sqrt(size * size + climb * climb));
+}
+
 /* Takes the state's floor as the ramp that carries. No query. */
 void tahr__path_carry_floor(tahr__path *w, const tahr__step *step);
 

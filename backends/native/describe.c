@@ -208,7 +208,8 @@ static void describe_heights(uint32_t id, const tahr__heights *h, const tahr_log
 
 static const char *lanes_of(const tahr__native *world)
 {
-    return world->cull == tahr__lanes_cull_1 ? "scalar" : world->cull == tahr__lanes_cull_8 ? "AVX2" : "four lanes";
+    tahr__lanes_fn *cull = world->lanes->cull;
+    return cull == tahr__lanes_cull_1 ? "scalar" : cull == tahr__lanes_cull_8 ? "AVX2" : "four lanes";
 }
 
 tahr_status tahr__native_describe(void *self, const tahr_log *to)

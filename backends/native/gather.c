@@ -55,9 +55,14 @@ static tahr__prim *prims_of(const tahr__native *world, tahr__cache *cache)
     return (tahr__prim *)(void *)((unsigned char *)cache + header_bytes() + lanes_bytes(world));
 }
 
-const tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cache)
+tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cache)
 {
     return prims_of(world, cache);
+}
+
+tahr__lanes tahr__cache_lanes(tahr__cache *cache)
+{
+    return (tahr__lanes){blocks_of(cache), cache->count};
 }
 
 tahr__corners tahr__cache_corners(const tahr__native *world, tahr__cache *cache)
@@ -200,6 +205,8 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     cache->overflow = cache->count = 0;
     cache->plain = 1;
     cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
+    cache->vicinity.clear = -1;
+    cache->vicinity.patience = cache->vicinity.floor.length > 0 ? 0 : 2; /* so long until the foot has found a floor */
     g.search.query = &query;
     g.search.box = cache->local;
     g.search.reach = 0;
@@ -226,7 +233,10 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     tahr__cache *cache = context ? context->cache : NULL;
     if (!cache) return TAHR_OK;
     int keep = cache->announced && tahr__frame_holds(&cache->frame, p->position, p->up);
-    if (!keep) cache->frame = tahr__frame_make(world, p->position, p->up);
+    if (!keep) {
+        cache->frame = tahr__frame_make(world, p->position, p->up);
+        cache->vicinity.floor.length = cache->vicinity.floor.normal.z = 0;
+    }
     cache->announced = 1;
     if (world->no_cache) return TAHR_OK;
     keep = keep && cache->gathered && cache->revision == world->revision;
@@ -278,12 +288,12 @@ static void form_found(const tahr__query *query, tahr__prim *all, const tahr__la
 uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr__lanes_found *found)
 {
     const tahr__query *query = s->query;
-    tahr__lanes lanes = {blocks_of(query->cache), query->cache->count};
+    tahr__lanes lanes = tahr__cache_lanes(query->cache);
     tahr__prim *all = prims_of(query->world, query->cache);
     *prims = all;
     tahr__lanes_query q;
     lanes_query(s, &q);
-    uint32_t count = query->world->cull(&lanes, &q, found), kept = 0;
+    uint32_t count = query->world->lanes->cull(&lanes, &q, found), kept = 0;
     if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY &&
         query->sensors != TAHR__SENSORS_ONLY) {
         form_found(query, all, found, count);

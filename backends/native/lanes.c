@@ -77,28 +77,40 @@ static float box_distance(const tahr__lanes *lanes, uint32_t i, const float lo[3
     return (square[0] + square[1]) + square[2];
 }
 
+/* Where a segment is to a triangle: h above its plane, o beyond its farthest edge, and how fast both change. */
+typedef struct beside {
+    float h, o, h_rate, o_rate;
+} beside;
+
 /* By the plane and the farthest edge: seen along that edge the triangle is a ray, and the nearest point of the segment
  * lies h above its line and o beyond its end. The plane through that end across the way to the point separates them,
- * and the distance to it changes evenly. Returns the time before which it is out of reach; NEVER. */
-static float time_within(const tahr__lanes *lanes, uint32_t i, const tahr__lanes_query *q)
+ * and the distance to it changes evenly. */
+static beside beside_of(const tahr__lanes *lanes, uint32_t i, const tahr__lanes_query *q)
 {
     const float *s = q->start, *m = q->motion, *at = lanes->blocks + tahr__lane(i, TAHR__LANE_NORMAL);
     float x = at[0], y = at[TAHR__LANES], z = at[2 * TAHR__LANES];
     float height = ((x * s[0] + y * s[1]) + z * s[2]) - at[3 * TAHR__LANES];
-    float h = larger_1(larger_1(-height, height) - larger_1(-z, z) * q->half, 0);
-    float h_rate = (x * m[0] + y * m[1]) + z * m[2], o = 0, o_rate = 0;
+    beside b = {.h = larger_1(larger_1(-height, height) - larger_1(-z, z) * q->half, 0)};
+    b.h_rate = (x * m[0] + y * m[1]) + z * m[2];
     int below = lanes->blocks[tahr__lane(i, TAHR__LANE_HIGH + 2)] <= q->lowest;
-    h_rate = height < 0 ? -h_rate : h_rate;
+    b.h_rate = height < 0 ? -b.h_rate : b.h_rate;
     for (int k = 0; k < 3; k++) {
         at = lanes->blocks + tahr__lane(i, TAHR__LANE_EDGE + 4 * (uint32_t)k);
         x = at[0], y = at[TAHR__LANES], z = at[2 * TAHR__LANES];
         float out = ((x * s[0] + y * s[1]) + z * s[2]) - at[3 * TAHR__LANES];
         out = out - (below ? z : larger_1(-z, z)) * q->half;
         float rate = (x * m[0] + y * m[1]) + z * m[2];
-        o_rate = out > o ? rate : o_rate;
-        o = larger_1(out, o);
+        b.o_rate = out > b.o ? rate : b.o_rate;
+        b.o = larger_1(out, b.o);
     }
-    float away2 = h * h + o * o, gap = away2 - q->reach * sqrtf(away2), closing = -(h * h_rate + o * o_rate);
+    return b;
+}
+
+/* Returns the time before which it is out of reach; NEVER. */
+static float time_within(const beside *b, float reach)
+{
+    float away2 = b->h * b->h + b->o * b->o, gap = away2 - reach * sqrtf(away2);
+    float closing = -(b->h * b->h_rate + b->o * b->o_rate);
     if (!(gap > 0)) return 0;
     return gap <= closing ? gap / closing : NEVER;
 }
@@ -107,10 +119,23 @@ uint32_t tahr__lanes_cull_1(const tahr__lanes *lanes, const tahr__lanes_query *q
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < lanes->count; i++) {
-        float d = box_distance(lanes, i, query->lo, query->hi);
-        if (!(d <= query->limit)) continue;
-        float time = time_within(lanes, i, query);
+        if (!(box_distance(lanes, i, query->lo, query->hi) <= query->limit)) continue;
+        const beside b = beside_of(lanes, i, query);
+        float time = time_within(&b, query->reach);
         if (time <= 1) found[kept++] = (tahr__lanes_found){time, i};
+    }
+    return kept;
+}
+
+uint32_t tahr__lanes_near_1(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < lanes->count; i++) {
+        float box2 = box_distance(lanes, i, query->lo, query->hi);
+        if (!(box2 <= query->limit)) continue;
+        const beside b = beside_of(lanes, i, query);
+        float away = sqrtf(larger_1(b.h * b.h + b.o * b.o, box2));
+        if (away <= query->reach) found[kept++] = (tahr__lanes_found){away, i};
     }
     return kept;
 }
@@ -126,6 +151,11 @@ uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *q
     return lanes_cull(lanes, query, found);
 }
 
+uint32_t tahr__lanes_near_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+{
+    return lanes_near(lanes, query, found);
+}
+
 #else
 
 uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
@@ -133,12 +163,21 @@ uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *q
     return tahr__lanes_cull_1(lanes, query, found);
 }
 
+uint32_t tahr__lanes_near_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+{
+    return tahr__lanes_near_1(lanes, query, found);
+}
+
 #endif
 
-tahr__lanes_fn *tahr__lanes_best(void)
+const tahr__lanes_way *tahr__lanes_best(uint32_t no_simd)
 {
+    static const tahr__lanes_way ways[] = {{tahr__lanes_cull_1, tahr__lanes_near_1},
+                                           {tahr__lanes_cull_4, tahr__lanes_near_4},
+                                           {tahr__lanes_cull_8, tahr__lanes_near_8}};
+    if (no_simd) return &ways[0];
 #if defined(__GNUC__) && defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return tahr__lanes_cull_8;
+    if (__builtin_cpu_supports("avx2")) return &ways[2];
 #endif
-    return tahr__lanes_cull_4;
+    return &ways[1];
 }

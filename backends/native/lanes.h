@@ -55,11 +55,18 @@ typedef struct tahr__lanes_found {
 /* Writes all of them, in order, and returns how many. */
 typedef uint32_t tahr__lanes_fn(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found);
 
+/* cull, as above. near: of a segment at rest, whatever motion says; time: the distance (m) that box, plane and edges
+ * keep the primitive off it, within TAHR__LANE_SLACK. */
+typedef struct tahr__lanes_way {
+    tahr__lanes_fn *cull, *near;
+} tahr__lanes_way;
+
 /* The scalar twin; four lanes, which every machine has by its compiler's vectors; eight, where the processor has
  * AVX2. */
 tahr__lanes_fn tahr__lanes_cull_1, tahr__lanes_cull_4, tahr__lanes_cull_8;
+tahr__lanes_fn tahr__lanes_near_1, tahr__lanes_near_4, tahr__lanes_near_8;
 
-/* The fastest that this machine can run. */
-tahr__lanes_fn *tahr__lanes_best(void);
+/* The fastest that this machine can run; or the scalar twin. */
+const tahr__lanes_way *tahr__lanes_best(uint32_t no_simd);
 
 #endif

@@ -21,6 +21,11 @@ uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *q
     return lanes_cull(lanes, query, found);
 }
 
+uint32_t tahr__lanes_near_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+{
+    return lanes_near(lanes, query, found);
+}
+
 #if defined(__clang__)
 #pragma clang attribute pop
 #endif
@@ -30,6 +35,11 @@ uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *q
 uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
     return tahr__lanes_cull_4(lanes, query, found);
+}
+
+uint32_t tahr__lanes_near_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+{
+    return tahr__lanes_near_4(lanes, query, found);
 }
 
 #endif

@@ -29,46 +29,97 @@ static inline lane along(const float *row, const float v[3])
     return (at(row) * splat(v[0]) + at(row + TAHR__LANES) * splat(v[1])) + at(row + 2 * TAHR__LANES) * splat(v[2]);
 }
 
-/* As time_within of the scalar twin; near loses what stays out of reach. */
-static inline lane times_within(const float *block, const tahr__lanes_query *q, mask *near)
+/* As beside_of the scalar twin. */
+typedef struct besides {
+    lane h, o, h_rate, o_rate;
+} besides;
+
+static inline besides besides_of(const float *block, const tahr__lanes_query *q)
 {
     const float *n = block + TAHR__LANE_NORMAL * TAHR__LANES, *e = block + TAHR__LANE_EDGE * TAHR__LANES;
     lane zero = splat(0), half = splat(q->half), z = at(n + 2 * TAHR__LANES);
-    lane height = along(n, q->start) - at(n + 3 * TAHR__LANES);
-    lane h = larger(larger(-height, height) - larger(-z, z) * half, zero);
-    lane h_rate = along(n, q->motion), o = zero, o_rate = zero;
+    lane height = along(n, q->start) - at(n + 3 * TAHR__LANES), h_rate = along(n, q->motion);
+    besides b = {larger(larger(-height, height) - larger(-z, z) * half, zero), zero, h_rate, zero};
     mask below = at(block + (TAHR__LANE_HIGH + 2) * TAHR__LANES) <= splat(q->lowest);
-    h_rate = choose(height < zero, -h_rate, h_rate);
+    b.h_rate = choose(height < zero, -h_rate, h_rate);
     for (int k = 0; k < 3; k++, e += 4 * TAHR__LANES) {
         z = at(e + 2 * TAHR__LANES);
         lane out = along(e, q->start) - at(e + 3 * TAHR__LANES);
         out = out - choose(below, z, larger(-z, z)) * half;
-        o_rate = choose(out > o, along(e, q->motion), o_rate);
-        o = larger(out, o);
+        b.o_rate = choose(out > b.o, along(e, q->motion), b.o_rate);
+        b.o = larger(out, b.o);
     }
-    lane away2 = h * h + o * o, gap = away2 - splat(q->reach) * root(away2), closing = -(h * h_rate + o * o_rate);
-    mask later = gap > zero;
+    return b;
+}
+
+/* As time_within of the scalar twin; near loses what stays out of reach. */
+static inline lane times_within(const besides *b, float reach, mask *near)
+{
+    lane away2 = b->h * b->h + b->o * b->o, gap = away2 - splat(reach) * root(away2);
+    lane closing = -(b->h * b->h_rate + b->o * b->o_rate);
+    mask later = gap > splat(0);
     *near &= ~later | (gap <= closing);
     return (lane)((mask)(gap / closing) & later);
 }
 
+static inline uint32_t keep(mask near, lane value, uint32_t first, tahr__lanes_found *found)
+{
+    uint32_t kept = 0;
+    for (unsigned left = bits(near); left; left &= left - 1) {
+        unsigned k = (unsigned)__builtin_ctz(left);
+        found[kept++] = (tahr__lanes_found){value[k], first + k};
+    }
+    return kept;
+}
+
+/* The query's box in every lane. */
+typedef struct box_lanes {
+    lane lo[3], hi[3], most;
+} box_lanes;
+
+static inline box_lanes box_lanes_of(const tahr__lanes_query *q)
+{
+    return (box_lanes){{splat(q->lo[0]), splat(q->lo[1]), splat(q->lo[2])},
+                       {splat(q->hi[0]), splat(q->hi[1]), splat(q->hi[2])},
+                       splat(q->limit)};
+}
+
+/* Squared distances of the boxes of a block; unused lanes are far from everything. */
+static inline lane square_gaps(const float *block, const box_lanes *b)
+{
+    lane x = square_gap(block, 0, b->lo[0], b->hi[0]);
+    lane y = square_gap(block, 1, b->lo[1], b->hi[1]);
+    lane z = square_gap(block, 2, b->lo[2], b->hi[2]);
+    return (x + y) + z;
+}
+
 static inline uint32_t lanes_cull(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
-    lane lo0 = splat(query->lo[0]), lo1 = splat(query->lo[1]), lo2 = splat(query->lo[2]);
-    lane hi0 = splat(query->hi[0]), hi1 = splat(query->hi[1]), hi2 = splat(query->hi[2]), most = splat(query->limit);
+    const box_lanes box = box_lanes_of(query);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < lanes->count; i += WIDTH) {
         const float *block = lanes->blocks + tahr__lane(i, 0);
-        lane x = square_gap(block, 0, lo0, hi0);
-        lane y = square_gap(block, 1, lo1, hi1);
-        lane z = square_gap(block, 2, lo2, hi2);
-        mask near = (x + y) + z <= most; /* unused lanes are far from everything */
+        mask near = square_gaps(block, &box) <= box.most;
         if (!bits(near)) continue;
-        lane time = times_within(block, query, &near);
-        for (unsigned left = bits(near); left; left &= left - 1) {
-            unsigned k = (unsigned)__builtin_ctz(left);
-            found[kept++] = (tahr__lanes_found){time[k], i + k};
-        }
+        const besides b = besides_of(block, query);
+        lane time = times_within(&b, query->reach, &near);
+        kept += keep(near, time, i, found + kept);
+    }
+    return kept;
+}
+
+static inline uint32_t lanes_near(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+{
+    const box_lanes box = box_lanes_of(query);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < lanes->count; i += WIDTH) {
+        const float *block = lanes->blocks + tahr__lane(i, 0);
+        lane box2 = square_gaps(block, &box);
+        mask near = box2 <= box.most;
+        if (!bits(near)) continue;
+        const besides b = besides_of(block, query);
+        lane away = root(larger(b.h * b.h + b.o * b.o, box2));
+        kept += keep(near & (away <= splat(query->reach)), away, i, found + kept);
     }
     return kept;
 }

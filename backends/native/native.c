@@ -28,6 +28,9 @@ static const char *bad_option(const tahr_native_desc *d)
     if (d->no_fields > 1) {
         return "options.no_fields is neither 0 nor 1";
     }
+    if (d->no_vicinity > 1) {
+        return "options.no_vicinity is neither 0 nor 1";
+    }
     return d->cache_margin >= 0 && d->cache_margin <= 1e3 ? NULL : "options.cache_margin is not within 0 and 1000 m";
 }
 
@@ -47,7 +50,8 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
         ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
     world->no_cache = d.no_cache;
     world->no_fields = d.no_fields;
-    world->cull = d.no_simd ? tahr__lanes_cull_1 : tahr__lanes_best();
+    world->no_vicinity = d.no_vicinity;
+    world->lanes = tahr__lanes_best(d.no_simd);
     world->former = tahr__former_best(!d.no_simd);
     world->gather = d.gather;
     world->gather_user = d.gather_user;
@@ -126,6 +130,7 @@ const tahr_backend *tahr_backend_v1_native(void)
         .prepare = native_prepare,
         .place = native_place,
         .fluid = native_fluid,
+        .walk = tahr__native_walk,
         .describe = tahr__native_describe,
     };
     return &backend;

@@ -68,7 +68,8 @@ typedef struct tahr__native {
     uint32_t no_cache;
     uint32_t fixed_margin; /* 1: cache_margin is the margin, 0: the most it may be */
     uint32_t no_fields;    /* 1: meshes stay meshes */
-    tahr__lanes_fn *cull;
+    uint32_t no_vicinity;
+    const tahr__lanes_way *lanes;
     tahr__former former;
     double cache_margin;
     tahr__group fixed, movable;
@@ -152,6 +153,30 @@ typedef struct tahr__near {
 /* Triangles looked at around a corner; a fan larger than this is looked at in part. */
 enum { TAHR__FAN = 32 };
 
+/* A floor's plane, its normal up, not unit, and its length; all zero: none. */
+typedef struct tahr__level {
+    tahr_vec3 normal, at;
+    double length;
+} tahr__level;
+
+/* What was measured at a place where the character was (vicinity.c). */
+enum { TAHR__VICINITY_MOST = 8 };
+typedef struct tahr__vicinity {
+    tahr_vec3 at;      /* local, the middle of an upright segment */
+    double half;       /* of it */
+    double clear;      /* m to whatever is neither listed nor, with over, in or below the floor; <= 0: not known */
+    tahr__level floor; /* of this frame */
+    uint32_t over;     /* 1: what is in the plane of the floor or below it has been left out */
+    uint32_t patience; /* queries to pass by */
+    tahr_vec3 spot;    /* on the floor: within `alone` m (<= 0: none) nothing of it is but the triangle `under` */
+    double alone;
+    tahr_vec3 face;  /* the exact normal of that, toward the character */
+    uint32_t under;  /* index */
+    uint32_t failed; /* times that a place was no help, in a row */
+    uint32_t count, near[TAHR__VICINITY_MOST]; /* indices of the nearest, */
+    double far[TAHR__VICINITY_MOST];           /* and m to them */
+} tahr__vicinity;
+
 /* One character's memory: a header and, behind it, the lanes and the primitives (gather.c). */
 typedef struct tahr__cache {
     tahr__frame frame;
@@ -162,6 +187,7 @@ typedef struct tahr__cache {
     uint64_t revision;  /* of the user's triangles in it */
     double counted;     /* see tahr__margin_choose */
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
+    tahr__vicinity vicinity;
 } tahr__cache;
 
 /* Which bodies a query looks at: those that block, all, or sensors alone. */
@@ -250,13 +276,21 @@ typedef struct tahr__corners {
     uint32_t buckets; /* a power of two */
 } tahr__corners;
 tahr__corners tahr__cache_corners(const tahr__native *world, tahr__cache *cache);
-const tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cache);
+tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cache);
+tahr__lanes tahr__cache_lanes(tahr__cache *cache);
 uint32_t tahr__corner_bucket(const tahr__corners *corners, tahr_vec3 corner);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
 
 /* margin.c: how far around what was announced to gather; 0: there is too much for the cache: not within [out] margin.
  * counted: [in, out] where to begin counting, which was best last time; 0: anywhere. */
 int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *counted, double *margin);
+
+/* vicinity.c: what a sweep need not ask. */
+/* Most motions of a walker: nothing is near, or nothing but a face to come down on. Returns 1 and what a sweep would;
+ * 0: there is more to it, and nothing was found out. Looks around anew where that may help. */
+int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *count);
+/* The same from what is known already. */
+int tahr__vicinity_knows(const tahr__query *query, tahr_hit *hit, uint32_t *count);
 
 /* source.c: the triangles of the user. */
 /* Fills all but the walkable fields of a loose triangle; 0: it has no area. */
@@ -344,6 +378,9 @@ typedef struct tahr__ask {
     const double *beside;
 } tahr__ask;
 int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const tahr__ask *ask, tahr__found *out);
+/* The same of a point that comes down on the inside of a face (its exact unit normal), which is what most motions are
+ * stopped by, and asked at the time before which nothing happens: 1 if that is so, else nothing is said. */
+int tahr__probe_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3 face, double t, tahr__found *out);
 /* 1 if the primitive is within margin of the shape at its start. */
 int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double margin, tahr__found *out);
 /* Is a before b? Overlaps first, the deepest of them; then (fraction, body, feature). */
@@ -361,6 +398,8 @@ void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat or
 void tahr__fill_hit(const tahr__query *query, const tahr__found *found, tahr_hit *hit);
 tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const tahr_sweep *sweep, tahr_hit *hits,
                                uint32_t capacity, uint32_t *count);
+tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit,
+                              uint32_t *known);
 tahr_status tahr__native_contacts(void *self, tahr_query_context *context, const tahr_contact_query *query,
                                   tahr_contact *contacts, uint32_t capacity, uint32_t *count);
 /* describe.c */

@@ -241,6 +241,36 @@ static uint32_t ask_recent(sweep_state *s, const tahr__prim *prims, tahr__lanes_
     return count;
 }
 
+static void begin(sweep_state *s, const tahr__query *query)
+{
+    s->search.query = query;
+    s->search.box = tahr__query_box(query, 1.0);
+    s->search.reach = query->radius + query->margin;
+    s->search.narrowed = s->search.order = 0;
+    s->search.visit = visit;
+    s->limit = 1;
+    s->stopper = NULL;
+    s->hair = query->motion_length > 0 ? HAIR / query->motion_length : 0;
+    s->tied = s->sensor_count = s->lost = s->again = s->waiting = s->edged = s->sinks = 0;
+    s->beside = query->margin;
+    s->later = 2;
+}
+
+static void search_cache(sweep_state *s)
+{
+    const tahr__query *query = s->search.query;
+    const tahr__prim *prims;
+    tahr__lanes_found found[TAHR__CACHE_MOST];
+    uint32_t *recent = &query->cache->recent[query->core.axis_count != 1];
+    uint32_t count = tahr__cache_cull(&s->search, &prims, found);
+    count = ask_recent(s, prims, found, count, *recent);
+    for (uint32_t i = 0; i < count; i++) {
+        if (found[i].time <= s->limit) line_up(s, &prims[found[i].index]);
+    }
+    settle(s);
+    if (s->stopper) *recent = (uint32_t)(s->stopper - prims);
+}
+
 static void search(sweep_state *s)
 {
     const tahr__query *query = s->search.query;
@@ -248,20 +278,10 @@ static void search(sweep_state *s)
         if (query->ignore_body < query->world->body_count) tahr__tree_search_body(&s->search, query->ignore_body);
         return;
     }
-    if (tahr__cache_holds(&s->search)) {
-        const tahr__prim *prims;
-        tahr__lanes_found found[TAHR__CACHE_MOST];
-        uint32_t *recent = &query->cache->recent[query->core.axis_count != 1];
-        uint32_t count = tahr__cache_cull(&s->search, &prims, found);
-        count = ask_recent(s, prims, found, count, *recent);
-        for (uint32_t i = 0; i < count; i++) {
-            if (found[i].time <= s->limit) line_up(s, &prims[found[i].index]);
-        }
-        settle(s);
-        if (s->stopper) *recent = (uint32_t)(s->stopper - prims);
-    } else {
+    if (tahr__cache_holds(&s->search))
+        search_cache(s);
+    else
         tahr__search_fixed(&s->search);
-    }
     s->stopper = NULL;
     if (query->world->movable.count == 0) return;
     narrow(s);
@@ -327,21 +347,6 @@ static tahr_status report(sweep_state *s, tahr_hit *hits, uint32_t capacity, uin
     return truncated ? TAHR_TRUNCATED : TAHR_OK;
 }
 
-static void begin(sweep_state *s, const tahr__query *query)
-{
-    s->search.query = query;
-    s->search.box = tahr__query_box(query, 1.0);
-    s->search.reach = query->radius + query->margin;
-    s->search.narrowed = s->search.order = 0;
-    s->search.visit = visit;
-    s->limit = 1;
-    s->stopper = NULL;
-    s->hair = query->motion_length > 0 ? HAIR / query->motion_length : 0;
-    s->tied = s->sensor_count = s->lost = s->again = s->waiting = s->edged = s->sinks = 0;
-    s->beside = query->margin;
-    s->later = 2;
-}
-
 tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const tahr_sweep *sweep, tahr_hit *hits,
                                uint32_t capacity, uint32_t *count)
 {
@@ -360,6 +365,7 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.flags = sweep->flags;
     query.sensors = capacity > 1 ? TAHR__SENSORS_TOO : TAHR__SENSORS_NONE;
     if (sweep->flags & TAHR_SWEEP_SENSORS) query.sensors = TAHR__SENSORS_ONLY;
+    if (capacity > 0 && tahr__vicinity_answer(&query, hits, count)) return TAHR_OK;
     begin(&s, &query);
     run(&s);
     if (s.edged && s.sinks) { /* which edges hold was not known before all had been asked */

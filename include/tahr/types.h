@@ -91,6 +91,19 @@ typedef struct tahr_sweep {
     uint32_t reserved;
 } tahr_sweep;
 
+/* A walk and what is under its end, for backends that can answer both in one look: is the motion free, and what does the
+ * foot meet on its own motion from where it would be then? Fields as in two tahr_sweep without flags and without a body
+ * to ignore; the shapes are round. */
+typedef struct tahr_walk {
+    const tahr_shape *shape, *foot;
+    tahr_vec3 position, motion;
+    tahr_vec3 foot_position, foot_motion;
+    tahr_vec3 up;
+    double margin; /* m */
+    uint32_t mask;
+    uint32_t reserved;
+} tahr_walk;
+
 /* Contact query flags. SOLID: sensors are not there. DROP: one-way bodies are not there. */
 enum { TAHR_CONTACTS_SOLID = 1, TAHR_CONTACTS_DROP = 2 };
 
