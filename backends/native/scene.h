@@ -289,6 +289,15 @@ int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, 
 /* Most motions of a walker: nothing is near, or nothing but a face to come down on. Returns 1 and what a sweep would;
  * 0: there is more to it, and nothing was found out. Looks around anew where that may help. */
 int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *count);
+/* So many narrow tests did a sweep take that was not answered so: more than a floor needs, and it is not soon tried
+ * again. */
+static inline void tahr__vicinity_learn(const tahr__query *query, uint64_t tests)
+{
+    const uint32_t rough = 4;
+    if (query->cache && tests > (query->core.axis_count == 0) && query->cache->vicinity.patience < rough) {
+        query->cache->vicinity.patience = rough;
+    }
+}
 /* The same from what is known already. */
 int tahr__vicinity_knows(const tahr__query *query, tahr_hit *hit, uint32_t *count);
 

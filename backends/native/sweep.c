@@ -365,9 +365,11 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.flags = sweep->flags;
     query.sensors = capacity > 1 ? TAHR__SENSORS_TOO : TAHR__SENSORS_NONE;
     if (sweep->flags & TAHR_SWEEP_SENSORS) query.sensors = TAHR__SENSORS_ONLY;
+    const uint64_t before = context->narrow_tests;
     if (capacity > 0 && tahr__vicinity_answer(&query, hits, count)) return TAHR_OK;
     begin(&s, &query);
     run(&s);
+    tahr__vicinity_learn(&query, context->narrow_tests - before);
     if (s.edged && s.sinks) { /* which edges hold was not known before all had been asked */
         query.sinks = 1;
         begin(&s, &query);

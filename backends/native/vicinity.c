@@ -332,17 +332,18 @@ static int answer(const tahr__query *query, int way, tahr_hit *hit, uint32_t *co
 
 int tahr__vicinity_knows(const tahr__query *query, tahr_hit *hit, uint32_t *count)
 {
-    return serves(query) && answer(query, way_of(query), hit, count);
+    return query->cache->vicinity.patience == 0 && serves(query) && answer(query, way_of(query), hit, count);
 }
 
 int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *count)
 {
-    if (!serves(query)) return 0;
+    if (!query->cache) return 0;
     tahr__vicinity *v = &query->cache->vicinity;
     if (v->patience > 0) {
         v->patience--;
         return 0;
     }
+    if (!serves(query)) return 0;
     int way = way_of(query);
     if (way == UNKNOWN && query->motion_length <= LONGEST && is_stale(query)) {
         look_around(query);
