@@ -226,7 +226,7 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     tahr__cache *cache = context ? context->cache : NULL;
     if (!cache) return TAHR_OK;
     int keep = cache->announced && tahr__frame_holds(&cache->frame, p->position, p->up);
-    if (!keep) cache->frame = tahr__frame_make(world, p->position, p->up);
+    if (!keep) cache->frame = tahr__frame_make(p->position, p->up);
     cache->announced = 1;
     if (world->no_cache) return TAHR_OK;
     keep = keep && cache->gathered && cache->revision == world->revision;
@@ -254,8 +254,7 @@ static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
     q->motion[1] = (float)query->motion.y;
     q->motion[2] = (float)query->motion.z;
     q->half = (float)query->half;
-    /* Less twice what rounding may have moved a corner by. */
-    q->lowest = d_down(s->box.min.z - 2 * TAHR__SLACK);
+    q->lowest = d_down(s->box.min.z);
     /* Boxes are not upright segments: their planes are looked at in double. */
     q->reach = query->core.axis_count < 2 ? (float)(s->reach + TAHR__LANE_SLACK + 1e-6 * query->motion_length) : 1e30f;
 }

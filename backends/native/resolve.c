@@ -12,11 +12,10 @@
 /* What rounding makes of the difference of two places some metres away, and more: at less than 0.1 um it turns a normal
  * by more than NEARER. */
 #define ROUNDING 1e-14
-/* Contact normals this close to a face's normal are that face's: below it lies what rounding corners to float (2.4e-7 m
- * over a few centimetres) or to double makes of a flat surface. Without it a walker would feel that it is made of
- * triangles. */
-#define SNAP_FLOAT 3e-5
-#define SNAP_DOUBLE 1e-7
+/* Contact normals this close to a face's normal are that face's: below it lies what rounding makes of a flat surface
+ * whose corners are known to 2e-9 m (at 1e7 m) over a few centimetres. Without it a walker would feel that it is made
+ * of triangles. */
+#define SNAP 1e-7
 /* However near, where rounding turns a normal more: what leans by more is no face's. */
 #define SNAP_MOST 1e-2
 enum { FAN = TAHR__FAN };
@@ -175,10 +174,9 @@ static void look_around(work *w, const tahr__witness *witness)
 }
 
 /* What rounding makes of a normal. */
-static double snap_at(const tahr__query *query, double distance)
+static double snap_at(double distance)
 {
-    if (query->frame->round) return SNAP_FLOAT;
-    return ROUNDING < SNAP_MOST * distance ? d_max(SNAP_DOUBLE, ROUNDING / distance) : SNAP_MOST;
+    return ROUNDING < SNAP_MOST * distance ? d_max(SNAP, ROUNDING / distance) : SNAP_MOST;
 }
 
 int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
@@ -199,7 +197,7 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
         if (fabs(facing) > 0.999) out->normal = own;
         return TAHR__ACCEPTED;
     }
-    double snap = snap_at(query, witness->distance);
+    double snap = snap_at(witness->distance);
     work w;
     w.query = query;
     w.prim = prim;

@@ -116,7 +116,7 @@ static choice choose(double cell, const tahr_native_desc *options)
     assert_int_equal(fixture_open(&f, &body, 1, options, 0), TAHR_OK);
     memset(&query, 0, sizeof query);
     query.world = f.self;
-    query.own_frame = tahr__frame_make(f.self, box.min, v_make(0, 0, 1));
+    query.own_frame = tahr__frame_make(box.min, v_make(0, 0, 1));
     query.frame = &query.own_frame;
     query.mask = 0xFFFFFFFFu;
     c.fits = tahr__margin_choose(&query, &box, &counted, &c.margin);
