@@ -26,13 +26,13 @@ static double slope(double x, double y)
 }
 
 /* Walks a plane that is made of triangles, projecting each motion on the plane: never blocked, never closer. */
-static void walk_plane(double (*height)(double, double), tahr_vec3 normal, uint32_t precision)
+static void walk_plane(double (*height)(double, double), tahr_vec3 normal)
 {
     fixture f;
     static native_grid grid;
     tahr_body_desc body = native_grid_body(&grid, 8, 0.5, height);
     body.pose.position = v_make(100.0 / 3, -7.0 / 3, 0.1);
-    native_open(&f, &body, 1, precision, 1);
+    native_open(&f, &body, 1, 1);
     normal = v_unit(normal);
     tahr_shape shape = fixture_shape(TAHR_SHAPE_CAPSULE, 0.3, 0.9);
     oracle_random r = {4};
@@ -56,17 +56,15 @@ static void walk_plane(double (*height)(double, double), tahr_vec3 normal, uint3
     }
     double foot = p.z - 0.6 - o.z;
     double clearance = normal.z * foot + normal.x * (p.x - o.x) + normal.y * (p.y - o.y) - 0.3;
-    assert_true(fabs(clearance - 0.01) < 1e-5);
+    assert_true(fabs(clearance - 0.01) < 1e-9);
     native_close(&f);
 }
 
 static void a_walker_neither_sticks_nor_creeps(void **state)
 {
     (void)state;
-    for (uint32_t precision = 0; precision < 2; precision++) {
-        walk_plane(NULL, v_make(0, 0, 1), precision);
-        walk_plane(slope, v_make(-0.37, -0.21, 1), precision);
-    }
+    walk_plane(NULL, v_make(0, 0, 1));
+    walk_plane(slope, v_make(-0.37, -0.21, 1));
 }
 
 /* Over points of edges and corners, where the nearest point is on the edge of two triangles or more: rounding must not
@@ -75,29 +73,26 @@ static void edges_of_a_flat_surface_are_not_felt(void **state)
 {
     (void)state;
     const tahr_vec3 normal = v_unit(v_make(-0.37, -0.21, 1));
-    for (uint32_t precision = 0; precision < 2; precision++) {
-        fixture f;
-        static native_grid grid;
-        oracle_random r = {6};
-        tahr_body_desc body = native_grid_body(&grid, 8, 0.5, slope);
-        body.pose.position = v_make(100.0 / 3, -7.0 / 3, 0.1);
-        native_open(&f, &body, 1, precision, 0);
-        for (int n = 0; n < 3000; n++) {
-            double x = 0.5 * (2 + oracle_below(&r, 5)), y = 0.5 * (2 + oracle_below(&r, 5)),
-                   t = oracle_uniform(&r, 0, 0.5);
-            if (n % 4 == 1) x += t;         /* an edge along x */
-            if (n % 4 == 2) y += t;         /* along y */
-            if (n % 4 == 3) x += t, y += t; /* a diagonal */
-            tahr_vec3 foot = v_add(body.pose.position, v_make(x, y, slope(x, y)));
-            tahr_vec3 at = v_mad(foot, normal, 0.3 + (n % 3 ? 0.01 : 0.0099));
-            tahr_vec3 m = dice_vec(&r, -0.1, 0.1);
-            m = v_sub(m, v_scale(normal, v_dot(m, normal)));
-            tahr_sweep q = fixture_sweep(fixture_shape(TAHR_SHAPE_SPHERE, 0.3, 0.3), at, m, 0.01);
-            tahr_hit h = fixture_hit(&f, &q);
-            if (h.blocking) fail_msg("precision %u sweep %d blocked at %g", precision, n, h.fraction);
-        }
-        native_close(&f);
+    fixture f;
+    static native_grid grid;
+    oracle_random r = {6};
+    tahr_body_desc body = native_grid_body(&grid, 8, 0.5, slope);
+    body.pose.position = v_make(100.0 / 3, -7.0 / 3, 0.1);
+    native_open(&f, &body, 1, 0);
+    for (int n = 0; n < 3000; n++) {
+        double x = 0.5 * (2 + oracle_below(&r, 5)), y = 0.5 * (2 + oracle_below(&r, 5)), t = oracle_uniform(&r, 0, 0.5);
+        if (n % 4 == 1) x += t;         /* an edge along x */
+        if (n % 4 == 2) y += t;         /* along y */
+        if (n % 4 == 3) x += t, y += t; /* a diagonal */
+        tahr_vec3 foot = v_add(body.pose.position, v_make(x, y, slope(x, y)));
+        tahr_vec3 at = v_mad(foot, normal, 0.3 + (n % 3 ? 0.01 : 0.0099));
+        tahr_vec3 m = dice_vec(&r, -0.1, 0.1);
+        m = v_sub(m, v_scale(normal, v_dot(m, normal)));
+        tahr_sweep q = fixture_sweep(fixture_shape(TAHR_SHAPE_SPHERE, 0.3, 0.3), at, m, 0.01);
+        tahr_hit h = fixture_hit(&f, &q);
+        if (h.blocking) fail_msg("sweep %d blocked at %g", n, h.fraction);
     }
+    native_close(&f);
 }
 
 /* A gentle ramp is near with the edge that it shares with the floor before it is with its face. */
@@ -107,7 +102,7 @@ static void meet_ramp(double rise)
     static native_grid grid;
     ridge_rise = rise;
     tahr_body_desc body = native_grid_body(&grid, 8, 0.5, ridge);
-    native_open(&f, &body, 1, TAHR_NATIVE_DOUBLE, 0);
+    native_open(&f, &body, 1, 0);
     tahr_shape shape = fixture_shape(TAHR_SHAPE_CAPSULE, 0.3, 0.9);
     double s = sqrt(1 + rise * rise);
     for (int n = 0; n < 200; n++) {
@@ -138,7 +133,7 @@ static void edges_report_the_face_that_opposes(void **state)
     (void)state;
     fixture f;
     tahr_body_desc body = native_box(v_make(0, 0, 0), v_make(1, 1, 0.5));
-    native_open(&f, &body, 1, TAHR_NATIVE_DOUBLE, 0);
+    native_open(&f, &body, 1, 0);
     /* The lower cap meets the upper edge of the box from the side: riser; from above: tread. */
     tahr_sweep q = fixture_sweep(fixture_shape(TAHR_SHAPE_CAPSULE, 0.3, 0.9), v_make(-3, 0, 1.3), v_make(3, 0, 0), 0.0);
     tahr_hit h = fixture_hit(&f, &q);
