@@ -12,10 +12,13 @@
 /* What rounding makes of the difference of two places some metres away, and more: at less than 0.1 um it turns a normal
  * by more than NEARER. */
 #define ROUNDING 1e-14
-/* Contact normals this close to a face's normal are that face's: below it lies what rounding makes of a flat surface
- * whose corners are known to 2e-9 m (at 1e7 m) over a few centimetres. Without it a walker would feel that it is made
- * of triangles. */
-#define SNAP 1e-7
+/* Contact normals this close to a face's normal are that face's: who passes an edge along its face then comes nearer to
+ * it by at most half the square of this of the radius, 4.5e-10 m for a metre, half of what the narrow phase promises. It
+ * must be more than the square root of TAHR__ARRIVED / radius: who comes down into a gap that is exactly as wide as
+ * itself has arrived at both edges at once where their normals lean by as much (1.7e-5 for 0.36 m), and would hang
+ * there. And more than what rounding makes of a flat surface (1e-7 of corners known to 2e-9 m, at 1e7 m, over a few
+ * centimetres), else a walker would feel that it is made of triangles. */
+#define SNAP 3e-5
 /* However near, where rounding turns a normal more: what leans by more is no face's. */
 #define SNAP_MOST 1e-2
 enum { FAN = TAHR__FAN };

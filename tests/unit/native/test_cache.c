@@ -66,7 +66,7 @@ static void caches_and_lanes_change_no_bit(void **state)
     }
     oracle_random r = {3};
     tahr_vec3 p = v_make(6, 6, 1.2);
-    for (int n = 0; n < 6000; n++) {
+    for (int n = 0; n < 12000; n++) {
         tahr_sweep q = fixture_sweep(native_shape(n % 11 == 0 ? 2 : n % 3 == 0 ? 0 : 1), p, v_make(0, 0, 0), 0.01);
         q.motion = dice_vec(&r, -0.5, 0.4);
         if (n % 50 == 0) q.motion.x = 4;

@@ -112,7 +112,6 @@ static void a_field_takes_its_own_path(void **state)
     tahr_native_desc options = fixture_options();
     page p;
     describe(&body, 1, &options, &p);
-    assert_says(&p, "double corners");
     assert_says(&p, "body 0: field of 2 x 2 heights, 2 triangles less its holes; path: straight from the grid");
     options.no_fields = 1;
     describe(&body, 1, &options, &p);

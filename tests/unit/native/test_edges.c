@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "native_world.h"
+#include "rig.h"
 
 static double ridge_rise;
 
@@ -147,6 +148,30 @@ static void edges_report_the_face_that_opposes(void **state)
     native_close(&f);
 }
 
+/* Two tables whose edges are exactly a character and its skin on either side apart, and a character whose lower sphere
+ * has its centre `up` above them, somewhere in the room that is left there (up * up / 0.36 m), pushing to the side. The
+ * normals of both edges lean by up / 0.36: no motion is along both, and yet nothing is in the way down. */
+static void who_is_as_wide_as_a_gap_falls_through_it(void **unused)
+{
+    static const double pushes[] = {0, 1, -0.01}, rates[] = {60, 240};
+    const double half_width = 0.35 + 0.01;
+    tahr_body_desc tables[2] = {native_box(v_make(0, 1.16, -5), v_make(5, 0.8, 5)),
+                                native_box(v_make(0, -1.16, -5), v_make(5, 0.8, 5))};
+    (void)unused;
+    for (int n = 0; n < 49 * 5 * 3 * 2; n++) {
+        double up = 1e-9 * pow(10, n % 49 / 6.0), side = 0.25 * (n / 49 % 5 - 2) * up * up / half_width;
+        double rate = rates[n / (49 * 15)], start = up + 0.55;
+        rig r;
+        rig_open_bodies(&r, tables, 2, NULL, v_make(0.3, side, start));
+        r.input.move = v_make(-0.04, pushes[n / (49 * 5) % 3], 0);
+        for (int i = 0; i < rate; i++)
+            rig_step(&r, 1 / rate);
+        double fallen = start - r.state.position.z;
+        if (!(fallen > 1)) fail_msg("from %g above, %g aside: fell %g m in a second", up, side, fallen);
+        rig_close(&r);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -154,6 +179,7 @@ int main(void)
         cmocka_unit_test(edges_of_a_flat_surface_are_not_felt),
         cmocka_unit_test(a_ramp_is_met_when_standing_closer_than_the_margin),
         cmocka_unit_test(edges_report_the_face_that_opposes),
+        cmocka_unit_test(who_is_as_wide_as_a_gap_falls_through_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
