@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * fuzz_engines.c: the same scene on native in double and on every other engine of this build: the same answers within
+ * fuzz_engines.c: the same scene on native and on every other engine of this build: the same answers within
  * the contract. Three of four scenes are of three dimensions, the others of two: those native has drawn out into space.
  * Where two engines stop at different fractions, each is judged by the distance that the other measures there: at a
  * graze the fraction may be far off and do no harm. */
