@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * form_kernel.h: boxes and planes of WIDTH triangles in vectors of doubles, for a file that has said how wide they
- * are: WIDTH, lane, mask, root, choose (m ? a : b), lower (a < b ? a : b), higher (a > b ? a : b), put, load. The
- * operations of tahr__map_point, tahr__facet_finish and tahr__lanes_put in their order. */
+ * are: WIDTH, lane, mask, root, lower (a < b ? a : b), higher (a > b ? a : b), put, load. The operations of
+ * tahr__map_point, tahr__facet_finish and tahr__lanes_put in their order. */
 
 typedef struct vec {
     lane x, y, z;
