@@ -17,8 +17,8 @@
 /* A motion at less than this slope to a surface is parallel to it: a thousand times the rounding of a motion that was
  * projected onto the surface in double, and a creep of 1e-12 of the way. */
 #define TAHR__PARALLEL 1e-12
-/* Searches reach farther by this: a place within 1e7 m, turned from body to frame and back, each by a dozen roundings of
- * 1e-16 of it, comes back up to 2e-7 m off. */
+/* Searches reach farther by this: a place within 1e7 m, turned from body to frame and back, comes back up to 2e-7 m off by
+ * the sum of its roundings, 1.1e-16 of it each (the worst of three million was 2e-8 m off). */
 #define TAHR__SLACK 1e-6
 
 typedef struct tahr__body {
