@@ -133,7 +133,7 @@ format:
 help:
 	@echo "make              build the library and the shell into $(BUILD)/"
 	@echo "make run          walk the bundled playground; leaves $(BUILD)/run.svg and $(BUILD)/run.csv"
-	@echo "                  LEVEL=file  UP=y|z  BACKEND=native|native-double|ccd|fcl|a plugin's path  ARGS='more options'"
+	@echo "                  LEVEL=file  UP=y|z  BACKEND=native|ccd|fcl|a plugin's path  ARGS='more options'"
 	@echo "make run-2d       a tour through the bundled side-scroller; leaves $(BUILD)/run-2d.svg and $(BUILD)/run-2d.csv"
 	@echo "                  LEVEL=file.tmj (of Tiled)  BACKEND=native|ccd|fcl|box2d|box2d-2  ARGS='more options'"
 	@echo "make test         all tests but the long ones"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * fuzz_engines.c: the same scene on native in double and on every other engine of this build: the same answers within
+ * fuzz_engines.c: the same scene on native and on every other engine of this build: the same answers within
  * the contract. Three of four scenes are of three dimensions, the others of two: those native has drawn out into space.
  * Where two engines stop at different fractions, each is judged by the distance that the other measures there: at a
  * graze the fraction may be far off and do no harm. */
@@ -17,8 +17,6 @@ enum { MOST_QUERIES = 24, SAMPLES = 8, MOST_CONTACTS = 8 };
 
 /* m: gaps may differ by 1e-4 of the size of the shape, and the corners of scenes lie within some metres. */
 static const double SLACK = 1e-4;
-
-static const tahr_native_desc in_double = {.struct_size = sizeof in_double, .precision = TAHR_NATIVE_DOUBLE};
 
 static const tahr_backend *engine(int i)
 {
@@ -161,7 +159,7 @@ static void try_space(bytes *b)
     /* Two-sided: who is behind a one-sided face is beside nothing for one engine and inside for another. */
     scene_read(&s, b, SCENE_TWO_SIDED | SCENE_NEAR);
     questions_read(&q, &s, b);
-    tahr_world *native = scene_open(&s, engine(0), &in_double);
+    tahr_world *native = scene_open(&s, engine(0), NULL);
     for (int i = 1; native && i < 3; i++) {
         tahr_world *world = engine(i) ? scene_open(&s, engine(i), NULL) : NULL;
         compare_all(native, world, &q, world ? tahr_world_backend_name(world) : "nobody");
@@ -178,7 +176,7 @@ static void try_plane(bytes *b)
     questions_read(&q, &f.plane, b);
     for (int k = 0; k < q.count; k++)
         q.sweeps[k] = flat_sweep(&q.sweeps[k]);
-    tahr_world *native = scene_open(&f.space, engine(0), &in_double);
+    tahr_world *native = scene_open(&f.space, engine(0), NULL);
     const tahr_box2d_desc three = {.struct_size = sizeof three, .engine = TAHR_BOX2D_3};
     compare_all(native, scene_open(&f.plane, tahr_backend_v1_box2d(), &three), &q, "box2d 3");
     const tahr_box2d_desc two = {.struct_size = sizeof two, .engine = TAHR_BOX2D_2};

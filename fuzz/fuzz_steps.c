@@ -15,9 +15,8 @@ enum { MOST_STEPS = 200, EVENTS = 64, RECORDS = TAHR_MAX_QUERIES_PER_STEP + TAHR
 /* Every so many steps the sweeps are measured by brute force: so many of them, at so many places on their ways. */
 enum { JUDGED_STEPS = 8, JUDGED_SWEEPS = 8, PLACES = 3 };
 
-static const tahr_native_desc fast = {.struct_size = sizeof fast, .precision = TAHR_NATIVE_FLOAT};
-static const tahr_native_desc plain = {
-    .struct_size = sizeof plain, .precision = TAHR_NATIVE_FLOAT, .no_cache = 1, .no_simd = 1};
+static const tahr_native_desc fast = {.struct_size = sizeof fast};
+static const tahr_native_desc plain = {.struct_size = sizeof plain, .no_cache = 1, .no_simd = 1};
 
 /* The same step, in a world with and one without shortcuts. */
 typedef struct twin {

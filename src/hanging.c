@@ -21,8 +21,8 @@ static const double INSET = 0.1;
 /* Of the width: how far behind that place a climb ends, if nothing is in the way. */
 static const double ONTO = 0.5;
 
-/* Of skin: off the wall before rising along it, so that rounding (2e-6 m in single precision) meets no edge on the
- * way. */
+/* Of skin: off the wall before rising along it, so that the rounding of an engine in single precision (2e-6 m)
+ * meets no edge on the way. */
 static const double CLEAR = 1e-3;
 
 /* m, of a height on an arc that was solved for it. */

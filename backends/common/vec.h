@@ -107,15 +107,6 @@ static inline float d_up(double x)
     return (float)(x + (fabs(x) * 2.4e-7 + 1e-30));
 }
 
-/* x rounded to the 24 bits of a float, kept in a double (|x| < 1e30). By Dekker's splitting and not by a cast to float
- * and back: gcc 12 drops that pair where it vectorises (-O2 and up), and the bits would depend on the compiler. */
-static inline double d_round_to_float(double x)
-{
-    double c = x * 536870913.0; /* 2^29 + 1 */
-    /* What a float could only hold as a denormal, with fewer bits, is zero. */
-    return fabs(x) < 1e-30 ? 0 : c - (c - x);
-}
-
 /* Rows of a rotation matrix. */
 typedef struct tahr__mat {
     tahr_vec3 row[3];

@@ -130,7 +130,7 @@ static dense find_densest(const tahr__native *world, uint32_t id)
         tahr__query query;
         memset(&query, 0, sizeof query);
         query.world = world;
-        query.own_frame = tahr__frame_make(world, at, v_make(0, 0, 1));
+        query.own_frame = tahr__frame_make(at, v_make(0, 0, 1));
         query.frame = &query.own_frame;
         query.mask = 0xFFFFFFFFu;
         uint32_t count = tahr__tree_count(&query, &world->fixed, &box, TAHR__CACHE_MOST);
@@ -220,8 +220,8 @@ tahr_status tahr__native_describe(void *self, const tahr_log *to)
     enum { TYPES = sizeof types / sizeof types[0] };
     const tahr__native *world = self;
     char text[256];
-    int n = snprintf(text, sizeof text, "native, 3D, %s, %s corners: %u movable and %u static bodies,", lanes_of(world),
-                     world->round ? "float" : "double", (unsigned)world->movable.count, (unsigned)world->fixed.count);
+    int n = snprintf(text, sizeof text, "native, 3D, %s: %u movable and %u static bodies,", lanes_of(world),
+                     (unsigned)world->movable.count, (unsigned)world->fixed.count);
     for (int t = 0; t < TYPES; t++) {
         uint32_t count = 0;
         for (uint32_t i = 0; i < world->body_count; i++)

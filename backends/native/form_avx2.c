@@ -26,11 +26,6 @@ static inline lane root(lane a)
     return (lane)_mm256_sqrt_pd((__m256d)a);
 }
 
-static inline lane choose(mask m, lane a, lane b)
-{
-    return (lane)_mm256_blendv_pd((__m256d)b, (__m256d)a, (__m256d)m);
-}
-
 static inline lane lower(lane a, lane b)
 {
     return (lane)_mm256_min_pd((__m256d)a, (__m256d)b);

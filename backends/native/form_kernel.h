@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * form_kernel.h: boxes and planes of WIDTH triangles in vectors of doubles, for a file that has said how wide they
- * are: WIDTH, lane, mask, root, choose (m ? a : b), lower (a < b ? a : b), higher (a > b ? a : b), put, load. The
- * operations of tahr__map_point, tahr__facet_finish and tahr__lanes_put in their order. */
+ * are: WIDTH, lane, mask, root, lower (a < b ? a : b), higher (a > b ? a : b), put, load. The operations of
+ * tahr__map_point, tahr__facet_finish and tahr__lanes_put in their order. */
 
 typedef struct vec {
     lane x, y, z;
@@ -37,13 +37,6 @@ static inline lane row(tahr_vec3 r, vec v)
     return r.x * v.x + r.y * v.y + r.z * v.z;
 }
 
-/* d_round_to_float */
-static inline lane to_float(lane x)
-{
-    lane c = x * 536870913.0;
-    return (lane)((mask)(c - (c - x)) & ~(mask)(size(x) < 1e-30));
-}
-
 static inline mask near(vec p)
 {
     return (mask)(size(p.x) <= 32.0) & (mask)(size(p.y) <= 32.0) & (mask)(size(p.z) <= 32.0);
@@ -51,12 +44,9 @@ static inline mask near(vec p)
 
 static inline vec corner(const tahr__map *map, const double at[3][TAHR__FORMED])
 {
-    vec v = {load(at[0]), load(at[1]), load(at[2])}, p;
+    vec v = {load(at[0]), load(at[1]), load(at[2])};
     if (map->turned) v = (vec){row(map->turn.row[0], v), row(map->turn.row[1], v), row(map->turn.row[2], v)};
-    p = (vec){map->offset.x + v.x, map->offset.y + v.y, map->offset.z + v.z};
-    if (!map->round) return p;
-    mask m = near(p);
-    return (vec){choose(m, to_float(p.x), p.x), choose(m, to_float(p.y), p.y), choose(m, to_float(p.z), p.z)};
+    return (vec){map->offset.x + v.x, map->offset.y + v.y, map->offset.z + v.z};
 }
 
 static inline void put_down(float *to, lane a, lane b, lane c)

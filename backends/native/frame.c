@@ -4,12 +4,12 @@
 
 #include <string.h>
 
-/* Side of a cell (m): small enough that a float has 2.4e-7 m steps in it, large enough to be left seldom. */
+/* Side of a cell (m). All is relative to its corner, so that what is moved by whole cells keeps its bits, that the float
+ * lanes tell as much apart far out as near the origin (2.4e-7 m within a cell), and that the rest is computed with
+ * numbers of a few metres. A power of two: places on a grid stay exact. Large enough to be left seldom. */
 #define CELL 4.0
-/* Coordinates up to this are rounded to float (steps of 1.9e-6 m just below it), larger ones keep double. */
-#define FLOAT_RANGE 32.0
 
-tahr__frame tahr__frame_make(const tahr__native *world, tahr_vec3 position, tahr_vec3 up)
+tahr__frame tahr__frame_make(tahr_vec3 position, tahr_vec3 up)
 {
     tahr__frame frame;
     /* + 0.0: never minus zero, so that the same cell is the same bits. */
@@ -17,8 +17,8 @@ tahr__frame tahr__frame_make(const tahr__native *world, tahr_vec3 position, tahr
                           floor(position.z / CELL) * CELL + 0.0);
     frame.up = up;
     frame.turned = !(up.x == 0 && up.y == 0 && up.z == 1);
-    frame.turn = frame.turned ? m_upright(up) : m_identity();
-    frame.round = world->round;
+    /* Callers' axes are unit within 1e-9, which of a place 1e6 m away from its body's origin is a millimetre. */
+    frame.turn = frame.turned ? m_upright(v_unit(up)) : m_identity();
     return frame;
 }
 
@@ -34,7 +34,6 @@ tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body)
     tahr__map map;
     map.offset = v_sub(body->position, frame->origin);
     map.turned = frame->turned || body->turned;
-    map.round = frame->round;
     if (frame->turned) {
         map.offset = m_apply(&frame->turn, map.offset);
         map.turn = body->turned ? m_mul(&frame->turn, &body->turn) : frame->turn;
@@ -49,7 +48,6 @@ tahr__map tahr__map_fixed(const tahr__frame *frame)
     tahr__map map;
     map.offset = v_sub(v_make(0, 0, 0), frame->origin);
     map.turned = frame->turned;
-    map.round = frame->round;
     map.turn = frame->turn;
     if (frame->turned) map.offset = m_apply(&frame->turn, map.offset);
     return map;
@@ -58,11 +56,7 @@ tahr__map tahr__map_fixed(const tahr__frame *frame)
 /* Per vertex, so that triangles that share one still share it after rounding. */
 tahr_vec3 tahr__map_point(const tahr__map *map, tahr_vec3 v)
 {
-    tahr_vec3 p = v_add(map->offset, map->turned ? m_apply(&map->turn, v) : v);
-    if (map->round && (fabs(p.x) <= FLOAT_RANGE) & (fabs(p.y) <= FLOAT_RANGE) & (fabs(p.z) <= FLOAT_RANGE)) {
-        p = v_make(d_round_to_float(p.x), d_round_to_float(p.y), d_round_to_float(p.z));
-    }
-    return p;
+    return v_add(map->offset, map->turned ? m_apply(&map->turn, v) : v);
 }
 
 void tahr__map_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr_vec3 v[3])

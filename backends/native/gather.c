@@ -234,7 +234,7 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     if (!cache) return TAHR_OK;
     int keep = cache->announced && tahr__frame_holds(&cache->frame, p->position, p->up);
     if (!keep) {
-        cache->frame = tahr__frame_make(world, p->position, p->up);
+        cache->frame = tahr__frame_make(p->position, p->up);
         cache->vicinity.floor.length = cache->vicinity.floor.normal.z = 0;
     }
     cache->announced = 1;
@@ -264,8 +264,7 @@ static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
     q->motion[1] = (float)query->motion.y;
     q->motion[2] = (float)query->motion.z;
     q->half = (float)query->half;
-    /* Less twice what rounding may have moved a corner by. */
-    q->lowest = d_down(s->box.min.z - 2 * TAHR__SLACK);
+    q->lowest = d_down(s->box.min.z);
     /* Boxes are not upright segments: their planes are looked at in double. */
     q->reach = query->core.axis_count < 2 ? (float)(s->reach + TAHR__LANE_SLACK + 1e-6 * query->motion_length) : 1e30f;
 }

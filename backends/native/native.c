@@ -13,8 +13,8 @@ enum { CAPACITY_DEFAULT = 128, CAPACITY_MAX = TAHR__CACHE_MOST };
 /* Says what is wrong with the options, or NULL. */
 static const char *bad_option(const tahr_native_desc *d)
 {
-    if (d->precision > TAHR_NATIVE_DOUBLE) {
-        return "options.precision is neither TAHR_NATIVE_FLOAT nor TAHR_NATIVE_DOUBLE";
+    if (d->reserved != 0) {
+        return "options.reserved is not 0";
     }
     if (d->cache_triangles > CAPACITY_MAX) {
         return "options.cache_triangles is above 4096";
@@ -45,7 +45,6 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
         tahr__log_error(host, bad);
         return TAHR_E_ARGUMENT;
     }
-    world->round = d.precision == TAHR_NATIVE_FLOAT;
     world->capacity =
         ((d.cache_triangles ? d.cache_triangles : CAPACITY_DEFAULT) + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
     world->no_cache = d.no_cache;

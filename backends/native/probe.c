@@ -16,10 +16,8 @@ enum { ITERATIONS = 64, TARGETS = 5 };
 /* Of the sizes of two boxes: nearer than this they touch. Their faces leave what they touch to the inside, so the
  * inside must not call it outside by rounding. */
 #define TOUCHING 1e-12
-/* How much nearer than the margin (m) a motion may pass an edge: a float near by is off by up to 2.4e-7, and what is
- * not felt is never more than a micrometre. */
-#define GRAZE_FLOAT 1e-6
-#define GRAZE_DOUBLE 1e-9
+/* How much nearer than the margin (m) a motion may pass an edge: what the narrow phase promises. */
+#define GRAZE 1e-9
 
 int tahr__named_before(const tahr__found *a, const tahr__found *b)
 {
@@ -234,16 +232,16 @@ static int passes(const flight *f)
 {
     const tahr__query *query = f->query;
     const tahr__witness *w = &f->probe.witness;
-    double tolerance = query->frame->round ? GRAZE_FLOAT : GRAZE_DOUBLE, touch = query->radius + f->prim->radius;
+    double touch = query->radius + f->prim->radius;
     tahr__descent here = {f->probe.gap - query->margin, -v_dot(query->motion, w->normal), f->t}, there = here;
-    if (f->probe.gap < 0 || here.gap < -tolerance) return 0;
+    if (f->probe.gap < 0 || here.gap < -GRAZE) return 0;
     tahr__witness next = *w;
     there.fraction = tahr__beyond(&here, touch + query->margin, query->motion_length);
     measure(query, f->prim, v_mad(query->start, query->motion, there.fraction), &next);
     query->context->narrow_iterations++;
     there.gap = next.distance - touch - query->margin;
     there.speed = -v_dot(query->motion, next.normal);
-    return tahr__grazes(&here, &there, query->motion_length, tolerance);
+    return tahr__grazes(&here, &there, query->motion_length, GRAZE);
 }
 
 /* A contact at the start that is the surface's: does it block? */

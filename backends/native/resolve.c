@@ -12,11 +12,15 @@
 /* What rounding makes of the difference of two places some metres away, and more: at less than 0.1 um it turns a normal
  * by more than NEARER. */
 #define ROUNDING 1e-14
-/* Contact normals this close to a face's normal are that face's: below it lies what rounding corners to float (2.4e-7 m
- * over a few centimetres) or to double makes of a flat surface. Without it a walker would feel that it is made of
- * triangles. */
-#define SNAP_FLOAT 3e-5
-#define SNAP_DOUBLE 1e-7
+/* Contact normals this close to a face's normal are that face's: below it lies what rounding makes of a flat surface
+ * whose corners are known to 2e-9 m (at 1e7 m) over a few centimetres. Without it a walker would feel that it is made
+ * of triangles. */
+#define SNAP 1e-7
+/* The same for a normal that leans up or down from an upright face: who comes down into a gap that is exactly as wide as
+ * itself has arrived at both edges at once where their normals lean by less than the root of TAHR__ARRIVED over the
+ * radius (1.7e-5 for 0.36 m), and would hang by them. Along the face the lower end of an upright segment comes nearer
+ * to the edge by half of the square of this of the radius, 1.6e-10 m; what is sideways must be right as elsewhere. */
+#define LEAN 3e-5
 /* However near, where rounding turns a normal more: what leans by more is no face's. */
 #define SNAP_MOST 1e-2
 enum { FAN = TAHR__FAN };
@@ -71,12 +75,19 @@ static int meets(const work *w, uint32_t two_sided, tahr_vec3 *face)
     return two_sided != 0;
 }
 
+/* The square of how far the contact's normal is off a face's, but for what it may lean. */
+static double tilt2_to(const work *w, tahr_vec3 face)
+{
+    tahr_vec3 d = v_sub(w->out->normal, face);
+    if (w->query->core.axis_count < 2 && fabs(face.z) <= SNAP && fabs(d.z) <= LEAN) d.z = 0;
+    return v_dot(d, d);
+}
+
 /* Is the contact's normal that of this face? Then a motion along the face does not approach, whichever face at the edge
  * opposes it most. Of several the one that it is nearest to, of those the lowest name. */
 static void flatten(work *w, tahr_vec3 face, uint32_t feature)
 {
-    tahr_vec3 d = v_sub(w->out->normal, face);
-    double tilt2 = v_dot(d, d);
+    double tilt2 = tilt2_to(w, face);
     if (tilt2 > w->tilt2 || (tilt2 == w->tilt2 && feature >= w->flat_feature)) return;
     w->tilt2 = tilt2;
     w->flat_feature = feature;
@@ -175,10 +186,9 @@ static void look_around(work *w, const tahr__witness *witness)
 }
 
 /* What rounding makes of a normal. */
-static double snap_at(const tahr__query *query, double distance)
+static double snap_at(double distance)
 {
-    if (query->frame->round) return SNAP_FLOAT;
-    return ROUNDING < SNAP_MOST * distance ? d_max(SNAP_DOUBLE, ROUNDING / distance) : SNAP_MOST;
+    return ROUNDING < SNAP_MOST * distance ? d_max(SNAP, ROUNDING / distance) : SNAP_MOST;
 }
 
 int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, const tahr__witness *witness,
@@ -199,7 +209,7 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
         if (fabs(facing) > 0.999) out->normal = own;
         return TAHR__ACCEPTED;
     }
-    double snap = snap_at(query, witness->distance);
+    double snap = snap_at(witness->distance);
     work w;
     w.query = query;
     w.prim = prim;
@@ -221,7 +231,6 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
     flatten(&w, own, 0);
     look_around(&w, witness);
     if (w.nearer) return TAHR__NEIGHBOUR;
-    tahr_vec3 d = v_sub(out->normal, out->face);
-    out->normal = v_dot(d, d) < snap * snap ? out->face : w.flat;
+    out->normal = tilt2_to(&w, out->face) < snap * snap ? out->face : w.flat;
     return TAHR__ACCEPTED;
 }

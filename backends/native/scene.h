@@ -12,13 +12,14 @@
 #include <string.h>
 #include <tahr/native.h>
 
-/* Queries whose gap is within this of the target have arrived (m). A tenth of what the double narrow phase promises. */
+/* Queries whose gap is within this of the target have arrived (m). A tenth of what the narrow phase promises. */
 #define TAHR__ARRIVED 1e-10
 /* A motion at less than this slope to a surface is parallel to it: a thousand times the rounding of a motion that was
  * projected onto the surface in double, and a creep of 1e-12 of the way. */
 #define TAHR__PARALLEL 1e-12
-/* Searches reach farther by this: rounding local coordinates to float moves a corner by up to 3.3e-6 m. */
-#define TAHR__SLACK 1e-5
+/* Searches reach farther by this: a place within 1e7 m, turned from body to frame and back, comes back up to 2e-7 m off by
+ * the sum of its roundings, 1.1e-16 of it each (the worst of three million was 2e-8 m off). */
+#define TAHR__SLACK 1e-6
 
 typedef struct tahr__body {
     uint32_t type, flags, mask, walkable_rule, surface;
@@ -63,7 +64,6 @@ typedef struct tahr__native {
     const tahr_host *host;
     tahr__body *bodies;
     uint32_t body_count;
-    uint32_t round;    /* local coordinates are rounded to float */
     uint32_t capacity; /* of a cache, a multiple of TAHR__LANES */
     uint32_t no_cache;
     uint32_t fixed_margin; /* 1: cache_margin is the margin, 0: the most it may be */
@@ -80,11 +80,11 @@ typedef struct tahr__native {
 } tahr__native;
 
 /* Where a query is computed: relative to the corner of a 4 m cell, up along +z. Everything in a frame is a pure
- * function of (vertex, pose, origin, up, precision), which is why cached and fresh answers are the same bits. */
+ * function of (vertex, pose, origin, up), which is why cached and fresh answers are the same bits. */
 typedef struct tahr__frame {
     tahr_vec3 origin, up;
     tahr__mat turn; /* world to local */
-    uint32_t turned, round;
+    uint32_t turned, reserved;
 } tahr__frame;
 
 /* The same bits, where a call of memcmp costs more than it does. */
@@ -100,7 +100,7 @@ static inline int tahr__same_vec(const tahr_vec3 *a, const tahr_vec3 *b)
 typedef struct tahr__map {
     tahr_vec3 offset;
     tahr__mat turn;
-    uint32_t turned, round;
+    uint32_t turned, reserved;
 } tahr__map;
 
 /* Which piece of a body a primitive is: a triangle (in leaf order), a round body, or the inside of a box or hull; or
@@ -233,7 +233,7 @@ void tahr__search_run(tahr__search *search);
 void tahr__search_fixed(tahr__search *search);
 
 /* frame.c */
-tahr__frame tahr__frame_make(const tahr__native *world, tahr_vec3 position, tahr_vec3 up);
+tahr__frame tahr__frame_make(tahr_vec3 position, tahr_vec3 up);
 /* Would the same frame be made again? */
 int tahr__frame_holds(const tahr__frame *frame, tahr_vec3 position, tahr_vec3 up);
 tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body);

@@ -9,7 +9,7 @@
 enum { SENSORS = 32 };
 
 /* Surfaces met at the same time, and the way (m) that counts as the same: ten times what rounding does to positions 1e6
- * m out, and no more than what the double narrow phase promises. */
+ * m out, and no more than what the narrow phase promises. */
 enum { TIES = 8 };
 #define HAIR 1e-9
 /* Boxes are stopped at least at this distance (m), and go the rest straight: they have no radius, and where the core
@@ -57,7 +57,7 @@ void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query
         query->frame = &cache->frame;
     } else {
         query->cache = NULL;
-        query->own_frame = tahr__frame_make(world, position, up);
+        query->own_frame = tahr__frame_make(position, up);
         query->frame = &query->own_frame;
     }
     query->start = v_sub(position, query->frame->origin);
@@ -91,7 +91,7 @@ void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat or
     }
 }
 
-/* Of sensors: depth is no order, for it is another one in every precision and at every place. */
+/* Of sensors: depth is no order, for it is another one at every place. */
 static int answered_before(const tahr__found *a, const tahr__found *b)
 {
     return a->t != b->t ? a->t < b->t : tahr__named_before(a, b);

@@ -154,7 +154,7 @@ static uint32_t near_to(const tahr__query *query, tahr_vec3 p, double half, doub
                            .start = {(float)p.x, (float)p.y, (float)p.z},
                            .half = (float)half,
                            .reach = (float)more,
-                           .lowest = d_down(p.z - half - 2 * TAHR__SLACK)};
+                           .lowest = d_down(p.z - half)};
     tahr__lanes lanes = tahr__cache_lanes(query->cache);
     return query->world->lanes->near(&lanes, &q, found);
 }

@@ -10,9 +10,6 @@
 #include <tahr/fcl.h>
 #include <tahr/native.h>
 
-static const tahr_native_desc native_float = {.struct_size = sizeof native_float, .precision = TAHR_NATIVE_FLOAT};
-static const tahr_native_desc native_double = {.struct_size = sizeof native_double, .precision = TAHR_NATIVE_DOUBLE};
-
 #ifdef TAHR_HAVE_BOX2D_2
 static const tahr_box2d_desc box2d_2 = {.struct_size = sizeof box2d_2, .engine = TAHR_BOX2D_2};
 #endif
@@ -20,8 +17,7 @@ static const tahr_box2d_desc box2d_2 = {.struct_size = sizeof box2d_2, .engine =
 /* Penetrations above which a check fails: 1 mm, and 5 mm, the most that any engine may have, for those that rest on a
  * library whose numbers are not ours. */
 static const struct backend_choice choices[] = {
-    {"native", "plain C, float geometry local to a grid cell", tahr_backend_v1_native, &native_float, 0.001},
-    {"native-double", "the same with geometry in double", tahr_backend_v1_native, &native_double, 0.001},
+    {"native", "plain C, culls in float lanes, decides in double", tahr_backend_v1_native, NULL, 0.001},
 #ifdef TAHR_HAVE_CCD
     {"ccd", "libccd and every convex shape, by the distance", tahr_backend_v1_ccd, NULL, 0.005},
 #endif

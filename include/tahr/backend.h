@@ -59,7 +59,7 @@ typedef struct tahr_query_context {
 } tahr_query_context;
 
 /* The announcement before a step: everything the step is expected to ask about lies in bounds. A hint only. World
- * frame. position: of the character at the start of the step; native's float geometry is local to its 4 m cell. */
+ * frame. position: of the character at the start of the step; native's geometry is local to its 4 m cell. */
 typedef struct tahr_prepare {
     tahr_bounds bounds;
     tahr_vec3 position;

@@ -9,9 +9,6 @@
 extern "C" {
 #endif
 
-/* How the corners around a character are kept: FLOAT local to a 4 m grid cell (gaps within 2e-6 m), DOUBLE (1e-9 m). */
-enum { TAHR_NATIVE_FLOAT = 0, TAHR_NATIVE_DOUBLE = 1 };
-
 /* One triangle of yours, in the world frame, its corners counter-clockwise seen from the front. Where two triangles of
  * a body meet let them have exactly the same corners: then their edge is not felt. Name it by body and feature, the
  * same name whenever it is handed over and no other with it: ties between surfaces go by it. Zero what you do not
@@ -47,7 +44,7 @@ typedef tahr_status (*tahr_gather_fn)(void *user, const tahr_bounds *box, uint32
 /* Zero means default for every field but struct_size. Out of range: tahr_world_open returns TAHR_E_ARGUMENT. */
 typedef struct tahr_native_desc {
     uint32_t struct_size;
-    uint32_t precision;       /* TAHR_NATIVE_FLOAT or _DOUBLE */
+    uint32_t reserved;        /* 0 */
     uint32_t cache_triangles; /* per character, default 128, at most 4096, 280 bytes each; what exceeds it is slower */
     uint32_t no_cache;        /* 1: every query walks the tree; same bits */
     uint32_t no_simd;         /* 1: the scalar twin; same bits */
@@ -65,7 +62,7 @@ typedef struct tahr_native_desc {
 
 /* The native backend: plain C. Bodies: triangle meshes, boxes, spheres, capsules, convex hulls and fields of heights;
  * characters: spheres, capsules and boxes. For tahr_world_open, whose desc.options is a tahr_native_desc or NULL.
- * Queries allocate nothing and may run on several threads. Static memory. Since 0.1. */
+ * Gaps are within 1e-9 m. Queries allocate nothing and may run on several threads. Static memory. Since 0.1. */
 TAHR_API const tahr_backend *tahr_backend_v1_native(void);
 
 #ifdef __cplusplus

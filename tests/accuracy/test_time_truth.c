@@ -393,10 +393,7 @@ static void who_rests_rests_to_the_bit(void **state)
 
 int main(void)
 {
-    static const tahr_native_desc in_float = {.struct_size = sizeof in_float, .precision = TAHR_NATIVE_FLOAT};
-    static const tahr_native_desc in_double = {.struct_size = sizeof in_double, .precision = TAHR_NATIVE_DOUBLE};
-    subject native_double = {"native double", tahr_backend_v1_native(), &in_double, 1e-9};
-    subject native_float = {"native float", tahr_backend_v1_native(), &in_float, 2e-6};
+    subject native = {"native", tahr_backend_v1_native(), NULL, 1e-9};
 #define OF(subject)                                                                                          \
     {"laws_hold_at_every_rate " #subject, laws_hold_at_every_rate, NULL, NULL, &subject},                    \
         {"apex_is_told_where_it_is " #subject, apex_is_told_where_it_is, NULL, NULL, &subject},              \
@@ -411,8 +408,7 @@ int main(void)
     subject fcl = {"fcl", tahr_backend_v1_fcl(), NULL, 1e-4};
 #endif
     const struct CMUnitTest tests[] = {
-        OF(native_double),
-        OF(native_float),
+        OF(native),
 #ifdef TAHR_HAVE_CCD
         OF(ccd),
 #endif

@@ -92,8 +92,7 @@ static tahr_status open_plain(bench_queries *b, const scene_backend *exact)
 
 int bench_queries_make(bench_queries *b, const bench_world *world, char *error)
 {
-    static const scene_backend exact = {
-        .name = "exact", .get = tahr_backend_v1_native, .native = 1, .precision = TAHR_NATIVE_DOUBLE};
+    static const scene_backend exact = {.name = "exact", .get = tahr_backend_v1_native, .native = 1};
     tahr_config config;
     tahr_mover *mover = NULL;
     memset(b, 0, sizeof *b);

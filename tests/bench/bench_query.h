@@ -9,7 +9,7 @@ enum { BENCH_MAX_QUERIES = 4000 };
 
 /* The sweeps and contact queries that wandering characters asked in a world, on the exact backend. */
 typedef struct bench_queries {
-    tahr_world *exact; /* native, double: gaps within 1e-9 m of the quad-precision truth */
+    tahr_world *exact; /* native: gaps within 1e-9 m of the quad-precision truth */
     tahr_world *plain; /* the same bodies, but those of one way are there from all sides: it measures */
     const bench_world *world;
     tahr_sweep sweeps[BENCH_MAX_QUERIES];

@@ -86,7 +86,6 @@ static tahr_status open_bodies(crowd *c, const method_tahr *knobs, const tahr_bo
     desc.bodies = bodies;
     desc.body_count = count;
     desc.log = &log;
-    desc.options = knobs->options;
     return tahr_world_open(knobs->backend(), &desc, &c->world);
 }
 

@@ -11,10 +11,9 @@
 /* What method.data points to. Zero means Tahr's own default for every field but backend. */
 typedef struct method_tahr {
     const tahr_backend *(*backend)(void);
-    const void *options; /* of the backend: a tahr_native_desc, say, or NULL */
-    int32_t preset;      /* TAHR_PRESET_*, 0: PRECISE */
-    int ramp_up;         /* 1: accelerate as the preset does; 0: the wish is the velocity at once, as with the peers */
-    int box;             /* 1: level.box instead of the triangles, where there is one */
+    int32_t preset; /* TAHR_PRESET_*, 0: PRECISE */
+    int ramp_up;    /* 1: accelerate as the preset does; 0: the wish is the velocity at once, as with the peers */
+    int box;        /* 1: level.box instead of the triangles, where there is one */
     /* Changes of settings after everything else, or NULL. */
     void (*tune)(tahr_config *config, const void *tuning);
     const void *tuning;

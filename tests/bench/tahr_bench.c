@@ -228,7 +228,7 @@ static void print_heads(FILE *csv, int queries)
         printf(
             "sweeps and contacts that 16 wanderers asked for, asked again one by one without a cache; gap: m, off the "
             "margin where a sweep stops;\nat 0: of the hits; overlap: the same half a margin deep, depth: m, off "
-            "native in double, whose answers with the margin\nand 1 um beside it say what was missed or false\n");
+            "native, whose answers with the margin\nand 1 um beside it say what was missed or false\n");
         printf("%-11s %-13s %9s %9s %9s %9s %9s %7s %7s %7s %7s %9s %7s %7s\n", "world", "backend", "ns sweep",
                "contacts", "gap p50", "gap p99", "gap max", "sweeps", "hits", "at 0", "overlap", "depth", "missed",
                "false");

@@ -17,7 +17,7 @@ expect 0 --level
 tahr info
 expect 0 "ABI 0.1" "native" "capsule" "mesh" "precise"
 tahr info --json
-expect 0 '"version": "0.1.0"' '"native"' '"native-double"' '"bit_identical"'
+expect 0 '"version": "0.1.0"' '"native"' '"bit_identical"'
 is_json || fail "info --json is no JSON"
 tahr info --nonsense
 expect 2 "--nonsense"
@@ -28,8 +28,8 @@ expect 2 "more"
 printf 'v 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nf 1 2 3\nf 1 3 4\n' >"$work/two.obj"
 tahr info --level "$work/two.obj"
 expect 0 "native, 3D" "1 static bodies" "body 0: "
-tahr info --level "$work/two.obj" --json --backend native-double
-expect 0 '"scene"' "double corners"
+tahr info --level "$work/two.obj" --json --backend native
+expect 0 '"scene"' "native, 3D"
 is_json || fail "info --level --json is no JSON"
 tahr info --level "$work/nowhere.obj"
 expect 2 "nowhere.obj"

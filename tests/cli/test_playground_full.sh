@@ -13,7 +13,7 @@ done <<END
 --rate 60 --seconds 1667 --seed 7
 --rate 30 --seconds 600 --seed 11
 --rate 144 --seconds 300 --seed 12
---rate 60 --seconds 500 --seed 14 --backend native-double
+--rate 60 --seconds 500 --seed 14
 --rate 60 --seconds 600 --seed 13 --preset unreal
 END
 exit $failed

@@ -28,7 +28,7 @@ tahr $run --check off
 [ "$(value state_hash)" = "$hash" ] || fail "checking changed the state_hash"
 tahr $run --seed 2
 [ "$(value state_hash)" != "$hash" ] || fail "another seed gave the same state_hash"
-tahr $run --backend native-double --rate 30
+tahr $run --backend native --rate 30
 expect 0
 
 tahr run --seconds 1 --plot "$work/a.png"

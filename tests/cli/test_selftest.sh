@@ -9,7 +9,7 @@ grep -qE '^native [^ ]+: [0-9]+ passed, 0 failed, [0-9]+ not supported$' "$work/
 grep -q 'FAIL' "$work/out" && fail "a case of native failed"
 [ "$(printf '\033')" != "" ] && grep -q "$(printf '\033')" "$work/out" && fail "colours in the table"
 
-tahr selftest native-double --only grazing_
+tahr selftest native --only grazing_
 expect 0 "grazing_1_degree" "grazing_0.1_degree" ": 2 passed, 0 failed, 0 not supported"
 
 tahr selftest native --only tie_ --json
@@ -59,7 +59,6 @@ tested() {
 while read -r name; do
     tahr selftest "$name"
     case $name in
-    native-double) tested native ;;
     box2d-2) tested box2d ;;
     *) tested "$name" ;;
     esac

@@ -29,7 +29,7 @@ done
 usage --seed "'-3'" run --seed -3
 usage --seed "'1x'" run --seed 1x
 usage "--preset 'sloppy'" precise run --preset sloppy
-usage "--backend 'bullet'" native-double run --backend bullet
+usage "--backend 'bullet'" native run --backend bullet
 usage "--backend 'bullet'" "path of a shared object" run --backend bullet
 usage "--check 'some'" sampled run --check some
 usage "--up 'x'" "y or z" run --level nowhere.obj --up x

@@ -57,21 +57,18 @@ static void expect_all(tally *t, const tahr_backend *backend, tahr_selftest_desc
 static void native_keeps_its_promises(void **state)
 {
     (void)state;
-    for (uint32_t precision = TAHR_NATIVE_FLOAT; precision <= TAHR_NATIVE_DOUBLE; precision++) {
-        tahr_native_desc options = {.struct_size = sizeof options, .precision = precision};
-        tally t = {.who = precision == TAHR_NATIVE_FLOAT ? "native" : "native-double"};
-        tahr_selftest_desc desc = {.options = &options};
-        expect_all(&t, tahr_backend_v1_native(), &desc, 60);
-    }
+    tahr_native_desc options = {.struct_size = sizeof options};
+    tally t = {.who = "native"};
+    tahr_selftest_desc desc = {.options = &options};
+    expect_all(&t, tahr_backend_v1_native(), &desc, 60);
 }
 
 /* The same in every way of finding geometry. */
 static void native_without_shortcuts_keeps_its_promises(void **state)
 {
     (void)state;
-    tahr_native_desc options = {
-        .struct_size = sizeof options, .precision = TAHR_NATIVE_DOUBLE, .no_cache = 1, .no_simd = 1};
-    tally t = {.who = "native-double without cache and lanes"};
+    tahr_native_desc options = {.struct_size = sizeof options, .no_cache = 1, .no_simd = 1};
+    tally t = {.who = "native without cache and lanes"};
     tahr_selftest_desc desc = {.options = &options};
     expect_all(&t, tahr_backend_v1_native(), &desc, 58);
 }

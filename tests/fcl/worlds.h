@@ -86,11 +86,8 @@ static inline tahr_world *open_fcl(const std::vector<tahr_body_desc> &bodies, co
 
 static inline tahr_world *open_native(const std::vector<tahr_body_desc> &bodies)
 {
-    tahr_native_desc precise = {};
-    precise.struct_size = sizeof precise;
-    precise.precision = TAHR_NATIVE_DOUBLE;
     tahr_world *world;
-    assert_int_equal(try_open(tahr_backend_v1_native(), bodies, &precise, nullptr, &world), TAHR_OK);
+    assert_int_equal(try_open(tahr_backend_v1_native(), bodies, nullptr, nullptr, &world), TAHR_OK);
     return world;
 }
 

@@ -12,7 +12,7 @@
 
 enum {
     CHARACTERS = 16,
-    WORLDS = 2,
+    WORLDS = 2, /* of the same bodies, with other ways through them */
     STEPS = 1400,
     CELLS = 24,
     MAX_VERTICES = 1024,
@@ -386,10 +386,9 @@ int main(int argc, char **argv)
     add_stairs(&playground, -9, 0);
     add_walls(&playground);
     describe(&playground, bodies);
-    for (uint32_t w = 0; w < WORLDS; w++) { /* float, double */
+    for (int w = 0; w < WORLDS; w++) {
         tahr_world_desc desc;
         tahr_world *world = NULL;
-        native.precision = w;
         tahr_world_desc_init(&desc, sizeof desc);
         desc.bodies = bodies;
         desc.body_count = BODIES;
@@ -399,7 +398,7 @@ int main(int argc, char **argv)
             fprintf(stderr, "opening the world: %s\n", tahr_status_message(status));
             return 1;
         }
-        if (!wander(world, (int)w * CHARACTERS, &hash)) {
+        if (!wander(world, w * CHARACTERS, &hash)) {
             return 1;
         }
         tahr_world_close(world);

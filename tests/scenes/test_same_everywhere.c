@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * test_same_everywhere.c: every scene takes the same path on every backend that holds its bodies: each path is compared
- * with that of the native backend in double precision, step by step.
+ * with that of the native backend, step by step.
  *
  * Arguments narrow it down and show more: test_same_everywhere [scene [backend]]. */
 #include <math.h>
@@ -80,7 +80,7 @@ static void compare(scene *s, const scene_backend *backend, const scene_record *
 static const scene_backend *reference_backend(void)
 {
     for (int i = 0; i < SCENE_BACKEND_COUNT; i++) {
-        if (strcmp(SCENE_BACKENDS[i].name, "native-double") == 0) {
+        if (SCENE_BACKENDS[i].native) {
             return &SCENE_BACKENDS[i];
         }
     }

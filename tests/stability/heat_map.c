@@ -123,7 +123,7 @@ static void write_heads(FILE *out, const matrix *m, int left, int second)
     }
 }
 
-/* What a step may cost at most, of native in double: a number of queries, and the clock of this machine. */
+/* What a step may cost at most, of native: a number of queries, and the clock of this machine. */
 static void write_costs(FILE *out, const matrix *m, int left)
 {
     fprintf(out, "<text x=\"%d\" y=\"%d\" class=\"n\">most</text><text x=\"%d\" y=\"%d\" class=\"n\">queries</text>\n",
@@ -138,7 +138,7 @@ static void write_costs(FILE *out, const matrix *m, int left)
         for (int s = 0; s < m->subjects; s++) {
             for (uint32_t p = 1; p <= MATRIX_PRESETS; p++) {
                 const cell *c = matrix_cell(m, f, s, p);
-                int native = strncmp(c->subject->name, "native", 6) == 0;
+                int native = strcmp(c->subject->name, "native") == 0;
                 queries = c->worst.queries > queries ? c->worst.queries : queries;
                 slowest = native && c->slowest > slowest ? c->slowest : slowest;
             }

@@ -26,12 +26,11 @@ static const tahr_backend *native(void)
 static tahr_status open(const tahr_host *host, const tahr_world_desc *desc, void **self)
 {
     const liar_desc *options = desc->options;
-    const tahr_native_desc in_double = {.struct_size = sizeof in_double, .precision = TAHR_NATIVE_DOUBLE};
     tahr_world_desc scene = *desc;
     liar *l = host->allocator.alloc(host->allocator.user, sizeof *l, 64);
     if (!l) return TAHR_E_MEMORY;
     *l = (liar){.host = host, .lie = options->lie, .dice = {options->seed}};
-    scene.options = &in_double;
+    scene.options = NULL; /* those were the liar's */
     tahr_status status = native()->open(host, &scene, &l->inner);
     if (status < 0)
         host->allocator.free(host->allocator.user, l, sizeof *l, 64);

@@ -74,7 +74,7 @@ void relate_flight(trial *t, oracle_random *dice)
 
 static int on_native(const subject *s)
 {
-    return strncmp(s->name, "native", 6) == 0 || s->judged;
+    return strcmp(s->name, "native") == 0 || s->judged;
 }
 
 static int on_double(const subject *s)

@@ -27,11 +27,10 @@ static const uint32_t BOTH = IN_SPACE | IN_PLANE, ALL = (1u << KEEPS_COUNT) - 1;
 #define PLANAR_ONLY "a world of two dimensions"
 
 /* sweep-only: what is near and not overlapped it cannot tell, so nobody comes to rest between faces too steep to stand
- * on. gap: what native's README promises of float and double; of the others 1e-9 m, as the own core distance in double
- * decides what their engines find. */
+ * on. gap: 1e-9 m is what native's README promises, and of the others, as the own core distance decides what their engines
+ * find. */
 const subject SUBJECTS[] = {
-    {"native", BOTH, "", ALL, 0, 0, 0, 2e-6, ON_NATIVE, TAHR_NATIVE_FLOAT},
-    {"native-double", BOTH, "", ALL, 0, 0, 0, 1e-9, ON_NATIVE, TAHR_NATIVE_DOUBLE},
+    {"native", BOTH, "", ALL, 0, 0, 0, 1e-9, ON_NATIVE, 0},
 #ifdef TAHR_HAVE_CCD
     {"ccd", BOTH, "", ALL, 0, 0, 0, 1e-9, ON_CCD, 0},
 #endif
@@ -184,7 +183,6 @@ static tahr_status open_world(const subject_request *r, opened *o)
 {
     const subject *s = r->subject;
     const tahr_native_desc native = {.struct_size = sizeof native,
-                                     .precision = s->precision,
                                      .no_cache = (r->without & WITHOUT_CACHE) != 0,
                                      .no_simd = (r->without & WITHOUT_LANES) != 0,
                                      .gather = r->without & GATHERED ? gather : NULL,
@@ -193,7 +191,7 @@ static tahr_status open_world(const subject_request *r, opened *o)
     const mutant_desc mutant = {sizeof mutant, s->mutant};
     opening how = {NULL, NULL, 0, 0};
 #ifdef TAHR_HAVE_BOX2D
-    const tahr_box2d_desc box2d = {.struct_size = sizeof box2d, .engine = s->precision};
+    const tahr_box2d_desc box2d = {.struct_size = sizeof box2d, .engine = s->engine};
     if (s->kind == ON_BOX2D) how = (opening){tahr_backend_v1_box2d(), &box2d, 1, 0};
 #endif
 #ifdef TAHR_HAVE_CCD

@@ -15,7 +15,7 @@ typedef struct subject {
     int judged;           /* 1: a liar that is judged as if it were honest, so that tests see it fail */
     double gap;           /* m, what an answer may be off, for twins in other places */
     int kind;             /* of subject.c */
-    uint32_t precision;   /* of native; which Box2D */
+    uint32_t engine;      /* which Box2D */
 } subject;
 
 /* What may be switched off without changing a bit. */

@@ -8,8 +8,8 @@
 static const char *short_name(const subject *s)
 {
     static const char *const names[][2] = {
-        {"native-double", "double"}, {"sweep-only", "sweeps"},  {"callbacks", "callb."},    {"liar-numbers", "l.nan"},
-        {"liar-late", "l.late"},     {"liar-false", "l.false"}, {"liar-normals", "l.norm"}, {"liar-garbage", "l.garb"}};
+        {"sweep-only", "sweeps"},  {"callbacks", "callb."},    {"liar-numbers", "l.nan"}, {"liar-late", "l.late"},
+        {"liar-false", "l.false"}, {"liar-normals", "l.norm"}, {"liar-garbage", "l.garb"}};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         if (strcmp(names[i][0], s->name) == 0) return names[i][1];
     }
@@ -52,7 +52,7 @@ void table_family(FILE *out, const matrix *m, int row)
             double off = c->worst.deepest > c->worst.apart ? c->worst.deepest : c->worst.apart;
             any = any || c->what != CELL_NOT_POSSIBLE;
             queries = c->worst.queries > queries ? c->worst.queries : queries;
-            worst = strncmp(c->subject->name, "native", 6) == 0 && off > worst ? off : worst;
+            worst = strcmp(c->subject->name, "native") == 0 && off > worst ? off : worst;
         }
         if (!any) continue;
         fprintf(out, "%-13s %-10s", FAMILIES[row].name, tahr_preset_name((int32_t)p));

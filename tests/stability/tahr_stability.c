@@ -174,7 +174,7 @@ static int verdict(const matrix *m)
     int broken = 0, insane = 0, others = 0;
     for (uint32_t i = 0; i < m->count; i++) {
         const cell *c = &m->cells[i];
-        int native = strncmp(c->subject->name, "native", 6) == 0;
+        int native = strcmp(c->subject->name, "native") == 0;
         broken += native && !cell_clean(c);
         others += !native && !cell_clean(c);
         insane += !cell_sane(c);

@@ -50,14 +50,12 @@ static tahr_status fluid(void *user, const tahr_fluid_query *query, tahr_fluid *
 
 static tahr_status open(const tahr_callbacks *functions, const tahr_world_desc *desc, tahr_world **world)
 {
-    tahr_native_desc precise = {.struct_size = sizeof precise, .precision = TAHR_NATIVE_DOUBLE};
     tahr_world_desc scene = *desc;
     tahr_callbacks callbacks = *functions;
     tahr_world *engine = NULL, *outer = NULL;
     int place = 0;
     while (place < MOST && opened[place].outer)
         place++;
-    scene.options = &precise;
     tahr_status status = place < MOST ? tahr_world_open(tahr_backend_v1_native(), &scene, &engine) : TAHR_E_MEMORY;
     callbacks.user = engine;
     if (status >= 0) status = tahr_world_open_callbacks(&callbacks, desc, &outer);

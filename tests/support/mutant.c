@@ -92,7 +92,6 @@ static int change_body(uint32_t which, tahr_body_desc *b)
 static tahr_status open(const tahr_host *host, const tahr_world_desc *desc, void **self)
 {
     const mutant_desc *options = desc->options;
-    static const tahr_native_desc in_double = {.struct_size = sizeof in_double, .precision = TAHR_NATIVE_DOUBLE};
     tahr_body_desc bodies[MOST_BODIES];
     tahr_world_desc scene = *desc;
     if (desc->body_count > MOST_BODIES) return TAHR_E_MEMORY;
@@ -109,7 +108,7 @@ static tahr_status open(const tahr_host *host, const tahr_world_desc *desc, void
         good = good && change_body(m->which, &bodies[i]);
     }
     scene.bodies = bodies;
-    scene.options = &in_double;
+    scene.options = NULL; /* those were the mutant's */
     tahr_status status = good ? native()->open(host, &scene, &m->inner) : TAHR_E_GEOMETRY;
     if (status < 0)
         host->allocator.free(host->allocator.user, m, sizeof *m, 64);

@@ -90,12 +90,11 @@ tahr_body_desc fixture_mesh(const double *vertices, uint32_t vertex_count, const
     return d;
 }
 
-tahr_native_desc fixture_options(uint32_t precision)
+tahr_native_desc fixture_options(void)
 {
     tahr_native_desc d;
     memset(&d, 0, sizeof d);
     d.struct_size = sizeof d;
-    d.precision = precision;
     return d;
 }
 

@@ -25,7 +25,7 @@ void fixture_close(fixture *f);
 tahr_body_desc fixture_body(uint32_t type);
 tahr_body_desc fixture_mesh(const double *vertices, uint32_t vertex_count, const uint32_t *indices,
                             uint32_t triangle_count);
-tahr_native_desc fixture_options(uint32_t precision);
+tahr_native_desc fixture_options(void);
 tahr_shape fixture_shape(uint32_t type, double radius, double half_height);
 tahr_sweep fixture_sweep(tahr_shape shape, tahr_vec3 position, tahr_vec3 motion, double margin);
 tahr_contact_query fixture_contacts(tahr_shape shape, tahr_vec3 position, double margin);

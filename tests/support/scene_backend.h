@@ -10,12 +10,11 @@
 typedef struct scene_backend {
     const char *name;
     const tahr_backend *(*get)(void);
-    int native; /* takes a tahr_native_desc */
-    uint32_t precision;
+    int native;         /* takes a tahr_native_desc */
+    uint32_t engine;    /* which Box2D */
     double clearance;   /* of skin: what must stay free after every move */
     double slack;       /* m, below that */
     double gap_error;   /* m, of a sweep */
-    double level_error; /* m, of a sweep straight onto a level floor; 0: rounding only */
     double penetration; /* m, deepest allowed while wandering */
     double drift;       /* m, off the exact path after sliding to rest between surfaces */
     double push;        /* m, who pushes and gets nowhere may move; 0: not by one bit, as always without input */
@@ -41,7 +40,7 @@ typedef union scene_options {
 /* What tahr_world_desc.options has to be for a backend: room, filled in, or NULL. */
 const void *scene_backend_options(const scene_backend *backend, scene_options *room);
 
-/* Opens bodies on a backend. options, for native backends only, may be NULL; its precision is overwritten. */
+/* Opens bodies on a backend. options, for native only, may be NULL. */
 tahr_status scene_backend_open(const scene_backend *backend, const tahr_body_desc *bodies, uint32_t count,
                                const tahr_native_desc *options, tahr_world **world);
 

@@ -149,8 +149,8 @@ static int check_event(scene_case *c)
         double time = scene_member(c, "time", e->time), value = scene_member(c, "value", e->value);
         double time_tolerance = scene_member(c, "time_tolerance", tolerance * fmax(1, time));
         if (lands_level(e) && c->scene->config.separation == TAHR_SEPARATION_MARGIN) {
-            time_tolerance = fmin(time_tolerance, 1e-9 * time + 2 * c->backend->level_error);
-            tolerance = fmin(tolerance, 1e-9 + 2 * c->backend->level_error);
+            time_tolerance = fmin(time_tolerance, 1e-9 * time);
+            tolerance = fmin(tolerance, 1e-9);
         }
         tahr_vec3 place = e->position;
         json_t *wanted = json_object_get(c->item, "place");

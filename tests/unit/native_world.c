@@ -9,9 +9,9 @@
 
 #include "native_world.h"
 
-void native_open(fixture *f, const tahr_body_desc *bodies, uint32_t count, uint32_t precision, int with_cache)
+void native_open(fixture *f, const tahr_body_desc *bodies, uint32_t count, int with_cache)
 {
-    tahr_native_desc options = fixture_options(precision);
+    tahr_native_desc options = fixture_options();
     fixture_init(f);
     assert_int_equal(fixture_open(f, bodies, count, &options, with_cache), TAHR_OK);
 }

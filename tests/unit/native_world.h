@@ -7,8 +7,8 @@
 #include "native_fixture.h"
 #include "dice.h"
 
-/* Initialises, opens, and fails the test if that fails. Precision as in native.h; a cache if with_cache. */
-void native_open(fixture *f, const tahr_body_desc *bodies, uint32_t count, uint32_t precision, int with_cache);
+/* Initialises, opens, and fails the test if that fails. A cache if with_cache. */
+void native_open(fixture *f, const tahr_body_desc *bodies, uint32_t count, int with_cache);
 /* Closes, and fails the test if memory was left. */
 void native_close(fixture *f);
 

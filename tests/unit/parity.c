@@ -30,7 +30,7 @@ tahr_vec3 parity_vec(double x, double y, double z)
 
 const char *parity_backend_name(int backend)
 {
-    static const char *const names[PARITY_BACKENDS] = {"closed forms", "native double", "native float", "ccd"};
+    static const char *const names[PARITY_BACKENDS] = {"closed forms", "native", "ccd"};
     return names[backend];
 }
 
@@ -45,7 +45,7 @@ int parity_has(int backend)
 
 double parity_tolerance(int backend)
 {
-    return backend == PARITY_FAKE ? 1e-4 : (backend != PARITY_CCD ? 1e-3 : 1e-2);
+    return backend == PARITY_CCD ? 1e-2 : 1e-4;
 }
 
 static parity_solid *add_solid(parity_scene *scene, int kind)
@@ -112,15 +112,11 @@ static void open_bodies(parity *p, const parity_scene *scene)
     double vertices[PARITY_SOLIDS][12];
     tahr_body_desc bodies[PARITY_SOLIDS];
     tahr_world_desc desc;
-    tahr_native_desc native = {.struct_size = sizeof native,
-                               .precision = p->backend == PARITY_DOUBLE ? TAHR_NATIVE_DOUBLE : TAHR_NATIVE_FLOAT};
     const tahr_backend *backend = tahr_backend_v1_native();
     assert_int_equal(tahr_world_desc_init(&desc, sizeof desc), TAHR_OK);
-    desc.options = &native;
 #ifdef TAHR_HAVE_CCD
     if (p->backend == PARITY_CCD) {
         backend = tahr_backend_v1_ccd();
-        desc.options = NULL;
     }
 #endif
     for (uint32_t i = 0; i < scene->count; i++) {

@@ -11,10 +11,10 @@ double parity_cm(double x);
 tahr_vec3 parity_vec(double x, double y, double z);
 
 /* FAKE: callbacks with closed forms. CCD: only where it was built. */
-enum { PARITY_FAKE, PARITY_DOUBLE, PARITY_FLOAT, PARITY_CCD, PARITY_BACKENDS };
+enum { PARITY_FAKE, PARITY_NATIVE, PARITY_CCD, PARITY_BACKENDS };
 const char *parity_backend_name(int backend);
 int parity_has(int backend);
-/* cm: 1e-4 of closed forms, 1e-3 of the native backend, 1e-2 of ccd. */
+/* cm: 1e-4 of closed forms and the native backend, 1e-2 of ccd. */
 double parity_tolerance(int backend);
 
 /* Lengths in cm. A plane is solid where normal . x < offset: a half-space, or a square 12 m wide around its point

@@ -193,10 +193,10 @@ uint32_t soup_compare(fixture *worlds, uint32_t count, const soup *s, uint32_t q
     return hits;
 }
 
-void soup_open_all(fixture worlds[SOUP_WORLDS], const tahr_body_desc *mesh, soup soups[2], uint32_t precision)
+void soup_open_all(fixture worlds[SOUP_WORLDS], const tahr_body_desc *mesh, soup soups[2])
 {
     for (uint32_t i = 0; i < SOUP_WORLDS; i++) {
-        tahr_native_desc o = fixture_options(precision);
+        tahr_native_desc o = fixture_options();
         o.no_cache = i < 2;
         o.no_simd = i == 3;
         o.cache_triangles = i == 4 ? 16 : 600;
@@ -226,16 +226,14 @@ void soup_compare_level(const char *name, uint32_t queries)
         soup_make(&soups[i], &body, 0);
         soups[i].reversed = i;
     }
-    for (uint32_t precision = 0; precision < 2; precision++) {
-        fixture worlds[SOUP_WORLDS];
-        soup_open_all(worlds, &body, soups, precision);
-        uint32_t hits = soup_compare(worlds, SOUP_WORLDS, &soups[0], queries);
-        print_message("    %s: %u queries, %u stopped\n", name, queries, hits);
-        assert_true(hits > queries / 4);
-        assert_true(worlds[2].context.gathers > queries / 4);
-        for (uint32_t i = 0; i < SOUP_WORLDS; i++)
-            native_close(&worlds[i]);
-    }
+    fixture worlds[SOUP_WORLDS];
+    soup_open_all(worlds, &body, soups);
+    uint32_t hits = soup_compare(worlds, SOUP_WORLDS, &soups[0], queries);
+    print_message("    %s: %u queries, %u stopped\n", name, queries, hits);
+    assert_true(hits > queries / 4);
+    assert_true(worlds[2].context.gathers > queries / 4);
+    for (uint32_t i = 0; i < SOUP_WORLDS; i++)
+        native_close(&worlds[i]);
     soup_free(&soups[0]);
     soup_free(&soups[1]);
     scene_mesh_free(&mesh);

@@ -43,8 +43,8 @@ uint32_t soup_compare(fixture *worlds, uint32_t count, const soup *s, uint32_t q
 
 /* A mesh (world 0) and the same triangles, handed over in two orders, with caches and lanes on and off. */
 enum { SOUP_WORLDS = 6 };
-void soup_open_all(fixture worlds[SOUP_WORLDS], const tahr_body_desc *mesh, soup soups[2], uint32_t precision);
-/* Compares them on a level (scene_level.h), in both precisions; says so if it is not there. */
+void soup_open_all(fixture worlds[SOUP_WORLDS], const tahr_body_desc *mesh, soup soups[2]);
+/* Compares them on a level (scene_level.h); says so if it is not there. */
 void soup_compare_level(const char *name, uint32_t queries);
 
 #endif

@@ -72,8 +72,7 @@ TOPICS = (
         "backends",
         "every backend, 60 Hz",
         (
-            "native float",
-            "native double",
+            "native",
             "ccd advance",
             "ccd GJK",
             "ccd MPR",
@@ -198,7 +197,7 @@ ERRORS = {
 }
 WINDOWS = (
     "the farthest that a character is from its reference path during a second of movement from rest (the same start and"
-    " numbers, all planes at once, on native in double; exact ones at 1920 Hz, stepped ones, whose law along walls is"
+    " numbers, all planes at once, on native; exact ones at 1920 Hz, stepped ones, whose law along walls is"
     " another one, stepped at 7680 Hz)"
 )
 

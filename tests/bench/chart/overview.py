@@ -10,7 +10,7 @@ from panel import P99_ERROR, scatter
 from rows import Row
 from style import panels
 
-SWEEP_CURVES = ("native float", "native double", "ccd advance", "ccd GJK", "ccd MPR", "fcl descend")
+SWEEP_CURVES = ("native", "ccd advance", "ccd GJK", "ccd MPR", "fcl descend")
 MOVEMENT_CURVES = ("precise", "two walls", "stepped", "unreal")
 
 

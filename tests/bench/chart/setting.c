@@ -215,7 +215,7 @@ uint32_t chart_settings_make(const bench_world *level, const chart_setting **all
 
 void chart_setting_reference(const chart_setting *setting, chart_setting *reference)
 {
-    tahr_native_desc native = {.struct_size = sizeof native, .precision = TAHR_NATIVE_DOUBLE};
+    tahr_native_desc native = {.struct_size = sizeof native};
     tahr_config *c = &reference->config;
     *reference = *setting;
     c->slide_solver = TAHR_SLIDE_JOINT;

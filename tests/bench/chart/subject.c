@@ -37,20 +37,14 @@ static void set_options(chart_subject *s, const void *options, size_t size)
 static void add_native(void)
 {
     static const struct {
-        const char *curve, *setting, *role;
-        uint32_t precision, no_simd, no_cache;
-    } table[] = {{"native float", "native float", CHART_DEFAULT, TAHR_NATIVE_FLOAT, 0, 0},
-                 {"native float", "native float; no_simd", CHART_OFF, TAHR_NATIVE_FLOAT, 1, 0},
-                 {"native float", "native float; no_cache", CHART_OFF, TAHR_NATIVE_FLOAT, 0, 1},
-                 {"native double", "native double", CHART_KNOB, TAHR_NATIVE_DOUBLE, 0, 0},
-                 {"native double", "native double; no_simd", CHART_OFF, TAHR_NATIVE_DOUBLE, 1, 0},
-                 {"native double", "native double; no_cache", CHART_OFF, TAHR_NATIVE_DOUBLE, 0, 1}};
+        const char *setting, *role;
+        uint32_t no_simd, no_cache;
+    } table[] = {
+        {"native", CHART_DEFAULT, 0, 0}, {"native; no_simd", CHART_OFF, 1, 0}, {"native; no_cache", CHART_OFF, 0, 1}};
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
-        tahr_native_desc desc = {.struct_size = sizeof desc,
-                                 .precision = table[i].precision,
-                                 .no_simd = table[i].no_simd,
-                                 .no_cache = table[i].no_cache};
-        set_options(add(table[i].curve, table[i].setting, table[i].role, tahr_backend_v1_native), &desc, sizeof desc);
+        tahr_native_desc desc = {
+            .struct_size = sizeof desc, .no_simd = table[i].no_simd, .no_cache = table[i].no_cache};
+        set_options(add("native", table[i].setting, table[i].role, tahr_backend_v1_native), &desc, sizeof desc);
     }
 }
 

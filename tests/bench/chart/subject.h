@@ -23,7 +23,7 @@ typedef struct chart_subject {
     chart_options options; /* starts with its struct_size; that is 0: the backend's defaults */
 } chart_subject;
 
-/* Every backend, solver, precision and tolerance of this build, in an order that goes along the curves; NULL beyond the
+/* Every backend, solver and tolerance of this build, in an order that goes along the curves; NULL beyond the
  * last. Static memory. */
 const chart_subject *chart_subject_at(uint32_t index);
 

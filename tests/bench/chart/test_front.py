@@ -56,7 +56,7 @@ class Front(unittest.TestCase):
 
     def test_settings_compete_within_their_backend_and_rate(self):
         rows = [
-            row(scene="a", setting="native", curve="native float", role="knob", error_p99_m=1e-3, ns_p50=10.0),
+            row(scene="a", setting="native", curve="native", role="knob", error_p99_m=1e-3, ns_p50=10.0),
             row(scene="a", setting="ccd", curve="ccd advance", role="knob", error_p99_m=1e-3, ns_p50=99.0),
             row(scene="a", setting="often", curve="precise", role="knob", error_p99_m=1e-3, ns_p50=99.0, rate_hz=120.0),
             row(scene="a", setting="ccd slow", curve="ccd GJK", role="knob", error_p99_m=1e-3, ns_p50=199.0),

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rows import COLUMNS, ChartError, read_machine, read_rows
 
-GOOD = "sweeps,meshes,native,native float,,,default,truth,126,0,,1e-9,2e-9,3e-9,,100,200,120,,1,4.5,2,,,"
+GOOD = "sweeps,meshes,native,native,,,default,truth,126,0,,1e-9,2e-9,3e-9,,100,200,120,,1,4.5,2,,,"
 
 
 class Rows(unittest.TestCase):
@@ -30,7 +30,7 @@ class Rows(unittest.TestCase):
     def test_a_row_is_read_field_by_field(self):
         self.write(GOOD)
         (row,) = read_rows(self.path)
-        self.assertEqual((row.scene, row.setting, row.role), ("meshes", "native float", "default"))
+        self.assertEqual((row.scene, row.setting, row.role), ("meshes", "native", "default"))
         self.assertEqual((row.samples, row.failed, row.error_p99_m, row.ns_p50), (126, 0, 2e-9, 100.0))
         self.assertTrue(math.isnan(row.value) and math.isnan(row.threads))
         self.assertEqual(row.tests_and_iterations, 6.5)

@@ -26,7 +26,7 @@ count() {
 
 printf '%-11s %-12s %10s\n' course method 'per step'
 for course; do
-    for method in tahr tahr-double tahr-box2d box2d; do
+    for method in tahr tahr-box2d box2d; do
         count "$course" $method step
     done
     for method in jolt bullet; do

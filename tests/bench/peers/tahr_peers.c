@@ -36,10 +36,7 @@ typedef struct field {
     int count;
 } field;
 
-static const tahr_native_desc FLOAT = {.struct_size = sizeof FLOAT};
-static const tahr_native_desc DOUBLE = {.struct_size = sizeof DOUBLE, .precision = TAHR_NATIVE_DOUBLE};
-static const method_tahr TAHR_FLOAT = {.backend = tahr_backend_v1_native, .options = &FLOAT, .box = 1};
-static const method_tahr TAHR_DOUBLE = {.backend = tahr_backend_v1_native, .options = &DOUBLE, .box = 1};
+static const method_tahr TAHR_NATIVE = {.backend = tahr_backend_v1_native, .box = 1};
 #ifdef TAHR_HAVE_BOX2D
 static const method_tahr TAHR_BOX2D = {.backend = tahr_backend_v1_box2d};
 #endif
@@ -154,8 +151,7 @@ static void enter_peer(field *f, const options *o, const char *name)
 static void enter_all(field *f, const options *o)
 {
     static const char *const PEERS[] = {"physx", "jolt", "rapier", "bullet", "box2d"};
-    enter_tahr(f, "tahr", "native, float near the character; " TAHR_SAYS, &TAHR_FLOAT);
-    enter_tahr(f, "tahr-double", "native, double; " TAHR_SAYS, &TAHR_DOUBLE);
+    enter_tahr(f, "tahr", "native; " TAHR_SAYS, &TAHR_NATIVE);
 #ifdef TAHR_HAVE_BOX2D
     enter_tahr(f, "tahr-box2d", "backend box2d, outline as chains; " TAHR_SAYS, &TAHR_BOX2D);
 #endif

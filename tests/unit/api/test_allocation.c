@@ -245,7 +245,6 @@ static void no_step_of_any_backend_touches_the_heap(void **unused)
 {
     const tahr_backend *backends[] = {
         tahr_backend_v1_native(),
-        tahr_backend_v1_native(),
 #ifdef TAHR_HAVE_CCD
         tahr_backend_v1_ccd(),
 #endif
@@ -264,7 +263,7 @@ static void no_step_of_any_backend_touches_the_heap(void **unused)
     assert_true(heap_calls >= before + 2); /* the count counts */
     for (size_t b = 0; b < sizeof backends / sizeof backends[0]; b++) {
         for (int box = 0; box < 2; box++) {
-            tahr_native_desc options = {.struct_size = sizeof options, .precision = b == 1 ? TAHR_NATIVE_DOUBLE : 0};
+            tahr_native_desc options = {.struct_size = sizeof options};
             tahr_world_desc desc;
             tahr_body_desc bodies[2];
             tahr_world *world = NULL;
@@ -497,28 +496,26 @@ static void a_large_mesh_stays_under_a_hundred_bytes_per_triangle(void **unused)
         memcpy(next, quad, sizeof quad);
         next += 6;
     }
-    for (uint32_t precision = 0; precision < 2; precision++) {
-        tahr_native_desc options = {.struct_size = sizeof options, .precision = precision};
-        fake_memory memory = {0};
-        tahr_allocator allocator = fake_allocator(&memory);
-        tahr_world_desc desc;
-        tahr_body_desc body;
-        tahr_world *world = NULL;
-        tahr_body_desc_init(&body, sizeof body, TAHR_BODY_MESH);
-        body.vertices = vertices, body.vertex_count = corners;
-        body.indices = indices, body.triangle_count = triangles;
-        tahr_world_desc_init(&desc, sizeof desc);
-        desc.bodies = &body, desc.body_count = 1;
-        desc.options = &options;
-        desc.allocator = &allocator;
-        assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_OK);
-        assert_int_equal(tahr_world_memory(world), memory.live_bytes); /* nothing went past the allocator */
-        double each = (double)tahr_world_memory(world) / triangles;
-        print_message("precision %u: %.1f bytes per triangle\n", precision, each);
-        assert_true(each < 100);
-        tahr_world_close(world);
-        assert_int_equal(memory.live_bytes, 0);
-    }
+    tahr_native_desc options = {.struct_size = sizeof options};
+    fake_memory memory = {0};
+    tahr_allocator allocator = fake_allocator(&memory);
+    tahr_world_desc desc;
+    tahr_body_desc body;
+    tahr_world *world = NULL;
+    tahr_body_desc_init(&body, sizeof body, TAHR_BODY_MESH);
+    body.vertices = vertices, body.vertex_count = corners;
+    body.indices = indices, body.triangle_count = triangles;
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = &body, desc.body_count = 1;
+    desc.options = &options;
+    desc.allocator = &allocator;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_OK);
+    assert_int_equal(tahr_world_memory(world), memory.live_bytes); /* nothing went past the allocator */
+    double each = (double)tahr_world_memory(world) / triangles;
+    print_message("%.1f bytes per triangle\n", each);
+    assert_true(each < 100);
+    tahr_world_close(world);
+    assert_int_equal(memory.live_bytes, 0);
     free(indices);
     free(vertices);
 }
@@ -526,37 +523,35 @@ static void a_large_mesh_stays_under_a_hundred_bytes_per_triangle(void **unused)
 /* What native.h says of a character's cache: so many bytes for every triangle that it can hold. */
 static void a_movers_cache_costs_what_the_header_says(void **unused)
 {
-    const double said[2] = {280, 280};
+    const double said = 280;
     (void)unused;
-    for (uint32_t precision = 0; precision < 2; precision++) {
-        const uint32_t held[2] = {192, 4096};
-        uint64_t bytes[2];
-        for (int i = 0; i < 2; i++) {
-            tahr_native_desc options = {.struct_size = sizeof options, .precision = precision};
-            options.cache_triangles = held[i];
-            fake_memory memory = {0};
-            tahr_allocator allocator = fake_allocator(&memory);
-            tahr_world_desc desc;
-            tahr_body_desc bodies[2];
-            tahr_world *world = NULL;
-            tahr_mover *mover = NULL;
-            tahr_config c = rig_config();
-            describe(&desc, bodies, &allocator);
-            desc.options = &options;
-            assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_OK);
-            uint64_t before = memory.live_bytes;
-            assert_int_equal(tahr_mover_create(world, &c, &mover), TAHR_OK);
-            bytes[i] = memory.live_bytes - before;
-            assert_int_equal(tahr_world_memory(world), before); /* a mover's memory is not the world's */
-            tahr_mover_destroy(mover);
-            tahr_world_close(world);
-        }
-        double each = (double)(bytes[1] - bytes[0]) / (held[1] - held[0]);
-        print_message("precision %u: a mover of %u triangles has %llu bytes, %.1f for each more\n", precision, held[0],
-                      (unsigned long long)bytes[0], each);
-        assert_near(each, said[precision], 0);
-        assert_true((double)bytes[0] < said[precision] * held[0] + 4096); /* config, the last step, the header */
+    const uint32_t held[2] = {192, 4096};
+    uint64_t bytes[2];
+    for (int i = 0; i < 2; i++) {
+        tahr_native_desc options = {.struct_size = sizeof options};
+        options.cache_triangles = held[i];
+        fake_memory memory = {0};
+        tahr_allocator allocator = fake_allocator(&memory);
+        tahr_world_desc desc;
+        tahr_body_desc bodies[2];
+        tahr_world *world = NULL;
+        tahr_mover *mover = NULL;
+        tahr_config c = rig_config();
+        describe(&desc, bodies, &allocator);
+        desc.options = &options;
+        assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_OK);
+        uint64_t before = memory.live_bytes;
+        assert_int_equal(tahr_mover_create(world, &c, &mover), TAHR_OK);
+        bytes[i] = memory.live_bytes - before;
+        assert_int_equal(tahr_world_memory(world), before); /* a mover's memory is not the world's */
+        tahr_mover_destroy(mover);
+        tahr_world_close(world);
     }
+    double each = (double)(bytes[1] - bytes[0]) / (held[1] - held[0]);
+    print_message("a mover of %u triangles has %llu bytes, %.1f for each more\n", held[0], (unsigned long long)bytes[0],
+                  each);
+    assert_near(each, said, 0);
+    assert_true((double)bytes[0] < said * held[0] + 4096); /* config, the last step, the header */
 }
 
 static void world_memory_is_what_the_allocator_holds(void **unused)

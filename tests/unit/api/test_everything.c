@@ -29,7 +29,7 @@ static int factor = 1;
 static uint64_t first_seed = 1;
 
 /* What a world is opened on. BARE: callbacks with a sweep alone. */
-enum { ON_NATIVE, ON_DOUBLE, ON_CCD, ON_FCL, ON_CALLBACKS, ON_BARE, ON_BOX2D, ON_BOX2D_2 };
+enum { ON_NATIVE, ON_CCD, ON_FCL, ON_CALLBACKS, ON_BARE, ON_BOX2D, ON_BOX2D_2 };
 
 static int is_planar(int kind)
 {
@@ -120,7 +120,8 @@ static void open_place(place *p, int kind, const chaos_scene *scene, const tahr_
 #ifdef TAHR_HAVE_FCL
     const tahr_fcl_desc fcl = {.struct_size = sizeof fcl, .no_cache = (uint32_t)plain};
 #endif
-    tahr_native_desc options = {.struct_size = sizeof options, .precision = kind == ON_DOUBLE ? TAHR_NATIVE_DOUBLE : 0};
+    const tahr_native_desc options = {
+        .struct_size = sizeof options, .no_cache = (uint32_t)plain, .no_simd = (uint32_t)plain};
     tahr_world_desc desc;
     const tahr_backend *backend = tahr_backend_v1_native();
     memset(p, 0, sizeof *p);
@@ -129,7 +130,6 @@ static void open_place(place *p, int kind, const chaos_scene *scene, const tahr_
     desc.body_count = CHAOS_BODIES;
     desc.log = &log;
     desc.options = &options;
-    options.no_cache = options.no_simd = (uint32_t)plain;
 #ifdef TAHR_HAVE_CCD
     if (kind == ON_CCD) {
         backend = tahr_backend_v1_ccd();
@@ -466,13 +466,7 @@ static void run_kind(int kind, int rounds)
 static void native_keeps_every_promise(void **unused)
 {
     (void)unused;
-    run_kind(ON_NATIVE, 60);
-}
-
-static void native_in_double_keeps_every_promise(void **unused)
-{
-    (void)unused;
-    run_kind(ON_DOUBLE, 20);
+    run_kind(ON_NATIVE, 80);
 }
 
 static void ccd_keeps_every_promise(void **unused)
@@ -521,9 +515,9 @@ static void callbacks_keep_every_promise(void **unused)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(native_keeps_every_promise), cmocka_unit_test(native_in_double_keeps_every_promise),
-        cmocka_unit_test(ccd_keeps_every_promise),    cmocka_unit_test(fcl_keeps_every_promise),
-        cmocka_unit_test(box2d_keeps_every_promise),  cmocka_unit_test(callbacks_keep_every_promise)};
+        cmocka_unit_test(native_keeps_every_promise), cmocka_unit_test(ccd_keeps_every_promise),
+        cmocka_unit_test(fcl_keeps_every_promise), cmocka_unit_test(box2d_keeps_every_promise),
+        cmocka_unit_test(callbacks_keep_every_promise)};
     factor = argc > 1 ? atoi(argv[1]) : 1;
     first_seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -351,7 +351,7 @@ static void no_function_asks_more_than_its_most(void **unused)
     uint32_t most[6] = {0, 0, 0, 0, 0, 0}, overlaps = 0, overlapped;
     (void)unused;
     make_clutter(&scene);
-    parity_open(&p, &scene, PARITY_DOUBLE, NULL, 0, 0, 90.15);
+    parity_open(&p, &scene, PARITY_NATIVE, NULL, 0, 0, 90.15);
     for (int i = 0; i < 20000; i++) {
         double x = oracle_uniform(&dice, -150, 150), y = oracle_uniform(&dice, -150, 150);
         double z = oracle_uniform(&dice, 80, 150), way = oracle_uniform(&dice, 0.1, 60);

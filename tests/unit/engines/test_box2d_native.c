@@ -66,13 +66,11 @@ static void furnish(void)
 
 static tahr_world *open_native(void)
 {
-    tahr_native_desc options = {.struct_size = sizeof options, .precision = TAHR_NATIVE_DOUBLE};
     tahr_world_desc desc;
     tahr_world *world = NULL;
     assert_int_equal(tahr_world_desc_init(&desc, sizeof desc), TAHR_OK);
     desc.bodies = bodies;
     desc.body_count = body_count;
-    desc.options = &options;
     assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_OK);
     return world;
 }

@@ -422,7 +422,6 @@ static int same_hit(const tahr_sweep *q, const tahr_hit *a, const tahr_hit *b)
 
 static void sweeps_agree_with_native_on_every_kind_of_body(void **state)
 {
-    static const tahr_native_desc precise = {.struct_size = sizeof precise, .precision = TAHR_NATIVE_DOUBLE};
     int hits = 0, differ = 0;
 
     (void)state;
@@ -431,7 +430,7 @@ static void sweeps_agree_with_native_on_every_kind_of_body(void **state)
         tahr_body_desc bodies[6];
         for (uint32_t i = 0; i < 6; i++)
             bodies[i] = random_body(i == 0 ? TAHR_BODY_MESH : TAHR_BODY_BOX + (i - 1) % 3);
-        tahr_world *ccd = open_ccd(bodies, 6), *native = open_on(tahr_backend_v1_native(), bodies, 6, &precise);
+        tahr_world *ccd = open_ccd(bodies, 6), *native = open_on(tahr_backend_v1_native(), bodies, 6, NULL);
         for (int i = 0; i < 100; i++) {
             tahr_sweep q = random_sweep(i % 3);
             tahr_hit a = {0}, b = {0};
@@ -452,7 +451,6 @@ static void sweeps_agree_with_native_on_every_kind_of_body(void **state)
 /* Without a margin a box arrives where no direction can be told: neighbours of a mesh must not both give way. */
 static void boxes_without_a_margin_agree_with_native_on_meshes(void **state)
 {
-    static const tahr_native_desc precise = {.struct_size = sizeof precise, .precision = TAHR_NATIVE_DOUBLE};
     int hits = 0, differ = 0;
 
     (void)state;
@@ -463,7 +461,7 @@ static void boxes_without_a_margin_agree_with_native_on_meshes(void **state)
         body.pose.orientation = (tahr_quat){0, 0, 0, 1};
         for (uint32_t i = 0; i < body.vertex_count; i++) /* level here and there, like the boxes' faces */
             grid_vertices[3 * i + 2] = uniform(0, 1) < 0.5 ? 0 : uniform(-0.4, 0.4);
-        tahr_world *ccd = open_ccd(&body, 1), *native = open_on(tahr_backend_v1_native(), &body, 1, &precise);
+        tahr_world *ccd = open_ccd(&body, 1), *native = open_on(tahr_backend_v1_native(), &body, 1, NULL);
         for (int i = 0; i < 400; i++) {
             tahr_sweep q = random_sweep(2);
             tahr_hit a = {0}, b = {0};

@@ -436,7 +436,6 @@ static int same_hit(const tahr_sweep *q, const tahr_hit *a, const tahr_hit *b)
 
 static void sweeps_agree_with_native_on_every_kind_of_body(void **state)
 {
-    static const tahr_native_desc precise = {.struct_size = sizeof precise, .precision = TAHR_NATIVE_DOUBLE};
     int hits = 0, differ = 0;
 
     (void)state;
@@ -445,7 +444,7 @@ static void sweeps_agree_with_native_on_every_kind_of_body(void **state)
         tahr_body_desc bodies[6];
         for (uint32_t i = 0; i < 6; i++)
             bodies[i] = random_body(i == 0 ? TAHR_BODY_MESH : TAHR_BODY_BOX + (i - 1) % 3);
-        tahr_world *fcl = open_fcl(bodies, 6), *native = open_on(tahr_backend_v1_native(), bodies, 6, &precise);
+        tahr_world *fcl = open_fcl(bodies, 6), *native = open_on(tahr_backend_v1_native(), bodies, 6, NULL);
         for (int i = 0; i < 100; i++) {
             tahr_sweep q = random_sweep(i % 3);
             tahr_hit a = {0}, b = {0};

@@ -73,18 +73,17 @@ static tahr_sweep random_sweep(oracle_random *dice)
     return q;
 }
 
-/* Sizes are some metres: native double is good to 1e-9 m, the tangents to 1e-10 m, and a grazing motion multiplies that
+/* Sizes are some metres: native is good to 1e-9 m, the tangents to 1e-10 m, and a grazing motion multiplies that
  * by the way over the gap; 1e-6 m is far above both and far below what a movement notices. */
 static void sweeps_agree_with_the_native_backend(void **unused)
 {
-    const tahr_native_desc precise = {.struct_size = sizeof precise, .precision = TAHR_NATIVE_DOUBLE};
     oracle_random dice = {11};
     tahr_body_desc bodies[BODIES];
     int met = 0, overlaps = 0;
     (void)unused;
     random_bodies(&dice, bodies);
     tahr_world *mine = open_on(tahr_backend_v1_template(), NULL, bodies);
-    tahr_world *native = open_on(tahr_backend_v1_native(), &precise, bodies);
+    tahr_world *native = open_on(tahr_backend_v1_native(), NULL, bodies);
     for (int i = 0; i < QUERIES; i++) {
         const tahr_sweep q = random_sweep(&dice);
         const double way = sqrt(q.motion.x * q.motion.x + q.motion.y * q.motion.y + q.motion.z * q.motion.z);

@@ -314,8 +314,8 @@ static void edge_that_moves_is_followed_and_one_that_goes_is_let_go(void **unuse
         rig_step(&r, 1.0 / 60);
         assert_int_equal(r.state.mode, i < 4 ? TAHR_MODE_HANGING : TAHR_MODE_FALLING);
         if (i < 4) {
-            assert_near(r.state.position.x, aside[i] - FLUSH, 1e-5); /* native in single precision */
-            assert_near(r.state.position.z, EDGE - 0.9 + up[i], 1e-5);
+            assert_near(r.state.position.x, aside[i] - FLUSH, 1e-9);
+            assert_near(r.state.position.z, EDGE - 0.9 + up[i], 1e-9);
         }
         rig_close(&r);
     }

@@ -187,7 +187,7 @@ static void wedge_is_a_floor_for_the_joint_solver(void **unused)
 static void ray_finds_the_floor_inside_a_rim_that_is_none(void **unused)
 {
     (void)unused;
-    for (int backend = PARITY_DOUBLE; backend < PARITY_BACKENDS; backend++) {
+    for (int backend = PARITY_NATIVE; backend < PARITY_BACKENDS; backend++) {
         parity_scene scene = {0};
         tahr_floor floor;
         parity p;

@@ -111,7 +111,7 @@ static void flat_base_does_not_sink_at_edges(void **unused)
     (void)unused;
     for (int i = 0; i < 3; i++) {
         for (int flat = 0; flat < 2; flat++) {
-            for (int backend = PARITY_DOUBLE; backend < PARITY_BACKENDS; backend++) {
+            for (int backend = PARITY_NATIVE; backend < PARITY_BACKENDS; backend++) {
                 parity_scene scene = {0};
                 tahr_config c = parity_config();
                 tahr_floor floor;
@@ -149,7 +149,7 @@ static void turning_on_the_spot_changes_no_floor(void **unused)
     c.flat_base = 1;
     parity_box(&scene, fake_vec(30, -300, -100), fake_vec(300, 300, 0));
     parity_plane(&scene, 0, 0, 1, -30);
-    parity_open(&p, &scene, PARITY_DOUBLE, &c, 0, 0, 90);
+    parity_open(&p, &scene, PARITY_NATIVE, &c, 0, 0, 90);
     for (int i = 0; i < 50; i++) {
         double half = oracle_uniform(&dice, 0, 3.2);
         p.step.state.orientation = (tahr_quat){0, 0, i ? sin(half) : 0, i ? cos(half) : 1};

@@ -55,7 +55,7 @@ static void wander(rig *r, double rate, uint32_t seed)
         tahr_vec3 p = r->state.position, v = r->state.velocity;
         assert_true(isfinite(p.x + p.y + p.z + v.x + v.y + v.z));
         double above = p.z - r->state.half_height - ground(r, p);
-        if (above < -1e-5) { /* what native float rounds */
+        if (above < -1e-9) {
             fail_msg("at %g s, %g Hz: %g m under the hills at %g %g %g", r->time, rate, -above, p.x, p.y, p.z);
         }
         walked += r->state.mode == TAHR_MODE_WALKING;

@@ -295,7 +295,7 @@ static void run_turned(tahr_quat q, tahr_vec3 way[STEPS], uint32_t modes[STEPS])
 {
     tahr_body_desc bodies[4];
     tahr_config c = rig_config();
-    tahr_native_desc options = fixture_options(TAHR_NATIVE_DOUBLE);
+    tahr_native_desc options = fixture_options();
     tahr_world_desc desc;
     rig r;
     memset(&r, 0, sizeof r);

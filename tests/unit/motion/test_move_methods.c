@@ -82,10 +82,10 @@ static void move_and_slide(parity *p, vec3 delta)
     }
 }
 
-/* What a backend may be wrong by, m: sweeps of native float are good to 2e-6 m, ccd's to 1e-5. */
+/* What a backend may be wrong by, m: native's sweeps are good to 1e-9 m, ccd's to 1e-5. */
 static double slack_of(int backend)
 {
-    return backend == PARITY_CCD ? 2e-5 : (backend == PARITY_FLOAT ? 4e-6 : 2e-9);
+    return backend == PARITY_CCD ? 2e-5 : 2e-9;
 }
 
 static void wander(parity *p, oracle_random *dice, const fake_world *oracle, const char *where)

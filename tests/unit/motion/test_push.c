@@ -35,7 +35,7 @@ static void a_wall_pushes_a_character_at_any_speed(void **unused)
             for (int n = 1; n * dt * speeds[k] < 20; n++) {
                 tahr_pose pose = {{-5 + speeds[k] * n * dt, 0, 2}, LEVEL};
                 stage_step(&r, 1, pose, dt);
-                assert_near(r.state.position.x, fmax(0, pose.position.x + 0.5 + REACH), 2e-6);
+                assert_near(r.state.position.x, fmax(0, pose.position.x + 0.5 + REACH), 1e-9);
                 assert_near(r.state.position.y, 0.3, 1e-9);
                 assert_near(r.state.position.z, height, 1e-9);
                 assert_false(r.report.flags & TAHR_REPORT_CRUSHED);
@@ -290,7 +290,7 @@ static void a_floor_that_rises_into_a_falling_character_is_landed_on_at_its_spee
             if (e) {
                 speed = e->value;
             }
-            assert_true(r.state.position.z - 0.9 >= pose.position.z + 0.25 + 0.01 - 2e-6);
+            assert_true(r.state.position.z - 0.9 >= pose.position.z + 0.25 + 0.01 - 1e-9);
         }
         /* 1.99 m apart: 5 t + g t^2 / 2; sqrt(5^2 + 2 g 1.99) at the meeting */
         assert_near(speed, sqrt(25 + 2 * 9.81 * 1.99), 1e-4);

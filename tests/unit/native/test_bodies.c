@@ -23,7 +23,7 @@ static void moved_bodies_are_found_where_they_are(void **state)
         bodies[i].flags = i % 2 ? TAHR_BODY_MOVABLE : 0;
         bodies[i].pose.position = v_make(3.0 * (i % 40), 3.0 * (i / 40), 0);
     }
-    native_open(&f, bodies, MANY, TAHR_NATIVE_FLOAT, 1);
+    native_open(&f, bodies, MANY, 1);
     tahr_sweep q = fixture_sweep(fixture_shape(TAHR_SHAPE_SPHERE, 0.25, 0.25), v_make(9, 6, 3), v_make(0, 0, -4), 0.01);
     fixture_announce(&f, q.position, 5);
     tahr_hit h = fixture_hit(&f, &q);
@@ -52,14 +52,14 @@ static void moved_bodies_are_found_where_they_are(void **state)
 
 static void broken_bodies_and_options_are_refused(void **state)
 {
-    const char *const named[] = {"radius is -1", "half_height",       "pose.position",     "pose.orientation",
-                                 "type is 7",    "options.precision", "options.cache_tri", "options.cache_m",
-                                 "flags is 256", "options.no_cache",  "options.no_simd",   "options.no_fields"};
+    const char *const named[] = {"radius is -1", "half_height",      "pose.position",     "pose.orientation",
+                                 "type is 7",    "options.reserved", "options.cache_tri", "options.cache_m",
+                                 "flags is 256", "options.no_cache", "options.no_simd",   "options.no_fields"};
     (void)state;
     fixture f;
     for (int n = 0; n < 12; n++) {
         tahr_body_desc body = fixture_body(TAHR_BODY_CAPSULE);
-        tahr_native_desc options = fixture_options(0);
+        tahr_native_desc options = fixture_options();
         body.radius = 0.5;
         body.half_height = 1;
         if (n == 0) body.radius = -1;
@@ -67,7 +67,7 @@ static void broken_bodies_and_options_are_refused(void **state)
         if (n == 2) body.pose.position.y = INFINITY;
         if (n == 3) body.pose.orientation.w = 2;
         if (n == 4) body.type = 7;
-        if (n == 5) options.precision = 7;
+        if (n == 5) options.reserved = 1;
         if (n == 6) options.cache_triangles = 5000;
         if (n == 7) options.cache_margin = NAN;
         if (n == 8) body.flags = TAHR_BODY_ONE_WAY << 1;
@@ -79,7 +79,7 @@ static void broken_bodies_and_options_are_refused(void **state)
         if (!strstr(f.message, named[n])) fail_msg("message %d was '%s'", n, f.message);
         assert_true(f.bytes == 0 && !f.self);
     }
-    tahr_native_desc small = fixture_options(0);
+    tahr_native_desc small = fixture_options();
     small.struct_size = 8;
     fixture_init(&f);
     assert_int_equal(fixture_open(&f, NULL, 0, &small, 0), TAHR_E_STRUCT_SIZE);

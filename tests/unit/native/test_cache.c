@@ -54,43 +54,41 @@ static void caches_and_lanes_change_no_bit(void **state)
     for (uint32_t i = 1; i < NATIVE_HILLS; i++)
         bodies[i].mask = 1 + i % 2;
     uint64_t escapes = 0, gathers = 0, hits = 0, contacts = 0, rays = 0;
-    for (uint32_t precision = 0; precision < 2; precision++) {
-        fixture f[5];
+    fixture f[5];
+    for (uint32_t i = 0; i < 5; i++) {
+        tahr_native_desc o = fixture_options();
+        o.no_cache = i == 0;
+        o.no_simd = i == 2;
+        o.cache_triangles = i == 3 ? 16 : i == 4 ? 4096 : 400;
+        o.cache_margin = i == 4 ? 3 : 0.5;
+        fixture_init(&f[i]);
+        assert_int_equal(fixture_open(&f[i], bodies, NATIVE_HILLS, &o, 1), TAHR_OK);
+    }
+    oracle_random r = {3};
+    tahr_vec3 p = v_make(6, 6, 1.2);
+    for (int n = 0; n < 12000; n++) {
+        tahr_sweep q = fixture_sweep(native_shape(n % 11 == 0 ? 2 : n % 3 == 0 ? 0 : 1), p, v_make(0, 0, 0), 0.01);
+        q.motion = dice_vec(&r, -0.5, 0.4);
+        if (n % 50 == 0) q.motion.x = 4;
+        if ((n / 500) % 2) q.up = v_make(0.6, 0, 0.8);
+        q.flags = n % 2 ? TAHR_SWEEP_LEAVE_OVERLAP : 0;
+        q.mask = n % 9 == 0 ? 1 : n % 9 == 1 ? 2 : 0xFFFFFFFFu;
+        uint32_t announced = (n / 700) % 2 ? 1 : 0xFFFFFFFFu; /* less than is asked for: still the same answers */
+        answers first, other;
         for (uint32_t i = 0; i < 5; i++) {
-            tahr_native_desc o = fixture_options(precision);
-            o.no_cache = i == 0;
-            o.no_simd = i == 2;
-            o.cache_triangles = i == 3 ? 16 : i == 4 ? 4096 : 400;
-            o.cache_margin = i == 4 ? 3 : 0.5;
-            fixture_init(&f[i]);
-            assert_int_equal(fixture_open(&f[i], bodies, NATIVE_HILLS, &o, 1), TAHR_OK);
+            announce(&f[i], p, q.up, announced);
+            ask(&f[i], &q, i == 0 ? &first : &other);
+            if (i > 0) assert_memory_equal(&first, &other, sizeof first);
         }
-        oracle_random r = {precision + 3};
-        tahr_vec3 p = v_make(6, 6, 1.2);
-        for (int n = 0; n < 6000; n++) {
-            tahr_sweep q = fixture_sweep(native_shape(n % 11 == 0 ? 2 : n % 3 == 0 ? 0 : 1), p, v_make(0, 0, 0), 0.01);
-            q.motion = dice_vec(&r, -0.5, 0.4);
-            if (n % 50 == 0) q.motion.x = 4;
-            if ((n / 500) % 2) q.up = v_make(0.6, 0, 0.8);
-            q.flags = n % 2 ? TAHR_SWEEP_LEAVE_OVERLAP : 0;
-            q.mask = n % 9 == 0 ? 1 : n % 9 == 1 ? 2 : 0xFFFFFFFFu;
-            uint32_t announced = (n / 700) % 2 ? 1 : 0xFFFFFFFFu; /* less than is asked for: still the same answers */
-            answers first, other;
-            for (uint32_t i = 0; i < 5; i++) {
-                announce(&f[i], p, q.up, announced);
-                ask(&f[i], &q, i == 0 ? &first : &other);
-                if (i > 0) assert_memory_equal(&first, &other, sizeof first);
-            }
-            hits += first.hit_count, contacts += first.contact_count, rays += first.ray_count;
-            p = v_add(p, v_scale(q.motion, 0.3));
-            if (p.x < 2 || p.x > 10 || p.y < 2 || p.y > 10 || p.z < 0 || p.z > 2.5) p = v_make(6, 6, 1.2);
-        }
-        assert_int_equal(f[0].context.gathers, 0);
-        for (int i = 0; i < 5; i++) {
-            escapes += f[i].context.escapes;
-            gathers += f[i].context.gathers;
-            native_close(&f[i]);
-        }
+        hits += first.hit_count, contacts += first.contact_count, rays += first.ray_count;
+        p = v_add(p, v_scale(q.motion, 0.3));
+        if (p.x < 2 || p.x > 10 || p.y < 2 || p.y > 10 || p.z < 0 || p.z > 2.5) p = v_make(6, 6, 1.2);
+    }
+    assert_int_equal(f[0].context.gathers, 0);
+    for (int i = 0; i < 5; i++) {
+        escapes += f[i].context.escapes;
+        gathers += f[i].context.gathers;
+        native_close(&f[i]);
     }
     assert_true(escapes > 100 && gathers > 100);
     assert_true(hits > 1000 && contacts > 1000 && rays > 1000); /* else nothing was compared */
@@ -102,7 +100,7 @@ static void only_what_was_gathered_for_fewer_bodies_is_gathered_anew(void **stat
     static native_grid grid;
     fixture f;
     tahr_body_desc bodies[NATIVE_HILLS];
-    tahr_native_desc o = fixture_options(TAHR_NATIVE_FLOAT);
+    tahr_native_desc o = fixture_options();
     const tahr_vec3 at = {6, 6, 1.2}, up = {0, 0, 1};
     native_hills(&grid, bodies);
     o.cache_triangles = 400;

@@ -23,7 +23,7 @@ static void expect_floor_and_wall(tahr_shape shape, tahr_vec3 at)
     memcpy(grid.indices + 3 * floor.triangle_count, grid.indices, 3 * floor.triangle_count * sizeof grid.indices[0]);
     floor.triangle_count *= 2;
     tahr_body_desc bodies[2] = {floor, native_box(v_make(at.x + side + 0.01 + 0.5, 0.5, 0), v_make(0.5, 2, 2))};
-    native_open(&f, bodies, 2, TAHR_NATIVE_DOUBLE, 0);
+    native_open(&f, bodies, 2, 0);
     tahr_contact_query q = fixture_contacts(shape, v_make(at.x, at.y, shape.half_height + 0.01), 0.02);
     assert_int_equal(tahr_backend_v1_native()->contacts(f.self, &f.context, &q, contacts, 16, &count), TAHR_OK);
     assert_int_equal(count, 2);
@@ -59,7 +59,7 @@ static void contacts_come_nearest_first_and_say_when_more_existed(void **state)
     tahr_contact contacts[4];
     uint32_t count = 0;
     const tahr_backend *b = tahr_backend_v1_native();
-    native_open(&f, bodies, 3, TAHR_NATIVE_DOUBLE, 0);
+    native_open(&f, bodies, 3, 0);
     /* 0.03 over the first, 0.02 and 0.01 beside the others. */
     tahr_contact_query q = fixture_contacts(fixture_shape(TAHR_SHAPE_CAPSULE, 0.3, 0.9), v_make(0, 0, -0.07), 0.05);
     assert_int_equal(b->contacts(f.self, &f.context, &q, contacts, 4, &count), TAHR_OK);
@@ -78,7 +78,7 @@ static void a_box_pushes_out_what_is_inside(void **state)
     (void)state;
     fixture f;
     tahr_body_desc body = native_box(v_make(0, 0, 0), v_make(2, 3, 4));
-    native_open(&f, &body, 1, TAHR_NATIVE_FLOAT, 0);
+    native_open(&f, &body, 1, 0);
     for (int kind = 0; kind < NATIVE_KINDS; kind++) {
         tahr_shape shape = native_shape(kind);
         double half = kind == 2 ? 0.25 : 0.3;

@@ -134,9 +134,7 @@ static void check(const tahr__former *former)
     for (uint32_t n = 0; n < 48; n++) {
         begin(&s, &r);
         s.world.former = *former;
-        s.world.round = n % 2;
-        tahr__frame frame =
-            tahr__frame_make(&s.world, dice_vec(&r, -20, 20), n % 3 ? v_make(0, 0, 1) : dice_direction(&r));
+        tahr__frame frame = tahr__frame_make(dice_vec(&r, -20, 20), n % 3 ? v_make(0, 0, 1) : dice_direction(&r));
         uint32_t count = put_heads(&s, n);
         expect(&s, &frame, count);
         planes += compare(&s, &frame, count);

@@ -39,20 +39,18 @@ static void described_bodies_and_movers_may_be_there_besides(void **state)
         soup_make(&soups[i], &hills, NATIVE_HILLS - 1);
         soups[i].reversed = i;
     }
-    for (uint32_t precision = 0; precision < 2; precision++) {
-        fixture worlds[3];
-        for (uint32_t i = 0; i < 3; i++) {
-            tahr_native_desc o = fixture_options(precision);
-            o.no_cache = i == 1;
-            o.cache_triangles = 1000;
-            if (i > 0) o.gather = soup_gather, o.gather_user = &soups[i - 1];
-            fixture_init(&worlds[i]);
-            assert_int_equal(fixture_open(&worlds[i], bodies, NATIVE_HILLS - (i > 0), &o, 1), TAHR_OK);
-        }
-        assert_true(soup_compare(worlds, 3, &soups[0], 1500) > 700);
-        for (int i = 0; i < 3; i++)
-            native_close(&worlds[i]);
+    fixture worlds[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        tahr_native_desc o = fixture_options();
+        o.no_cache = i == 1;
+        o.cache_triangles = 1000;
+        if (i > 0) o.gather = soup_gather, o.gather_user = &soups[i - 1];
+        fixture_init(&worlds[i]);
+        assert_int_equal(fixture_open(&worlds[i], bodies, NATIVE_HILLS - (i > 0), &o, 1), TAHR_OK);
     }
+    assert_true(soup_compare(worlds, 3, &soups[0], 1500) > 700);
+    for (int i = 0; i < 3; i++)
+        native_close(&worlds[i]);
     soup_free(&soups[0]);
     soup_free(&soups[1]);
 }
@@ -80,7 +78,7 @@ static uint32_t compare_lone(uint32_t flags)
         soups[i].reversed = i;
     }
     fixture worlds[SOUP_WORLDS];
-    soup_open_all(worlds, &mesh, soups, TAHR_NATIVE_DOUBLE);
+    soup_open_all(worlds, &mesh, soups);
     uint32_t hits = soup_compare(worlds, SOUP_WORLDS, &soups[0], 1500);
     for (uint32_t i = 0; i < SOUP_WORLDS; i++)
         native_close(&worlds[i]);
@@ -127,7 +125,7 @@ static const tahr_triangle RIGHT = {.corners = {{-50, -50, 0}, {50, 50, 0}, {-50
 
 static void open_liar(fixture *f, liar *l, int with_cache)
 {
-    tahr_native_desc o = fixture_options(TAHR_NATIVE_DOUBLE);
+    tahr_native_desc o = fixture_options();
     o.gather = lie;
     o.gather_user = l;
     fixture_init(f);
@@ -201,7 +199,7 @@ static void the_ids_of_described_bodies_are_not_free(void **state)
 {
     (void)state;
     liar l = {.wrong = RIGHT};
-    tahr_native_desc o = fixture_options(TAHR_NATIVE_DOUBLE);
+    tahr_native_desc o = fixture_options();
     tahr_body_desc box = native_box(v_make(0, 0, -9), v_make(1, 1, 1));
     fixture f;
     soup_answer a;
@@ -222,7 +220,7 @@ static void a_touch_makes_caches_forget(void **state)
     (void)state;
     tahr_world *world = NULL;
     liar l = {.wrong = RIGHT};
-    tahr_native_desc o = fixture_options(TAHR_NATIVE_DOUBLE);
+    tahr_native_desc o = fixture_options();
     tahr_world_desc desc;
     tahr_config config;
     tahr_state s;
@@ -291,7 +289,7 @@ static void a_character_walks_on_gathered_triangles_as_on_a_mesh(void **state)
     assert_true(scene_level_make("playground", &mesh, why));
     scene_level_body(&mesh, &body);
     soup_make(&s, &body, 0);
-    tahr_native_desc o = fixture_options(TAHR_NATIVE_FLOAT);
+    tahr_native_desc o = fixture_options();
     tahr_world_desc desc;
     tahr_world_desc_init(&desc, sizeof desc);
     desc.options = &o;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * test_gather_full.c: as test_native_gather.c, 20 000 queries on each level, half of them in each precision. */
+ * test_gather_full.c: as test_native_gather.c, 20 000 queries on each level. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

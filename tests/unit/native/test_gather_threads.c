@@ -72,7 +72,7 @@ static void walk_together(soup *s, uint32_t no_cache)
     walker alone[THREADS], together[THREADS];
     pthread_t threads[THREADS];
     tahr_world *world = NULL;
-    tahr_native_desc o = fixture_options(TAHR_NATIVE_DOUBLE);
+    tahr_native_desc o = fixture_options();
     tahr_world_desc desc;
     tahr_world_desc_init(&desc, sizeof desc);
     desc.options = &o;

@@ -84,7 +84,7 @@ static void a_field_answers_as_its_mesh_bit_for_bit(void **state)
         soup_make(&s, &f.mesh_body, 0);
         fixture worlds[5];
         for (uint32_t i = 0; i < 5; i++) {
-            tahr_native_desc o = fixture_options(n % 2);
+            tahr_native_desc o = fixture_options();
             o.no_fields = i == 0;
             o.no_cache = i == 1;
             o.no_simd = i == 2;
@@ -103,9 +103,9 @@ static void a_field_answers_as_its_mesh_bit_for_bit(void **state)
 }
 
 /* Opens the mesh of a field, with a cache: as it is, or as a mesh whatever it is. Returns the bytes of the scene. */
-static size_t open_mesh(fixture *w, const field *f, uint32_t precision, uint32_t no_fields)
+static size_t open_mesh(fixture *w, const field *f, uint32_t no_fields)
 {
-    tahr_native_desc o = fixture_options(precision);
+    tahr_native_desc o = fixture_options();
     o.no_fields = no_fields;
     o.cache_triangles = 1500;
     fixture_init(w);
@@ -132,7 +132,7 @@ static void a_mesh_on_an_uneven_grid_answers_as_a_mesh_bit_for_bit(void **state)
         soup s;
         fixture worlds[2];
         soup_make(&s, &f.mesh_body, 0);
-        size_t as_mesh = open_mesh(&worlds[0], &f, n % 2, 1), as_field = open_mesh(&worlds[1], &f, n % 2, 0);
+        size_t as_mesh = open_mesh(&worlds[0], &f, 1), as_field = open_mesh(&worlds[1], &f, 0);
         assert_true(4 * as_field < as_mesh);
         assert_true(soup_compare(worlds, 2, &s, 400) > 80);
         native_close(&worlds[0]);
@@ -161,9 +161,9 @@ static void what_is_not_quite_a_field_stays_a_mesh(void **state)
             double *c = f.vertices + 3 * i + (n == 6 ? 0 : 1);
             *c += 0.01 * *c * *c; /* cells that grow */
         }
-        size_t as_mesh = open_mesh(&w, &f, 0, 1);
+        size_t as_mesh = open_mesh(&w, &f, 1);
         native_close(&w);
-        size_t as_found = open_mesh(&w, &f, 0, 0);
+        size_t as_found = open_mesh(&w, &f, 0);
         native_close(&w);
         assert_int_equal(as_found == as_mesh, n > 0);
     }
@@ -177,7 +177,7 @@ static void a_field_takes_little_more_than_its_heights(void **state)
     oracle_random r = {2};
     fixture w;
     make(&f, &r, 0.2, 0);
-    native_open(&w, &f.heights_body, 1, TAHR_NATIVE_FLOAT, 0);
+    native_open(&w, &f.heights_body, 1, 0);
     assert_true(w.bytes < sizeof f.heights + 4096);
     native_close(&w);
 }
@@ -192,7 +192,7 @@ static void a_sphere_rests_on_a_slope_of_heights(void **state)
     d.heights = heights;
     d.columns = d.rows = 2;
     d.half_extents = v_make(1, 1, 0);
-    native_open(&w, &d, 1, TAHR_NATIVE_DOUBLE, 0);
+    native_open(&w, &d, 1, 0);
     tahr_sweep q =
         fixture_sweep(fixture_shape(TAHR_SHAPE_SPHERE, 0.5, 0.5), v_make(0.1, 0.2, 2), v_make(0, 0, -2), 0.01);
     tahr_hit h = fixture_hit(&w, &q);

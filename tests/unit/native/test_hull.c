@@ -165,8 +165,8 @@ static void a_hull_of_a_boxs_corners_answers_as_the_box(void **state)
     box.pose.orientation = hull.pose.orientation = (tahr_quat){0.1, 0.2, 0.3, 0.9273618495495704};
     hull.pose.position = box.pose.position;
     fixture f[2];
-    native_open(&f[0], &box, 1, TAHR_NATIVE_DOUBLE, 0);
-    native_open(&f[1], &hull, 1, TAHR_NATIVE_DOUBLE, 0);
+    native_open(&f[0], &box, 1, 0);
+    native_open(&f[1], &hull, 1, 0);
     uint32_t hits = 0, overlaps = 0;
     for (int n = 0; n < 6000; n++) {
         tahr_vec3 at = v_add(box.pose.position, dice_vec(&r, -1.5, 1.5));
@@ -215,7 +215,7 @@ static void the_way_out_of_a_hull_is_the_shortest(void **state)
         uint32_t count = make_points(&r, n % 2, p);
         if (count < 8) continue;
         tahr_body_desc d = hull_of(p, count);
-        native_open(&f, &d, 1, TAHR_NATIVE_DOUBLE, 0);
+        native_open(&f, &d, 1, 0);
         for (int k = 0; k < 6; k++) {
             tahr_sweep q = fixture_sweep(native_shape(k % 3), dice_vec(&r, -0.9, 0.9), v_make(0, 0, 0), 0);
             tahr_hit h = fixture_hit(&f, &q);
@@ -253,7 +253,7 @@ static void distances_to_a_hull_are_those_to_its_faces(void **state)
         for (int i = 0; i < 4; i++)
             p[i] = dice_vec(&r, -1, 1);
         tahr_body_desc d = hull_of(p, 4);
-        native_open(&f, &d, 1, TAHR_NATIVE_DOUBLE, 0);
+        native_open(&f, &d, 1, 0);
         for (int k = 0; k < 10; k++) {
             tahr_vec3 at = dice_vec(&r, -2, 2);
             tahr_shape shape = native_shape(k % 2);
@@ -325,20 +325,18 @@ static void caches_and_lanes_change_no_bit_of_hulls(void **state)
     }
     bodies[HULLS] = native_grid_body(&grid, NATIVE_CELLS, 0.5, NULL);
     soup_make(&s, &bodies[HULLS], HULLS);
-    for (uint32_t precision = 0; precision < 2; precision++) {
-        fixture worlds[4];
-        for (uint32_t i = 0; i < 4; i++) {
-            tahr_native_desc o = fixture_options(precision);
-            o.no_cache = i == 0;
-            o.no_simd = i == 2;
-            o.cache_triangles = i == 3 ? 64 : 4096;
-            fixture_init(&worlds[i]);
-            assert_int_equal(fixture_open(&worlds[i], bodies, HULLS + 1, &o, 1), TAHR_OK);
-        }
-        assert_true(soup_compare(worlds, 4, &s, 600) > 300);
-        for (int i = 0; i < 4; i++)
-            native_close(&worlds[i]);
+    fixture worlds[4];
+    for (uint32_t i = 0; i < 4; i++) {
+        tahr_native_desc o = fixture_options();
+        o.no_cache = i == 0;
+        o.no_simd = i == 2;
+        o.cache_triangles = i == 3 ? 64 : 4096;
+        fixture_init(&worlds[i]);
+        assert_int_equal(fixture_open(&worlds[i], bodies, HULLS + 1, &o, 1), TAHR_OK);
     }
+    assert_true(soup_compare(worlds, 4, &s, 600) > 300);
+    for (int i = 0; i < 4; i++)
+        native_close(&worlds[i]);
     soup_free(&s);
 }
 

@@ -68,7 +68,7 @@ static tahr__lanes_query query_of(const motion *m)
                            .motion = {(float)m->by.x, (float)m->by.y, (float)m->by.z},
                            .half = (float)m->half,
                            .reach = (float)(m->reach + TAHR__LANE_SLACK),
-                           .lowest = d_down(low.z - 2e-5)};
+                           .lowest = d_down(low.z)};
     return q;
 }
 

@@ -66,7 +66,7 @@ static void no_margin_changes_a_bit(void **state)
         tahr_native_desc ways[WAYS];
         uint64_t gathers[WAYS];
         for (int i = 0; i < WAYS; i++)
-            ways[i] = fixture_options(TAHR_NATIVE_FLOAT);
+            ways[i] = fixture_options();
         ways[1].no_cache = 1;
         ways[2].cache_margin = 1;
         ways[2].no_simd = 1;
@@ -116,7 +116,7 @@ static choice choose(double cell, const tahr_native_desc *options)
     assert_int_equal(fixture_open(&f, &body, 1, options, 0), TAHR_OK);
     memset(&query, 0, sizeof query);
     query.world = f.self;
-    query.own_frame = tahr__frame_make(f.self, box.min, v_make(0, 0, 1));
+    query.own_frame = tahr__frame_make(box.min, v_make(0, 0, 1));
     query.frame = &query.own_frame;
     query.mask = 0xFFFFFFFFu;
     c.fits = tahr__margin_choose(&query, &box, &counted, &c.margin);
@@ -134,7 +134,7 @@ static void what_is_gathered_fits_the_cache(void **state)
     (void)state;
     double before = 2;
     for (int d = 0; d < DENSITIES; d++) {
-        tahr_native_desc options = fixture_options(TAHR_NATIVE_FLOAT);
+        tahr_native_desc options = fixture_options();
         choice c = choose(CELLS[d], &options);
         assert_int_equal(c.fits, CELLS[d] > 1.25 / 6);
         assert_true(c.fits || CELLS[d] < 1.25 / 8);
@@ -149,7 +149,7 @@ static void what_is_gathered_fits_the_cache(void **state)
 static void a_margin_that_is_given_is_taken(void **state)
 {
     (void)state;
-    tahr_native_desc options = fixture_options(TAHR_NATIVE_FLOAT);
+    tahr_native_desc options = fixture_options();
     options.cache_margin = 0.7;
     for (int d = 0; d < DENSITIES; d++) {
         choice c = choose(CELLS[d], &options);

@@ -18,7 +18,7 @@ static void rays_hit_fronts_and_slip_through_no_seam(void **state)
     static native_grid grid;
     tahr_body_desc bodies[NATIVE_HILLS];
     native_hills(&grid, bodies);
-    native_open(&f, bodies, NATIVE_HILLS, TAHR_NATIVE_FLOAT, 0);
+    native_open(&f, bodies, NATIVE_HILLS, 0);
     const tahr_backend *b = tahr_backend_v1_native();
     tahr_hit hit;
     uint32_t count = 0, solid = 0;

@@ -78,7 +78,7 @@ static void floor_sweep_turns_the_flat_base_before_it_gives_up(void **unused)
     (void)unused;
     parity_begin(&t, "floor sweep test");
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        for (int backend = PARITY_DOUBLE; backend < PARITY_BACKENDS; backend++) {
+        for (int backend = PARITY_NATIVE; backend < PARITY_BACKENDS; backend++) {
             parity p;
             tahr_hit hit;
             tahr_config c = parity_config();
@@ -268,7 +268,7 @@ static void floor_is_looked_for_again_only_where_it_may_have_changed(void **unus
         parity p;
         c.cached_floor = rows[i].cached;
         parity_box(&scene, fake_vec(-300, -300, -40), fake_vec(300, 300, -2.15))->flags = rows[i].flags;
-        open_at(&p, &scene, PARITY_DOUBLE, &c, 88);
+        open_at(&p, &scene, PARITY_NATIVE, &c, 88);
         tahr__step *s = &p.step;
         parity_row(&t, rows[i].id, NULL);
         tahr__find_floor(s, c.snap_distance, NULL, &floor);

@@ -161,7 +161,7 @@ static void adjustment_rows(void **unused)
     parity_plane(&scene, 0, 0, 1, -100);
     parity_box(&scene, vec(500, 0, 0), vec(550, 50, 50))->flags = TAHR_BODY_CHARACTER | TAHR_BODY_MOVABLE;
     parity_begin(&t, "GetPenetrationAdjustment");
-    parity_open(&p, &scene, PARITY_DOUBLE, NULL, 0, 0, 0);
+    parity_open(&p, &scene, PARITY_NATIVE, NULL, 0, 0, 0);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         tahr_hit hit = {.blocking = 1, .start_overlap = 1, .depth = rows[i].depth / 100, .normal = rows[i].normal};
         vec3 e = rows[i].expected;
