@@ -13,9 +13,6 @@ enum { CAPACITY_DEFAULT = 128, CAPACITY_MAX = TAHR__CACHE_MOST };
 /* Says what is wrong with the options, or NULL. */
 static const char *bad_option(const tahr_native_desc *d)
 {
-    if (d->reserved != 0) {
-        return "options.reserved is not 0";
-    }
     if (d->cache_triangles > CAPACITY_MAX) {
         return "options.cache_triangles is above 4096";
     }

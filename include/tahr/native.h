@@ -44,13 +44,11 @@ typedef tahr_status (*tahr_gather_fn)(void *user, const tahr_bounds *box, uint32
 /* Zero means default for every field but struct_size. Out of range: tahr_world_open returns TAHR_E_ARGUMENT. */
 typedef struct tahr_native_desc {
     uint32_t struct_size;
-    uint32_t reserved;        /* 0 */
+    uint32_t no_vicinity; /* 1: every query looks at all that was gathered, however clear the air is; same bits */
     uint32_t cache_triangles; /* per character, default 128, at most 4096, 280 bytes each; what exceeds it is slower */
     uint32_t no_cache;        /* 1: every query walks the tree; same bits */
     uint32_t no_simd;         /* 1: the scalar twin; same bits */
     uint32_t no_fields;       /* 1: a mesh that is a field of heights stays a mesh (tahr_world_describe); same bits */
-    uint32_t no_vicinity; /* 1: every query looks at all that was gathered, however clear the air is; same bits */
-    uint32_t reserved;    /* 0 */
     double cache_margin;      /* m around the announced box, 0..1000; 0: by how dense the scene is there, at most 1 */
     /* NULL: the described bodies are all there is. Else these triangles besides them (which may be none): they answer
      * bit for bit as a mesh of them would. They carry nobody and are no sensors: describe what moves, and sensors, as

@@ -53,7 +53,7 @@ static void moved_bodies_are_found_where_they_are(void **state)
 static void broken_bodies_and_options_are_refused(void **state)
 {
     const char *const named[] = {"radius is -1", "half_height",      "pose.position",     "pose.orientation",
-                                 "type is 7",    "options.reserved", "options.cache_tri", "options.cache_m",
+                                 "type is 7",    "options.no_vicinity", "options.cache_tri", "options.cache_m",
                                  "flags is 256", "options.no_cache", "options.no_simd",   "options.no_fields"};
     (void)state;
     fixture f;
@@ -67,7 +67,7 @@ static void broken_bodies_and_options_are_refused(void **state)
         if (n == 2) body.pose.position.y = INFINITY;
         if (n == 3) body.pose.orientation.w = 2;
         if (n == 4) body.type = 7;
-        if (n == 5) options.reserved = 1;
+        if (n == 5) options.no_vicinity = 2;
         if (n == 6) options.cache_triangles = 5000;
         if (n == 7) options.cache_margin = NAN;
         if (n == 8) body.flags = TAHR_BODY_ONE_WAY << 1;
