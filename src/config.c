@@ -70,7 +70,7 @@ static void precise(tahr_config *c)
     c->braking_substep = 1.0 / 33;
     c->max_substeps = 8;
     c->sleep = 1;
-    c->stroll = 1;
+    c->short_ways = 1;
     c->turn_rate = 12.5;
 }
 
@@ -332,7 +332,7 @@ static const char *bad_motion_field(const tahr_config *c)
                             {"braking_substep", c->braking_substep, 1e-3, 10},
                             {"max_substeps", c->max_substeps, 1, 64},
                             {"sleep", c->sleep, 0, 1},
-                            {"stroll", c->stroll, 0, 1},
+                            {"short_ways", c->short_ways, 0, 1},
                             {"turn_rate", c->turn_rate, 0, 1e4}};
     return bad_range(ranges, sizeof ranges / sizeof ranges[0]);
 }

@@ -136,9 +136,9 @@ struct tahr_mover {
     size_t cache_size;
     uint32_t busy;
     uint32_t plain; /* 1: neither world nor config hold anything that a state remembers */
-    uint32_t may_stroll;
-    uint32_t stroll_rest;   /* steps that go the long way before the short one is tried again, */
-    uint32_t stroll_failed; /* and how often in a row it was of no use */
+    uint32_t may_go_short_way;
+    uint32_t rest;   /* steps that go the long way before the short one is tried again, */
+    uint32_t failed; /* and how often in a row it was of no use */
     uint32_t reserved;
     tahr__custom custom;
     uint32_t record_round;         /* of the recording that has numbered it, */
@@ -191,6 +191,9 @@ struct tahr__step {
  * Each time costs some 40 queries to find where the floor ended. */
 enum { TAHR__MAX_SLICES = 6 };
 
+/* s: slices shorter than this are rounding of the times of contacts. */
+#define TAHR__SHORTEST 1e-9
+
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */
 typedef struct tahr__next {
     uint32_t mode;
@@ -223,6 +226,36 @@ static inline int world_is_planar(const tahr_world *world)
 
 /* What is said of a vector that leaves such a world. */
 #define TAHR__NO_Z "must have no z: the world has two dimensions, x and y"
+
+static inline vec3 clean(vec3 v)
+{
+    return vec(v.x + 0.0, v.y + 0.0, v.z + 0.0);
+}
+
+/* What any step may write, up to the radius. -0.0 and 0.0 are one number; the caller's state holds only one of them, so
+ * that memcmp agrees with ==. The tail is zero on both sides of a step, and stays where it is. */
+static inline void tahr__clean_state(const tahr_state *s, tahr_state *out)
+{
+    const tahr_quat q = s->orientation;
+    out->position = clean(s->position);
+    out->velocity = clean(s->velocity);
+    out->orientation = (tahr_quat){q.x + 0.0, q.y + 0.0, q.z + 0.0, q.w + 0.0};
+    out->up = clean(s->up);
+    out->mode = s->mode;
+    out->flags = s->flags;
+    out->floor.normal = clean(s->floor.normal);
+    out->floor.surface_normal = clean(s->floor.surface_normal);
+    out->floor.point = clean(s->floor.point);
+    out->floor.distance = s->floor.distance + 0.0;
+    out->floor.perch_distance = s->floor.perch_distance + 0.0;
+    out->floor.flags = s->floor.flags;
+    out->floor.body = s->floor.body;
+    out->floor.feature = s->floor.feature;
+    out->floor.surface = s->floor.surface;
+    out->floor_position = clean(s->floor_position);
+    out->floor_revision = s->floor_revision;
+    out->jump_hold = s->jump_hold + 0.0;
+}
 
 /* What another character of a crowd is to who meets it. */
 enum { TAHR__CHARACTER_FLAGS = TAHR_BODY_CHARACTER | TAHR_BODY_MOVABLE | TAHR_BODY_NO_BASE | TAHR_BODY_NO_STEP };

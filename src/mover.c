@@ -19,17 +19,14 @@
 #include "record.h"
 #include "report.h"
 #include "request.h"
+#include "short_way.h"
 #include "sleep.h"
 #include "stance.h"
-#include "stroll.h"
 #include "trail.h"
 #include "turning.h"
 
 /* Bytes of a state that a step works on. */
 enum { USED = offsetof(tahr_state, reserved) };
-
-/* Slices shorter than this are rounding of the times of contacts. */
-static const double MIN_SLICE = 1e-9;
 
 tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr_mover **out)
 {
@@ -67,7 +64,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
-    mover->may_stroll = (uint32_t)tahr__may_stroll(world, config, &mover->limits);
+    mover->may_go_short_way = (uint32_t)tahr__may_go_short_way(world, config, &mover->limits);
     mover->cache = cache;
     mover->cache_size = cache_size;
     *out = mover;
@@ -167,7 +164,7 @@ static void run(tahr__step *step, double dt, int plain)
     tahr__begin_jump(step);
     tahr__time_slice(step);
     double left = dt;
-    while (left > MIN_SLICE && step->error >= 0 && step->report.slices < TAHR__MAX_SLICES &&
+    while (left > TAHR__SHORTEST && step->error >= 0 && step->report.slices < TAHR__MAX_SLICES &&
            !(step->report.flags & TAHR_REPORT_QUERY_CAP)) {
         step->report.slices++;
         if (!plain && press_is_remembered(step) && step->state.mode == TAHR_MODE_WALKING) {
@@ -175,7 +172,7 @@ static void run(tahr__step *step, double dt, int plain)
         }
         left = tahr__run_mode(step, left);
     }
-    if (left > MIN_SLICE) {
+    if (left > TAHR__SHORTEST) {
         step->report.time_lost += left;
     }
     if (step->report.time_lost > 0) {
@@ -192,11 +189,6 @@ static void run(tahr__step *step, double dt, int plain)
 /* m/s: the fastest that a state may hold (mover.h), and a little less, so that rounding stays below. */
 static const double FASTEST = 1e5, CAPPED = 1e5 * (1 - 1e-15);
 
-static vec3 clean(vec3 v)
-{
-    return vec(v.x + 0.0, v.y + 0.0, v.z + 0.0);
-}
-
 /* Bases, walls and settings may add what no launch may. */
 static void cap_speed(tahr_state *s)
 {
@@ -205,30 +197,11 @@ static void cap_speed(tahr_state *s)
     }
 }
 
-/* -0.0 and 0.0 are one number; the caller's state holds only one of them, so that memcmp agrees with ==. The tail is
- * zero on both sides of a step, and stays where it is. */
+/* What a step works on. */
 static void hand_over(const tahr__step *step, int remembers, tahr_state *out)
 {
     const tahr_state *s = &step->state;
-    const tahr_quat q = s->orientation;
-    out->position = clean(s->position);
-    out->velocity = clean(s->velocity);
-    out->orientation = (tahr_quat){q.x + 0.0, q.y + 0.0, q.z + 0.0, q.w + 0.0};
-    out->up = clean(s->up);
-    out->mode = s->mode;
-    out->flags = s->flags;
-    out->floor.normal = clean(s->floor.normal);
-    out->floor.surface_normal = clean(s->floor.surface_normal);
-    out->floor.point = clean(s->floor.point);
-    out->floor.distance = s->floor.distance + 0.0;
-    out->floor.perch_distance = s->floor.perch_distance + 0.0;
-    out->floor.flags = s->floor.flags;
-    out->floor.body = s->floor.body;
-    out->floor.feature = s->floor.feature;
-    out->floor.surface = s->floor.surface;
-    out->floor_position = clean(s->floor_position);
-    out->floor_revision = s->floor_revision;
-    out->jump_hold = s->jump_hold + 0.0;
+    tahr__clean_state(s, out);
     if (remembers) { /* written clean where it is written */
         memcpy(&out->radius, &s->radius, USED - offsetof(tahr_state, radius));
     }
@@ -252,23 +225,6 @@ static tahr_status worst(uint32_t flags)
         return TAHR_UNKNOWN;
     }
     return flags & TAHR_REPORT_TRUNCATED ? TAHR_TRUNCATED : TAHR_OK;
-}
-
-static void start_report(tahr_report *r, const tahr_report *user)
-{
-    const size_t half = sizeof *r / 2; /* compilers clear more than 96 bytes at once with a slow string instruction */
-    memset(r, 0, half);
-    memset((char *)r + half, 0, sizeof *r - half);
-    r->struct_size = sizeof *r;
-    if (user) {
-        r->struct_size = user->struct_size;
-        r->events = user->events;
-        r->event_capacity = user->events ? user->event_capacity : 0;
-        r->decisions = user->decisions;
-        r->decision_capacity = user->decisions ? user->decision_capacity : 0;
-        r->queries = user->queries;
-        r->query_capacity = user->queries ? user->query_capacity : 0;
-    }
 }
 
 static void finish_report(tahr__step *step)
@@ -324,8 +280,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         }
         return worst(mover->sleep.report.flags);
     }
-    if (blank && usual && mover->may_stroll && !around && tahr__tries_stroll(mover) &&
-        tahr__stroll(mover, input, dt, state, report)) {
+    if (blank && usual && !around && tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
     }
     tahr__step step;
@@ -341,7 +296,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     }
     step.input = input;
     memcpy(&step.state, state, USED);
-    start_report(&step.report, report);
+    tahr__report_begin(&step.report, report);
     step.context = (tahr_query_context){.cache = mover->cache};
     step.pull = &mover->limits.pull;
     if (input->flags & TAHR_INPUT_GRAVITY) {

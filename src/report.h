@@ -3,7 +3,27 @@
 #ifndef TAHR_CORE_REPORT_H
 #define TAHR_CORE_REPORT_H
 
+#include <string.h>
+
 #include "core.h"
+
+/* Nothing so far, in the arrays of the user (or NULL). */
+static inline void tahr__report_begin(tahr_report *r, const tahr_report *user)
+{
+    const size_t half = sizeof *r / 2; /* compilers clear more than 96 bytes at once with a slow string instruction */
+    memset(r, 0, half);
+    memset((char *)r + half, 0, sizeof *r - half);
+    r->struct_size = sizeof *r;
+    if (user) {
+        r->struct_size = user->struct_size;
+        r->events = user->events;
+        r->event_capacity = user->events ? user->event_capacity : 0;
+        r->decisions = user->decisions;
+        r->decision_capacity = user->decisions ? user->decision_capacity : 0;
+        r->queries = user->queries;
+        r->query_capacity = user->queries ? user->query_capacity : 0;
+    }
+}
 
 /* Appends an event at step->time + step->ahead; hit may be NULL. */
 void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double value);

@@ -1,16 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * stroll.c: see stroll.h. What is left out here of the long way (mover.c, walking.c, path.c, floor.c) is what finds
- * nothing to do in such a step; what is decided here is decided there by the same operations, and whatever is not
- * plainly so goes there. */
-#include "stroll.h"
-
-#include <string.h>
-
+ * stroll.c: a walk from a face that holds to one that holds, with nothing in its way. See short_way.h. */
 #include "answer.h"
 #include "floor.h"
 #include "foot.h"
 #include "path.h"
-#include "turning.h"
+#include "short_way.h"
 
 /* Steeper floors may be the bevel of a step (tahr__path_find_slope). */
 static const double GENTLE = 0.966;
@@ -18,10 +12,10 @@ static const double GENTLE = 0.966;
 /* Contacts that lean less from the face are on it (find_whole of floor.c). */
 static const double ON_FACE = 1 - 1e-6;
 
-int tahr__may_stroll(const tahr_world *world, const tahr_config *config, const tahr__limits *limits)
+int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits)
 {
     return world->backend->walk && !world_is_planar(world) && !world->has && !limits->feel && !limits->in_plane &&
-           limits->usual && config->stroll && !config->keep_level_speed &&
+           limits->usual && config->short_ways && !config->keep_level_speed &&
            config->floor_probe == TAHR_FLOOR_PROBE_WHOLE && limits->shape.type == TAHR_SHAPE_CAPSULE;
 }
 
@@ -30,11 +24,11 @@ static int begins_on_face(const tahr_mover *mover, const tahr_state *s)
 {
     const tahr_floor *f = &s->floor;
     const uint32_t face = TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE;
-    return s->mode == TAHR_MODE_WALKING && s->flags == 0 && s->floor_revision == mover->world->revision &&
+    return s->floor_revision == mover->world->revision &&
            vec_equal(s->floor_position, s->position) && (f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) == face &&
            dot(f->normal, f->surface_normal) >= ON_FACE &&
            (dot(f->surface_normal, s->up) > GENTLE || (f->flags & TAHR_FLOOR_SLOPE)) &&
-           (mover->limits.pull.size < 1e-6 || dot(mover->limits.pull.up, s->up) > 1 - 1e-15);
+           is_against_gravity(&mover->limits.pull, s->up);
 }
 
 /* The motion of a step up or down the face, which keeps the speed along it; zero: none, or it comes to rest. */
@@ -69,56 +63,25 @@ static int ends_on_face(const tahr_mover *mover, const tahr_state *s, vec3 posit
            clearance <= c->floor_max * c->skin;
 }
 
-static vec3 clean(vec3 v)
+static void write_floor(tahr_floor *f, const tahr_hit *hit, double clearance)
 {
-    return vec(v.x + 0.0, v.y + 0.0, v.z + 0.0);
-}
-
-static void write_state(tahr_state *s, vec3 position, vec3 velocity, const tahr_hit *hit, double clearance)
-{
-    tahr_floor *f = &s->floor;
     const int same = f->body == hit->body && dot(f->surface_normal, hit->surface_normal) > 0.9999;
     const uint32_t slope = same ? f->flags & TAHR_FLOOR_SLOPE : 0;
-    s->position = s->floor_position = clean(position);
-    s->velocity = clean(velocity);
-    s->orientation = (tahr_quat){s->orientation.x + 0.0, s->orientation.y + 0.0, s->orientation.z + 0.0,
-                                 s->orientation.w + 0.0};
-    s->up = clean(s->up);
-    s->jump_hold = 0;
-    f->normal = clean(hit->normal);
-    f->surface_normal = clean(hit->surface_normal);
-    f->point = clean(hit->point);
-    f->distance = clearance + 0.0;
-    f->perch_distance = 0;
-    f->flags = TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE | slope;
-    f->body = hit->body;
-    f->feature = hit->feature;
-    f->surface = hit->surface;
-}
-
-static void write_report(tahr_report *r, const tahr_query_context *context)
-{
-    r->flags = 0;
-    r->event_capacity = r->events ? r->event_capacity : 0;
-    r->event_count = r->events_lost = 0;
-    r->decision_capacity = r->decision_count = r->decisions_lost = 0;
-    r->query_capacity = r->query_count = r->queries_lost = 0;
-    r->sweeps = 2;
-    r->contact_queries = r->rays = r->fluid_queries = r->slides = 0;
-    r->slices = 1;
-    r->reserved = 0;
-    r->triangle_tests = context->narrow_tests;
-    r->narrow_iterations = context->narrow_iterations;
-    r->gathers = r->escapes = 0;
-    r->step_offset = r->residual = r->time_lost = 0;
+    *f = (tahr_floor){.normal = hit->normal,
+                      .surface_normal = hit->surface_normal,
+                      .point = hit->point,
+                      .distance = clearance,
+                      .flags = TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE | slope,
+                      .body = hit->body,
+                      .feature = hit->feature,
+                      .surface = hit->surface};
 }
 
 int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report)
 {
     const tahr_config *c = &mover->config;
     const tahr__foot *foot = &mover->limits.foot;
-    if (input->jump || dt <= 1e-9 || (report && (report->decisions || report->queries)) ||
-        !begins_on_face(mover, state)) {
+    if (dt <= TAHR__SHORTEST || !begins_on_face(mover, state)) {
         return 0;
     }
     vec3 velocity, motion = motion_of(mover, input, dt, state, &velocity);
@@ -147,12 +110,11 @@ int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_sta
     if (!ends_on_face(mover, state, position, &hit, clearance) || vec_equal(position, state->position)) {
         return 0;
     }
-    write_state(state, position, velocity, &hit, clearance);
+    write_floor(&state->floor, &hit, clearance);
+    state->position = state->floor_position = position;
+    state->velocity = velocity;
     state->floor_revision = mover->world->revision;
-    mover->sleep.noted = 0;
-    mover->stroll_failed = mover->stroll_rest = 0;
-    if (report) {
-        write_report(report, &context);
-    }
+    tahr__clean_state(state, state);
+    tahr__report_short_way(report, 2, &context);
     return 1;
 }

@@ -294,7 +294,7 @@ int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *cou
 static inline void tahr__vicinity_learn(const tahr__query *query, uint64_t tests)
 {
     const uint32_t rough = 4;
-    if (query->cache && tests > (query->core.axis_count == 0) && query->cache->vicinity.patience < rough) {
+    if (query->cache && tests > (query->core.axis_count == 0 ? 2u : 1u) && query->cache->vicinity.patience < rough) {
         query->cache->vicinity.patience = rough;
     }
 }

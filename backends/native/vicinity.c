@@ -12,7 +12,7 @@
 
 /* Farther off (m) than the reach of the shape nothing is listed: six steps of a runner, about as far as a gathered box
  * leaves room for. */
-#define LOOK 1.0
+#define LOOK 1.2
 /* Who has come less far (m) from the place is not helped by another one; and longer motions are spanned by none. */
 #define DRIFT 0.04
 #define LONGEST 0.25
@@ -35,7 +35,7 @@
 /* Around a place on the floor other triangles are looked for as far as this (m). */
 #define SPOT 0.5
 /* After so many queries in a row that were not answered twice as many are passed by each time, up to two to this. */
-enum { PATIENCE = 5 };
+enum { PATIENCE = 7 };
 
 static double reach_of(const tahr__query *query)
 {
@@ -144,6 +144,22 @@ static double border(const tahr__query *query)
     return d_min(least.x, d_min(least.y, least.z));
 }
 
+/* m from the query's segment to everything that is static, at most: 0 within the bounds of all of it. */
+static double outside_of_all(const tahr__query *query)
+{
+    const tahr__bvh *tree = &query->world->fixed.tree;
+    if (query->world->gather) return 0;
+    if (query->world->fixed.count == 0) return 1e30;
+    const tahr__bvh_node *root = &tree->nodes[0];
+    const tahr_vec3 at = v_add(query->frame->origin, tahr__frame_to_world(query->frame, query->start)), o = tree->centre;
+    double gap2 = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        double x = v_get(at, axis) - v_get(o, axis), gap = d_max(root->lo[axis] - x, x - root->hi[axis]);
+        gap2 += gap > 0 ? gap * gap : 0;
+    }
+    return d_max(sqrt(gap2) * (1 - 1e-9) - query->half - SPARE, 0);
+}
+
 /* All within reach of an upright segment at p, with a distance that is not more than theirs. */
 static uint32_t near_to(const tahr__query *query, tahr_vec3 p, double half, double reach, tahr__lanes_found *found)
 {
@@ -187,7 +203,7 @@ static void look_around(const tahr__query *query)
     v->at = query->start;
     v->half = query->half;
     v->count = 0;
-    v->clear = d_min(border(query), reach_of(query) + LOOK);
+    v->clear = d_max(d_min(border(query), reach_of(query) + LOOK), outside_of_all(query));
     v->alone = 0;
     v->under = TAHR__NONE;
     find_floor(query);
@@ -270,6 +286,17 @@ static int is_listed(const tahr__vicinity *v, uint32_t index)
     return 0;
 }
 
+/* m from a place on the floor to a triangle that the lanes found `far` from it, at most: exactly, where that is next to
+ * nothing, as it is of all that are too large for lanes. */
+static double distance_to(const tahr__query *query, tahr__prim *prim, tahr_vec3 place, double far)
+{
+    tahr__witness w;
+    if (far > 10 * APART || (prim->kind & TAHR__PLANELESS)) return far;
+    if (prim->kind & TAHR__UNFORMED) tahr__form_rest(query->world, query->frame, prim);
+    tahr__point_facet(place, &prim->facet, &w);
+    return w.feature == TAHR__FACE ? 0 : w.distance;
+}
+
 /* Finds the triangle at a place on the floor, if there is one alone, and how far around it there is no other. */
 static void find_spot(const tahr__query *query, tahr_vec3 place)
 {
@@ -281,7 +308,9 @@ static void find_spot(const tahr__query *query, tahr_vec3 place)
     v->alone = 0;
     for (uint32_t i = 0; i < count; i++) {
         double far = d_max(found[i].time - TAHR__LANE_SLACK, 0);
-        if (far >= second || is_listed(v, found[i].index)) continue;
+        tahr__prim *prim = &prims[found[i].index];
+        if (far >= second || is_listed(v, found[i].index) || (prim->item & TAHR__ITEM_SOLID)) continue;
+        far = distance_to(query, prim, place, far);
         second = d_min(second, d_max(first, far));
         if (far < first) {
             first = far;

@@ -34,6 +34,10 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
     query.ignore_body = TAHR_NO_BODY;
     aim(&query, walk->shape, walk->position, walk->motion);
     if (!tahr__vicinity_knows(&query, hit, &count) || count > 0) return TAHR_OK;
+    if (!walk->foot) {
+        *known = 1;
+        return TAHR_OK;
+    }
     aim(&query, walk->foot, walk->foot_position, walk->foot_motion);
     *known = tahr__vicinity_knows(&query, hit, &count) && count > 0;
     return TAHR_OK;

@@ -91,11 +91,12 @@ typedef struct tahr_sweep {
     uint32_t reserved;
 } tahr_sweep;
 
-/* A walk and what is under its end, for backends that can answer both in one look: is the motion free, and what does the
- * foot meet on its own motion from where it would be then? Fields as in two tahr_sweep without flags and without a body
- * to ignore; the shapes are round. */
+/* A motion and what is under its end, for backends that can answer both in one look: is it free, and what does the foot
+ * meet on its own motion from where it would be then? Fields as in two tahr_sweep without flags and without a body to
+ * ignore; the shapes are round. */
 typedef struct tahr_walk {
-    const tahr_shape *shape, *foot;
+    const tahr_shape *shape;
+    const tahr_shape *foot; /* NULL: only the motion is asked for */
     tahr_vec3 position, motion;
     tahr_vec3 foot_position, foot_motion;
     tahr_vec3 up;

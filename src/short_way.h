@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: MIT
+ * short_way.h: the steps that most steps are, in one go: a walk with nothing in its way (stroll.c), a fall with nothing
+ * below (plummet.c). What is left out of the long way (mover.c, walking.c, falling.c) is what finds nothing to do in
+ * such a step; what is decided here is decided there by the same operations, so that the bits are the same; and
+ * whatever is not plainly so goes there. */
+#ifndef TAHR_SHORT_WAY_H
+#define TAHR_SHORT_WAY_H
+
+#include "core.h"
+#include "report.h"
+
+/* May steps of this mover be such? Asked once. No query. */
+int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits);
+
+/* A step of a state that remembers nothing, with an input that asks for nothing but a direction, both checked. [out]
+ * state, report (or NULL). Returns 1; 0: it is not such a step, or it is not known to be; nothing was written. What
+ * counts as two sweeps, and as one. */
+int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
+int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
+
+/* Near walls and on rough ground the short way is tried less and less often: after one, three, at most seven steps; in
+ * the air, where it is seldom barred, every second step at least. */
+static inline int tahr__tries_short_way(tahr_mover *mover, uint32_t mode)
+{
+    const uint32_t most = mode == TAHR_MODE_FALLING ? 1 : 3;
+    if (mover->rest > 0 && mover->failed <= most) {
+        mover->rest--;
+        return 0;
+    }
+    mover->failed = mover->failed < most ? mover->failed : most;
+    mover->rest = (1u << mover->failed) - 1;
+    mover->failed += mover->failed < most;
+    return 1;
+}
+
+static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                                     tahr_report *report)
+{
+    const int traced = report && (report->decisions || report->queries);
+    if (!mover->may_go_short_way || traced || input->jump || state->flags || !tahr__tries_short_way(mover, state->mode)) {
+        return 0;
+    }
+    int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)
+               : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report)
+                                                  : 0;
+    if (done) {
+        mover->failed = mover->rest = 0;
+        mover->sleep.noted = 0;
+    }
+    return done;
+}
+
+/* Does the shape stand against gravity? */
+static inline int is_against_gravity(const tahr__pull *pull, vec3 up)
+{
+    return pull->size < 1e-6 || dot(pull->up, up) > 1 - 1e-15;
+}
+
+/* Of a step that asked for so many sweeps, and nothing came of them. */
+static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, const tahr_query_context *context)
+{
+    if (!r) {
+        return;
+    }
+    const tahr_report given = *r;
+    tahr__report_begin(r, &given);
+    r->sweeps = sweeps;
+    r->slices = 1;
+    r->triangle_tests = context->narrow_tests;
+    r->narrow_iterations = context->narrow_iterations;
+}
+
+#endif
