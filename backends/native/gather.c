@@ -205,8 +205,7 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     cache->overflow = cache->count = 0;
     cache->plain = 1;
     cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
-    cache->vicinity.clear = -1;
-    cache->vicinity.patience = cache->vicinity.floor.length > 0 ? 0 : 2; /* so long until the foot has found a floor */
+    tahr__vicinity_forget(&cache->vicinity);
     g.search.query = &query;
     g.search.box = cache->local;
     g.search.reach = 0;
@@ -235,7 +234,7 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     int keep = cache->announced && tahr__frame_holds(&cache->frame, p->position, p->up);
     if (!keep) {
         cache->frame = tahr__frame_make(p->position, p->up);
-        cache->vicinity.floor.length = cache->vicinity.floor.normal.z = 0;
+        cache->vicinity.floor.length = cache->vicinity.floor.normal.z = 0; /* it was of that frame */
     }
     cache->announced = 1;
     if (world->no_cache) return TAHR_OK;

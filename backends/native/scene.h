@@ -167,12 +167,13 @@ typedef struct tahr__vicinity {
     double clear;      /* m to whatever is neither listed nor, with over, in or below the floor; <= 0: not known */
     tahr__level floor; /* of this frame */
     uint32_t over;     /* 1: what is in the plane of the floor or below it has been left out */
-    uint32_t patience; /* queries to pass by */
+    uint32_t calm;     /* queries in a row that asked little, */
+    uint32_t needed;   /* and how many there must be */
     tahr_vec3 spot;    /* on the floor: within `alone` m (<= 0: none) nothing of it is but the triangle `under` */
     double alone;
     tahr_vec3 face;  /* the exact normal of that, toward the character */
     uint32_t under;  /* index */
-    uint32_t failed; /* times that a place was no help, in a row */
+    uint32_t reserved;
     uint32_t count, near[TAHR__VICINITY_MOST]; /* indices of the nearest, */
     double far[TAHR__VICINITY_MOST];           /* and m to them */
 } tahr__vicinity;
@@ -286,20 +287,30 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
 int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *counted, double *margin);
 
 /* vicinity.c: what a sweep need not ask. */
+/* Is it worth trying? */
+static inline int tahr__vicinity_is_calm(const tahr__query *query)
+{
+    return query->cache && query->cache->vicinity.calm >= query->cache->vicinity.needed;
+}
+
 /* Most motions of a walker: nothing is near, or nothing but a face to come down on. Returns 1 and what a sweep would;
- * 0: there is more to it, and nothing was found out. Looks around anew where that may help. */
+ * 0: there is more to it, and nothing was found out. Looks around anew where that may help. Of a query that is calm. */
 int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *count);
-/* So many narrow tests did a sweep take that was not answered so: more than a floor needs, and it is not soon tried
- * again. */
+/* The same from what is known already, of any query with a cache. */
+int tahr__vicinity_knows(const tahr__query *query, tahr_hit *hit, uint32_t *count);
+
+/* So many narrow tests did a sweep take that was not answered so: where that is more than a floor or a way takes it is
+ * not soon tried. */
 static inline void tahr__vicinity_learn(const tahr__query *query, uint64_t tests)
 {
-    const uint32_t rough = 4;
-    if (query->cache && tests > (query->core.axis_count == 0 ? 2u : 1u) && query->cache->vicinity.patience < rough) {
-        query->cache->vicinity.patience = rough;
-    }
+    const uint64_t of_floor = 2, of_way = 1;
+    if (!query->cache) return;
+    tahr__vicinity *v = &query->cache->vicinity;
+    v->calm = tests > (query->core.axis_count == 0 ? of_floor : of_way) ? 0 : v->calm + 1;
 }
-/* The same from what is known already. */
-int tahr__vicinity_knows(const tahr__query *query, tahr_hit *hit, uint32_t *count);
+
+/* The cache holds something else now. */
+void tahr__vicinity_forget(tahr__vicinity *vicinity);
 
 /* source.c: the triangles of the user. */
 /* Fills all but the walkable fields of a loose triangle; 0: it has no area. */

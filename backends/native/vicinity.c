@@ -34,8 +34,8 @@
 #define APART 2e-4
 /* Around a place on the floor other triangles are looked for as far as this (m). */
 #define SPOT 0.5
-/* After so many queries in a row that were not answered twice as many are passed by each time, up to two to this. */
-enum { PATIENCE = 7 };
+/* Queries in a row that must have asked little before it is tried, and each time it was of no use twice as many. */
+enum { CALM = 2, CALM_MOST = 32 };
 
 static double reach_of(const tahr__query *query)
 {
@@ -361,17 +361,12 @@ static int answer(const tahr__query *query, int way, tahr_hit *hit, uint32_t *co
 
 int tahr__vicinity_knows(const tahr__query *query, tahr_hit *hit, uint32_t *count)
 {
-    return query->cache->vicinity.patience == 0 && serves(query) && answer(query, way_of(query), hit, count);
+    return tahr__vicinity_is_calm(query) && serves(query) && answer(query, way_of(query), hit, count);
 }
 
 int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *count)
 {
-    if (!query->cache) return 0;
     tahr__vicinity *v = &query->cache->vicinity;
-    if (v->patience > 0) {
-        v->patience--;
-        return 0;
-    }
     if (!serves(query)) return 0;
     int way = way_of(query);
     if (way == UNKNOWN && query->motion_length <= LONGEST && is_stale(query)) {
@@ -379,10 +374,17 @@ int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *cou
         way = way_of(query);
     }
     if (answer(query, way, hit, count)) {
-        v->failed = 0;
+        v->needed = CALM;
         return 1;
     }
-    v->patience = (1u << v->failed) - 1;
-    v->failed += v->failed < PATIENCE;
+    v->calm = 0;
+    v->needed = v->needed < CALM ? CALM : v->needed < CALM_MOST ? 2 * v->needed : CALM_MOST;
     return 0;
+}
+
+void tahr__vicinity_forget(tahr__vicinity *v)
+{
+    const uint32_t until_floor = v->floor.length > 0 ? 0 : 2; /* queries of a step: the second one finds it */
+    v->clear = -1;
+    if (v->needed >= until_floor && v->calm > v->needed - until_floor) v->calm = v->needed - until_floor;
 }
