@@ -179,6 +179,7 @@ struct tahr__step {
     double ahead;             /* s from there to what is being worked on: events happen then */
     uint32_t queries;         /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
     tahr_status error;        /* sticky: after it every query answers "blocked here" */
+    struct tahr__inner *inner; /* for what a perch meets (perch.h), or NULL */
     uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
     uint32_t apexes;          /* of them cut short at an apex */
 };

@@ -9,6 +9,7 @@
 
 #include "base_motion.h"
 #include "floor.h"
+#include "floor_end.h"
 #include "ledge.h"
 #include "move.h"
 #include "path.h"
@@ -129,7 +130,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
             return FLOOR;
         }
         vec3 to = step->state.position;
-        tahr__ledge end;
+        tahr__floor_border end;
         tahr__floor_end(step, w, &floor, &end);
         floor = end.floor;
         *part = end.outside;
