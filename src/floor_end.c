@@ -253,11 +253,12 @@ static double ends_perch(const tahr__step *step, const search *s)
     return begins_to_perch(step, s);
 }
 
-/* The likeliest place, NOWHERE if nothing tells of one. */
+/* The likeliest place, NOWHERE if nothing tells of one. What lies off the way that is left was told by something else
+ * than what ends the floor; before its begin, which is a floor, it may well end right there. */
 static double predict(const tahr__step *step, const search *s)
 {
     const look *in = &s->inside, *out = &s->outside;
-    double part = out->has_inner ? ends_perch(step, s) : NOWHERE;
+    double part = out->has_inner ? ends_perch(step, s) : NOWHERE, off = part;
     int holds_itself = in->known && !in->perching && in->outer.kind == FACE;
     if (in->known && (holds_itself || !is_between(s, part))) { /* then by its face first, and by a perch after it */
         double leaves = between(step, s, &in->outer, &out->outer, 1);
@@ -265,12 +266,16 @@ static double predict(const tahr__step *step, const search *s)
     }
     if (!is_between(s, part) && out->outer.kind == EDGE) {
         part = passes_edge(step, s, out, &out->outer, PASSES_INNER);
+        off = off == NOWHERE ? part : off;
     }
     if (!is_between(s, part) && in->known && in->outer.kind == EDGE) {
         part =
             passes_edge(step, s, in, in->has_inner && in->inner.kind == EDGE ? &in->inner : &in->outer, PASSES_INNER);
     }
-    return is_between(s, part) ? part : NOWHERE;
+    if (is_between(s, part)) {
+        return part;
+    }
+    return !in->known && off > NOWHERE && off < in->at ? in->at : NOWHERE;
 }
 
 /* Beside the predicted place, on the side that less is known of; else in the middle. */
