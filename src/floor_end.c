@@ -49,6 +49,7 @@ typedef struct search {
     double beside, least; /* parts of the way beside a prediction: now, and the smallest */
     double predicted;     /* by what was known before the last look */
     int surprised;        /* 1: it came out on the other side of that */
+    int tried;            /* 1: right behind the begin was looked at */
     look inside, outside; /* the nearest on either side */
 } search;
 
@@ -278,13 +279,18 @@ static double predict(const tahr__step *step, const search *s)
     return !in->known && off > NOWHERE && off < in->at ? in->at : NOWHERE;
 }
 
-/* Beside the predicted place, on the side that less is known of; else in the middle. */
-static double next_look(const search *s, uint32_t looks)
+/* Beside the predicted place, on the side that less is known of; else in the middle. But who has gone down where a floor
+ * ended, and goes on from there, is at the end of the next one already: if the floor held nowhere so far, right behind
+ * the begin. */
+static double next_look(search *s, uint32_t looks)
 {
     double a = s->inside.at, b = s->outside.at, middle = 0.5 * (a + b), at = middle;
     if (s->predicted != NOWHERE) {
         double part = clamp(s->predicted, a, b);
         at = part - a > b - part ? part - s->beside : part + s->beside;
+    } else if (!s->inside.known && !s->tried && looks >= LOST) {
+        at = 0.5 / (1 << ROUNDS);
+        s->tried = 1;
     }
     /* After n looks no more than 2^(LOST - n) may be left. */
     double most = (double)(1u << LOST) / (2.0 * (double)(1u << looks)) - 0.5 * (b - a);
