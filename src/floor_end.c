@@ -10,6 +10,7 @@
 #include "floor_end.h"
 
 #include "floor.h"
+#include "nearby.h"
 #include "perch.h"
 #include "shape.h"
 
@@ -337,6 +338,9 @@ void tahr__floor_end(tahr__step *step, const tahr__path *w, const tahr_floor *be
     double size = length(s.way);
     s.beside = s.least = size > 0 ? min_of(BESIDE / size, 0.5 * least) : least;
     note(step, beyond, 1, &s.outside);
+    if (step_goes_far(step)) {
+        tahr__announce_near(step, s.from, s.way);
+    }
     for (uint32_t i = 0; i < LOOKS && s.outside.at - s.inside.at > least && step->queries < MOST; i++) {
         predict_again(step, &s);
         if (look_at(step, &s, next_look(&s, i), &floor)) {

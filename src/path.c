@@ -7,6 +7,7 @@
 #include "launch.h"
 #include "move.h"
 #include "move_along_floor.h"
+#include "nearby.h"
 #include "plane.h"
 #include "query.h"
 #include "scope.h"
@@ -341,6 +342,9 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
             return;
         }
         double used = tahr__path_look_ahead(step, w);
+        if (step_goes_far(step)) { /* a step up, and a floor there */
+            tahr__announce_near(step, step->state.position, scale(unit(level), step->limits->width));
+        }
         tahr__planes_forget(step, w->walls, &w->wall_count);
         if (take_ramp(step, w, &hit)) {
             continue;
