@@ -159,13 +159,14 @@ static int land(tahr__step *step, vec3 motion, attempt *a)
     return a->judged;
 }
 
-/* A face that leans back gives way to the raised shape, and is mostly what it comes down on again: a slope. So there it
- * is lowered first, at the end of the motion. Returns 1 if that is the same face, and no step. */
+/* A steep face that leans back gives way to the raised shape, and is mostly what it comes down on again: a slope. So
+ * there it is lowered first, at the end of the motion. Returns 1 if that is the same face, and no step. */
 static int stays_on_slope(tahr__step *step, vec3 motion, const tahr_hit *obstacle, attempt *a)
 {
     const double leaning = 0.1, same = 1 - 1e-12; /* 6 degrees; rounding */
     const tahr_hit *hit = &a->landing;
-    if (dot(obstacle->normal, a->up) < leaning) {
+    int walkable = dot(obstacle->surface_normal, a->up) >= tahr__walkable_limit(step, obstacle, 0);
+    if (dot(obstacle->normal, a->up) < leaning || walkable) {
         return 0;
     }
     lower(step, motion, 1, a);
