@@ -136,6 +136,14 @@ static double passes_edge(const tahr__step *step, const search *s, const look *l
     return l->at + (distance_at(step, &e, what) - e.off) / speed;
 }
 
+/* m, by where its axis is: the radius, skin and all, of a round foot that touches an edge; 0 if it is right below. */
+static double radius_at(const tahr__step *step, const look *l, const contact *edge)
+{
+    vec3 level = step_level(step, edge->normal);
+    double size2 = length_squared(level);
+    return size2 < SMALL * SMALL ? 0 : -dot(sub(edge->point, l->position), level) / size2;
+}
+
 /* What a round foot touches on either side of the place where it passes from an edge to a face. */
 typedef struct passing {
     const look *look; /* at the edge, */
@@ -148,13 +156,12 @@ typedef struct passing {
 static double passes_face(const tahr__step *step, const search *s, const passing *p)
 {
     vec3 up = step->state.up, normal = p->face->face;
-    vec3 across = cross(up, edge_of(step, p->look, p->edge).along), level = step_level(step, p->edge->normal);
-    double speed = dot(across, s->way), size2 = length_squared(level);
+    vec3 across = cross(up, edge_of(step, p->look, p->edge).along);
+    double speed = dot(across, s->way), radius = radius_at(step, p->look, p->edge) - p->thinner;
     int along = speed * speed <= SMALL * SMALL * length_squared(across) * length_squared(s->way);
-    if (along || size2 < SMALL * SMALL) {
+    if (along || radius <= 0) {
         return NOWHERE;
     }
-    double radius = -dot(sub(p->edge->point, p->look->position), level) / size2 - p->thinner;
     if (p->tilts) {
         normal = add_scaled(scale(normal, ON_FACE_COSINE), unit(reject(p->edge->normal, normal)), ON_FACE);
     }
@@ -177,6 +184,28 @@ static double same_depth(const tahr__step *step, const search *s, const contact 
         return NOWHERE;
     }
     return (at_b - at_a) / rates;
+}
+
+/* Where a round foot that is lowered onto a face on one side, and onto an edge that is not the face's on the other,
+ * meets both at once: as deep as the face is, its middle is a radius away from the line of the edge. */
+static double meets_edge(const tahr__step *step, const search *s, const passing *p, const look *at_face)
+{
+    vec3 up = step->state.up, along = unit(cross(p->edge->face, p->edge->normal));
+    double radius = radius_at(step, p->look, p->edge), rises = dot(p->face->normal, up);
+    if (radius <= 0 || rises < SMALL) {
+        return NOWHERE;
+    }
+    double rate = dot(p->face->normal, s->way) / rises;
+    double depth = p->face->depth + (p->look->at - at_face->at) * rate;
+    vec3 from = reject(add_scaled(scale(p->edge->normal, radius), up, p->edge->depth - depth), along);
+    vec3 way = reject(add_scaled(s->way, up, -rate), along);
+    double a = length_squared(way), b = dot(from, way), c = length_squared(from) - radius * radius;
+    double root2 = b * b - a * c;
+    if (root2 < 0 || a <= SMALL * SMALL * length_squared(s->way)) {
+        return NOWHERE;
+    }
+    double root = sqrt(root2), first = (-b - root) / a, second = (-b + root) / a;
+    return p->look->at + (first * first < second * second ? first : second);
 }
 
 static int same_direction(vec3 a, vec3 b)
@@ -219,6 +248,7 @@ static double between(const tahr__step *step, const search *s, const contact *a,
             p.tilts = whole && same_direction(p.face->face, p.edge->face);
             return passes_face(step, s, &p);
         }
+        return meets_edge(step, s, &p, a->kind == FACE ? &s->inside : &s->outside);
     }
     return same_depth(step, s, a, b);
 }
@@ -319,7 +349,7 @@ static void predict_again(const tahr__step *step, search *s)
     double part = predict(step, s), change = part - s->predicted;
     if (!s->surprised) {
         s->beside = max_of(s->beside / NEARER, s->least);
-    } else if (change <= s->beside && change >= -s->beside) {
+    } else if (change <= 4 * s->beside && change >= -4 * s->beside) { /* it may move with the look */
         s->beside *= FARTHER;
     }
     if (s->beside > 0.25 * (s->outside.at - s->inside.at)) { /* it is somewhere else */
