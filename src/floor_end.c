@@ -318,7 +318,7 @@ static double next_look(search *s, uint32_t looks)
     double a = s->inside.at, b = s->outside.at, middle = 0.5 * (a + b), at = middle;
     if (s->predicted != NOWHERE) {
         double part = clamp(s->predicted, a, b);
-        at = part - a > b - part ? part - s->beside : part + s->beside;
+        at = part - a > b - part || !s->inside.known ? part - s->beside : part + s->beside;
     } else if (!s->inside.known && !s->tried && looks >= LOST) {
         at = 0.5 / (1 << ROUNDS);
         s->tried = 1;
