@@ -14,10 +14,10 @@
 #include "perch.h"
 #include "shape.h"
 
-/* m beside a predicted place that is looked at, above the rounding of an exact sweep past an edge; times FARTHER where
- * that came out on the wrong side (what is exact to 1e-6 m is found at once then), and by NEARER less where it did
- * not. */
-static const double BESIDE = 1e-9, FARTHER = 1024, NEARER = 32;
+/* Half widths of the character (1e-9 m of one 0.7 m wide) beside a predicted place that is looked at, above the rounding
+ * of an exact sweep past an edge; times FARTHER where that came out on the wrong side (what is exact to 1e-6 m is found
+ * at once then), and by NEARER less where it did not. */
+static const double BESIDE = 3e-9, FARTHER = 1024, NEARER = 32;
 
 /* Radians, and parts of a length: what is less is level, upright or along, and would make a quotient of rounding. */
 static const double SMALL = 1e-3;
@@ -362,11 +362,11 @@ static void predict_again(const tahr__step *step, search *s)
 void tahr__floor_end(tahr__step *step, const tahr__path *w, const tahr_floor *beyond, tahr__floor_border *border)
 {
     enum { LOOKS = ROUNDS + LOST, MOST = TAHR_MAX_QUERIES_PER_STEP * 5 / 8 };
-    const double least = 1.0 / (1 << ROUNDS);
     search s = {.from = w->from, .way = sub(step->state.position, w->from), .predicted = NOWHERE};
     tahr_floor floor;
     double size = length(s.way);
-    s.beside = s.least = size > 0 ? min_of(BESIDE / size, 0.5 * least) : least;
+    s.beside = s.least = BESIDE * step->limits->width / max_of(size, 1e-300);
+    const double least = max_of(1.0 / (1 << ROUNDS), 2.1 * s.least); /* of the way, to be known */
     note(step, beyond, 1, &s.outside);
     if (step_goes_far(step)) {
         tahr__announce_near(step, s.from, s.way);

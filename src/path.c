@@ -88,6 +88,7 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     w->careful = 0;
     w->ease = 0;
     w->drifts = 0;
+    w->start = step->state.position;
     tahr__path_carry_floor(w, step);
     w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
     begin_piece(step, w, step_level(step, step->state.velocity), duration);

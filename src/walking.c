@@ -122,7 +122,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
             tahr__keep_floor(step, &floor);
             return FLOOR;
         }
-        if (w->turns > 0 && !w->careful) {
+        if (w->turns > 0 && !w->careful && !vec_equal(w->from, w->start)) { /* else nothing was gone before it */
             return WALK_AGAIN;
         }
         if (!may_walk_off(step)) {
