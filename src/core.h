@@ -185,7 +185,7 @@ struct tahr__step {
 };
 
 /* Walking and falling may hand a step to each other this often (an edge that holds for a hair's breadth); then it ends.
- * Each time costs some 40 queries to find where the floor ended. */
+ * Each time costs 10 to 50 queries to find where the floor ended. */
 enum { TAHR__MAX_SLICES = 6 };
 
 /* Where a slice of time goes on: a mode never calls another one, it returns this. */

@@ -6,7 +6,7 @@
  * straight and flat then says the very place, and a look on either side of it proves it; where it bends every look
  * brings a better one, as in Newton's method. What ends for another reason (a level foot, a backend that lies) is found
  * by halving. Predictions are held near the middle as the ITP method does (Oliveira and Takahashi 2020), so that all
- * the wrong ones together cost no more than two looks. */
+ * the wrong ones together cost no more than a few looks. */
 #include "floor_end.h"
 
 #include "floor.h"
@@ -25,8 +25,8 @@ static const double SMALL = 1e-3;
 /* find_whole takes a contact for one on a face whose normal is within this of the face's: cosine, and sine. */
 static const double ON_FACE_COSINE = 1 - 1e-6, ON_FACE = 1.4142132088085646e-3;
 
-/* The place is known to 2^-ROUNDS of the way: that many looks by halving, and no more than LOST besides. */
-enum { ROUNDS = 20, LOST = 2 };
+/* The place is known to 2^-ROUNDS of the way: that many looks by halving, and no more than LOST and PROOFS besides. */
+enum { ROUNDS = 20, LOST = 2, PROOFS = 2 };
 
 /* No part of a way. */
 static const double NOWHERE = -1e300;
@@ -51,6 +51,8 @@ typedef struct search {
     double predicted;     /* by what was known before the last look */
     int surprised;        /* 1: it came out on the other side of that */
     int tried;            /* 1: right behind the begin was looked at */
+    uint32_t steady;      /* looks that changed nothing about the prediction */
+    uint32_t lost;        /* looks that may still be lost */
     look inside, outside; /* the nearest on either side */
 } search;
 
@@ -169,6 +171,12 @@ static double passes_face(const tahr__step *step, const search *s, const passing
     return dot(across, sub(centre, s->from)) / speed;
 }
 
+/* m down for all of the way, at which a contact is met; as far as was looked if nothing is. */
+static double depth_rate(const tahr__step *step, const search *s, const contact *c)
+{
+    return c->kind == FREE ? 0 : dot(c->normal, s->way) / dot(c->normal, step->state.up);
+}
+
 /* Where what was met on one side lies as deep as what was met on the other. */
 static double same_depth(const tahr__step *step, const search *s, const contact *a, const contact *b)
 {
@@ -177,8 +185,7 @@ static double same_depth(const tahr__step *step, const search *s, const contact 
     if ((a->kind != FREE && up_a < SMALL) || (b->kind != FREE && up_b < SMALL)) {
         return NOWHERE;
     }
-    double rate_a = a->kind == FREE ? 0 : dot(a->normal, s->way) / up_a;
-    double rate_b = b->kind == FREE ? 0 : dot(b->normal, s->way) / up_b;
+    double rate_a = depth_rate(step, s, a), rate_b = depth_rate(step, s, b);
     double at_a = a->depth - s->inside.at * rate_a, at_b = b->depth - s->outside.at * rate_b, rates = rate_a - rate_b;
     if (rates * rates <= 1e-12 * length_squared(s->way)) {
         return NOWHERE;
@@ -186,17 +193,17 @@ static double same_depth(const tahr__step *step, const search *s, const contact 
     return (at_b - at_a) / rates;
 }
 
-/* Where a round foot that is lowered onto a face on one side, and onto an edge that is not the face's on the other,
- * meets both at once: as deep as the face is, its middle is a radius away from the line of the edge. */
+/* Where a round foot that is lowered onto a face on one side, or onto nothing within reach, and onto an edge that is
+ * not the face's on the other, meets both at once: as deep as the face is, its middle is a radius away from the line of
+ * the edge. */
 static double meets_edge(const tahr__step *step, const search *s, const passing *p, const look *at_face)
 {
     vec3 up = step->state.up, along = unit(cross(p->edge->face, p->edge->normal));
-    double radius = radius_at(step, p->look, p->edge), rises = dot(p->face->normal, up);
-    if (radius <= 0 || rises < SMALL) {
+    double radius = radius_at(step, p->look, p->edge);
+    if (radius <= 0 || (p->face->kind != FREE && dot(p->face->normal, up) < SMALL)) {
         return NOWHERE;
     }
-    double rate = dot(p->face->normal, s->way) / rises;
-    double depth = p->face->depth + (p->look->at - at_face->at) * rate;
+    double rate = depth_rate(step, s, p->face), depth = p->face->depth + (p->look->at - at_face->at) * rate;
     vec3 from = reject(add_scaled(scale(p->edge->normal, radius), up, p->edge->depth - depth), along);
     vec3 way = reject(add_scaled(s->way, up, -rate), along);
     double a = length_squared(way), b = dot(from, way), c = length_squared(from) - radius * radius;
@@ -230,8 +237,11 @@ static double turns_round(const tahr__step *step, const search *s, const contact
 /* By what the same foot met on either side. */
 static double between(const tahr__step *step, const search *s, const contact *a, const contact *b, int whole)
 {
-    if (a->kind == EDGE && b->kind == FREE) {
-        return passes_edge(step, s, &s->inside, a, whole ? LEAVES_RIM : PASSES_INNER);
+    if (a->kind == EDGE && b->kind == FREE) { /* by the rim, or out of reach */
+        passing p = {.look = &s->inside, .edge = a, .face = b};
+        double sinks = meets_edge(step, s, &p, &s->outside);
+        double passes = passes_edge(step, s, &s->inside, a, whole ? LEAVES_RIM : PASSES_INNER);
+        return sinks > s->inside.at && sinks < passes ? sinks : passes;
     }
     if (a->kind == EDGE && b->kind == EDGE && dot(a->normal, a->face) * dot(b->normal, a->face) <= 0) {
         return turns_round(step, s, a, b);
@@ -315,6 +325,7 @@ static double predict(const tahr__step *step, const search *s)
  * the begin. */
 static double next_look(search *s, uint32_t looks)
 {
+    enum { STEADY = 3 };
     double a = s->inside.at, b = s->outside.at, middle = 0.5 * (a + b), at = middle;
     if (s->predicted != NOWHERE) {
         double part = clamp(s->predicted, a, b);
@@ -323,9 +334,12 @@ static double next_look(search *s, uint32_t looks)
         at = 0.5 / (1 << ROUNDS);
         s->tried = 1;
     }
-    /* After n looks no more than 2^(LOST - n) may be left. */
-    double most = (double)(1u << LOST) / (2.0 * (double)(1u << looks)) - 0.5 * (b - a);
-    at = clamp(at, middle - most, middle + most);
+    if (s->steady >= STEADY && s->lost < LOST + PROOFS) { /* what so many looks agree on is proven anyway */
+        s->lost++;
+    } else { /* after n looks no more than 2^(lost - n) may be left */
+        double most = (double)(1u << s->lost) / (2.0 * (double)(1u << looks)) - 0.5 * (b - a);
+        at = clamp(at, middle - most, middle + most);
+    }
     return at > a && at < b ? at : middle;
 }
 
@@ -347,6 +361,7 @@ static int look_at(tahr__step *step, search *s, double at, tahr_floor *floor)
 static void predict_again(const tahr__step *step, search *s)
 {
     double part = predict(step, s), change = part - s->predicted;
+    s->steady = change <= 4 * s->least && change >= -4 * s->least && part != NOWHERE ? s->steady + 1 : 0;
     if (!s->surprised) {
         s->beside = max_of(s->beside / NEARER, s->least);
     } else if (change <= 4 * s->beside && change >= -4 * s->beside) { /* it may move with the look */
@@ -361,8 +376,8 @@ static void predict_again(const tahr__step *step, search *s)
 
 void tahr__floor_end(tahr__step *step, const tahr__path *w, const tahr_floor *beyond, tahr__floor_border *border)
 {
-    enum { LOOKS = ROUNDS + LOST, MOST = TAHR_MAX_QUERIES_PER_STEP * 5 / 8 };
-    search s = {.from = w->from, .way = sub(step->state.position, w->from), .predicted = NOWHERE};
+    enum { LOOKS = ROUNDS + LOST + PROOFS, MOST = TAHR_MAX_QUERIES_PER_STEP * 5 / 8 };
+    search s = {.from = w->from, .way = sub(step->state.position, w->from), .predicted = NOWHERE, .lost = LOST};
     tahr_floor floor;
     double size = length(s.way);
     s.beside = s.least = BESIDE * step->limits->width / max_of(size, 1e-300);

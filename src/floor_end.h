@@ -14,7 +14,7 @@ typedef struct tahr__floor_border {
 /* Finds it; beyond: the floor that was found at the end of the piece, which does not hold. Between inside and outside
  * lies no more than 2^-20 of the piece or 7e-9 half widths of the character (2e-9 m), whichever is more; at a straight
  * edge mostly the latter, on a backend that is that exact. Moves the state to `inside`; border->floor was looked at
- * there, and does not hold if the piece had none anywhere. At a straight edge mostly 2 floors, at most 23. */
+ * there, and does not hold if the piece had none anywhere. At a straight edge mostly 2 floors, at most 25. */
 void tahr__floor_end(tahr__step *step, const tahr__path *w, const tahr_floor *beyond, tahr__floor_border *border);
 
 #endif
