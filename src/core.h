@@ -179,9 +179,10 @@ struct tahr__step {
     double ahead;             /* s from there to what is being worked on: events happen then */
     uint32_t queries;         /* asked so far, of TAHR_MAX_QUERIES_PER_STEP */
     tahr_status error;        /* sticky: after it every query answers "blocked here" */
-    struct tahr__inner *inner; /* for what a perch meets (perch.h), or NULL */
     uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
     uint32_t apexes;          /* of them cut short at an apex */
+    /* For what a perch meets (perch.h), or NULL. */
+    struct tahr__inner *inner;
 };
 
 /* Walking and falling may hand a step to each other this often (an edge that holds for a hair's breadth); then it ends.
