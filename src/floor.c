@@ -134,7 +134,9 @@ static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied,
         tahr__decide(step, TAHR_RULE_FLOOR, 0, NULL, floor->distance, range, "nothing below");
         return;
     }
-    fill(floor, &hit, hit.start_overlap ? -hit.depth : foot_clearance(step, &hit, range),
+    /* Out of no floor by more than its own height: what says deeper is wrong, or a push is called for. */
+    double deep = max_of(-hit.depth, -2 * step->limits->shape.half_height);
+    fill(floor, &hit, hit.start_overlap ? deep : foot_clearance(step, &hit, range),
          flags | tahr__still_slope(step, &hit));
     int surface = tahr__is_walkable(step, &hit, tahr__was_walkable(step, &hit));
     floor->flags |= surface ? TAHR_FLOOR_FACE : 0u;

@@ -1,38 +1,21 @@
 /* SPDX-License-Identifier: MIT
- * ledge.c: where a floor ends, and staying on it. */
+ * ledge.c: staying on a floor that ends. */
 #include "ledge.h"
 
 #include "floor.h"
+#include "floor_end.h"
 #include "move.h"
 #include "plane.h"
 #include "report.h"
 #include "slide.h"
 
-/* By halving, until the place is known to a millionth of the piece, or less well where every look asks much: the rest
- * of the step must be left enough to ask. */
-void tahr__floor_end(tahr__step *step, const tahr__path *w, vec3 to, double *inside, double *outside)
-{
-    enum { ROUNDS = 20, MOST = TAHR_MAX_QUERIES_PER_STEP * 5 / 8 };
-    tahr_floor floor;
-    *inside = 0;
-    *outside = 1;
-    for (int i = 0; i < ROUNDS && step->queries < MOST && step->error >= 0; i++) {
-        double middle = 0.5 * (*inside + *outside);
-        step->state.position = add_scaled(w->from, sub(to, w->from), middle);
-        tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
-        *(floor_is_walkable(&floor) ? inside : outside) = middle;
-    }
-}
-
 /* Stops at the last place with a floor and goes on along the edge. Returns 1 if there is such a place. */
-static int hold_at_ledge(tahr__step *step, tahr__path *w)
+static int hold_at_ledge(tahr__step *step, tahr__path *w, const tahr_floor *beyond)
 {
-    vec3 to = step->state.position;
-    tahr_floor floor;
-    double part, outside;
-    tahr__floor_end(step, w, to, &part, &outside);
-    step->state.position = add_scaled(w->from, sub(to, w->from), part);
-    tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+    tahr__floor_border end;
+    tahr__floor_end(step, w, beyond, &end);
+    tahr_floor floor = end.floor;
+    double part = end.inside;
     if (!floor_is_walkable(&floor)) {
         return tahr__decide(step, TAHR_RULE_LEDGE, 0, NULL, part, 0, "no floor on the way here");
     }
@@ -56,11 +39,11 @@ static int hold_at_ledge(tahr__step *step, tahr__path *w)
     return tahr__decide(step, TAHR_RULE_LEDGE, 1, NULL, part, 1, "held at the ledge");
 }
 
-void tahr__stay_on_ledge(tahr__step *step, tahr__path *w)
+void tahr__stay_on_ledge(tahr__step *step, tahr__path *w, const tahr_floor *beyond)
 {
-    tahr_floor floor;
+    tahr_floor floor = *beyond;
     for (int corner = 0; corner < 2; corner++) {
-        if (!hold_at_ledge(step, w)) {
+        if (!hold_at_ledge(step, w, &floor)) {
             step->state.position = w->from;
             break;
         }

@@ -312,6 +312,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     step.error = TAHR_OK;
     step.iterations = step.apexes = 0;
     step.trail = NULL;
+    step.inner = NULL;
     step.around = around;
     step.neighbours = NULL;
     if (step.world->has & TAHR__HAS_SENSORS) {

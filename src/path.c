@@ -7,6 +7,7 @@
 #include "launch.h"
 #include "move.h"
 #include "move_along_floor.h"
+#include "nearby.h"
 #include "plane.h"
 #include "query.h"
 #include "scope.h"
@@ -82,6 +83,7 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     w->careful = 0;
     w->ease = 0;
     w->drifts = 0;
+    w->start = step->state.position;
     tahr__path_carry_floor(w, step);
     w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
     begin_piece(step, w, step_level(step, step->state.velocity), duration);
@@ -336,6 +338,9 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
             return;
         }
         double used = tahr__path_look_ahead(step, w);
+        if (step_goes_far(step)) { /* a step up, and a floor there */
+            tahr__announce_near(step, step->state.position, scale(unit(level), step->limits->width));
+        }
         tahr__planes_forget(step, w->walls, &w->wall_count);
         if (take_ramp(step, w, &hit)) {
             continue;

@@ -21,6 +21,7 @@ typedef struct tahr__path {
     uint32_t ramp_count;
     vec3 slope;  /* normal of the ground that sets the speed */
     double ease; /* rise per metre that keeps rounding from pointing into a ramp */
+    vec3 start;  /* where the slice began */
     vec3 from;   /* the last straight piece of the way, to find the place where a floor ended */
     double left_before;
     uint32_t turns;            /* times that something was met */

@@ -61,6 +61,9 @@ int tahr__perches(tahr__step *step, double reach, const tahr_hit *outer, tahr_fl
     foot_sweep(step, &inner, range, &hit);
     int ok = tahr__is_walkable(step, &hit, tahr__was_walkable(step, &hit));
     double distance = hit.blocking ? foot_clearance(step, &hit, range) : range;
+    if (step->inner) {
+        *step->inner = (tahr__inner){1, hit, hit.blocking ? distance : range + step->config->skin};
+    }
     if (ok) {
         floor->flags |= TAHR_FLOOR_PERCHING;
         floor->perch_distance = distance;

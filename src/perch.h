@@ -22,8 +22,16 @@ typedef struct tahr__perch_look {
 } tahr__perch_look;
 int tahr__compute_perch(tahr__step *step, const tahr__perch_look *look, tahr_floor *floor);
 
+/* What the thinner foot of a perch met, for who looks for the end of a floor. */
+typedef struct tahr__inner {
+    int asked;
+    tahr_hit hit;
+    double clearance; /* m; as deep as was looked if nothing was met */
+} tahr__inner;
+
 /* The same for TAHR_FLOOR_PROBE_WHOLE: a contact at the rim, or on a face too steep, holds the character only if there
- * is a floor for a thinner foot; writes it into `floor`. 1 sweep, and what a lip asks. */
+ * is a floor for a thinner foot; writes it into `floor`. 1 sweep, and what a lip asks. What the thinner foot met is
+ * written into step->inner, if that is there. */
 int tahr__perches(tahr__step *step, double reach, const tahr_hit *outer, tahr_floor *floor);
 
 /* The front of a step holds who walks, between the floor before it and the one behind it; who falls slides off it. */

@@ -13,6 +13,7 @@
 #include "query.h"
 #include "report.h"
 #include "scope.h"
+#include "shape.h"
 
 /* Less progress than this part of the radius at step height is a wall, not a step. */
 static const double PROGRESS = 1e-4;
@@ -21,6 +22,9 @@ typedef struct attempt {
     vec3 up;
     double lift;    /* m, raised by */
     double covered; /* part of the motion */
+    int rises;      /* 1: the way up has been asked for */
+    int lands;      /* 1: so has the way down from there, */
+    int judged;     /* and it is a step */
     vec3 position;  /* landed at */
     double rise;    /* m, landing above what held the foot */
     tahr_hit landing;
@@ -40,26 +44,55 @@ static double free_ahead(tahr__step *step, vec3 motion, double lift, tahr_hit *h
     return part == 1 || part * length(motion) > PROGRESS * step->limits->width ? part : 0;
 }
 
-/* How far the shape could go forward if it were raised; lowers the lift under a ceiling. Forward comes first: a tall
- * wall is then refused by one sweep. */
-static int forward(tahr__step *step, vec3 motion, attempt *a)
+/* Would the raised shape touch the same point of a wall, with the side that it touches it with now? Then it gets no
+ * farther up there, and no sweep need say so. */
+static int blocks_raised(const tahr__step *step, vec3 motion, const tahr_hit *obstacle, double lift)
+{
+    const double upright = 1e-9, against = 1e-3; /* less is the rounding of a face, and of a motion along it */
+    const tahr__limits *l = step->limits;
+    double up = dot(obstacle->normal, step->state.up), into = -dot(motion, obstacle->normal) / length(motion);
+    double at = dot(sub(obstacle->point, step->state.position), step->state.up);
+    int side = up < upright && up > -upright && at <= l->axis && at - lift >= -l->axis && into > against;
+    int straight = l->shape.type == TAHR_SHAPE_SPHERE || l->shape.type == TAHR_SHAPE_CAPSULE;
+    return side && straight && step->config->separation == TAHR_SEPARATION_MARGIN &&
+           obstacle->distance - step->config->skin <= into * PROGRESS * l->width;
+}
+
+/* Raises it only as far as a ceiling lets. Returns 0 if that is not enough. */
+static int rise(tahr__step *step, vec3 motion, attempt *a)
 {
     const tahr_config *c = step->config;
     tahr_hit ahead, above;
-    a->covered = free_ahead(step, motion, a->lift, &ahead);
-    if (a->covered == 0 && !ahead.start_overlap) {
-        return refuse(step, &ahead, ahead.fraction, 0, "blocked at step height too");
-    }
     tahr__sweep(step, &step->limits->shape, step->state.position, scale(a->up, a->lift), c->skin, 0, &above);
-    if (is_blocked(&above)) { /* a ceiling: as high as it lets */
+    a->rises = 1;
+    if (is_blocked(&above)) {
         a->lift *= above.fraction;
         a->covered = free_ahead(step, motion, a->lift, &ahead);
+        a->lands = a->judged = 0;
     }
     if (above.start_overlap || a->covered == 0) {
         return refuse(step, &above, a->lift, c->step_height, "no room to rise");
     }
-    a->position = add_scaled(add_scaled(step->state.position, a->up, a->lift), motion, a->covered);
     return 1;
+}
+
+/* How far the shape could go forward if it were raised. Forward comes first: a tall wall is then refused by one sweep.
+ * What is over a shape whose straight part is longer than the lift, and stops it on the way up, overlaps it up there:
+ * where it does not, the way up is asked for last, if the step is one at all. */
+static int forward(tahr__step *step, vec3 motion, const tahr_hit *obstacle, attempt *a)
+{
+    tahr_hit ahead;
+    if (blocks_raised(step, motion, obstacle, a->lift)) {
+        return refuse(step, obstacle, 0, 0, "blocked at step height too");
+    }
+    a->covered = free_ahead(step, motion, a->lift, &ahead);
+    if (a->covered < 1) {
+        a->lands = a->judged = 0;
+    }
+    if (a->covered == 0 && !ahead.start_overlap) {
+        return refuse(step, &ahead, ahead.fraction, 0, "blocked at step height too");
+    }
+    return (a->covered > 0 && 2 * step->limits->axis >= a->lift) || rise(step, motion, a);
 }
 
 /* Height of the floor that a step to the height `to` is measured from. Who leans on a face too steep to stand on stands
@@ -85,14 +118,22 @@ static int leads_up(tahr__step *step, const tahr_hit *hit, double base)
     return on_lip ? tahr__is_lip(step, hit) : tahr__tread_behind(step, hit, base);
 }
 
-static int land(tahr__step *step, attempt *a)
+/* Down from the raised place, `part` of the motion ahead. */
+static void lower(tahr__step *step, vec3 motion, double part, attempt *a)
 {
     const tahr_config *c = step->config;
-    double range = a->lift + c->snap_distance;
-    tahr_hit *hit = &a->landing;
-    tahr__sweep(step, &step->limits->shape, a->position, scale(a->up, -range), c->skin, 0, hit);
+    vec3 raised = add_scaled(add_scaled(step->state.position, a->up, a->lift), motion, part);
+    vec3 down = scale(a->up, -(a->lift + c->snap_distance));
+    tahr__sweep(step, &step->limits->shape, raised, down, c->skin, 0, &a->landing);
+    a->position = add_scaled(raised, down, a->landing.fraction);
+}
+
+static int judge(tahr__step *step, attempt *a)
+{
+    const tahr_config *c = step->config;
+    const tahr_hit *hit = &a->landing;
     if (!hit->blocking || hit->start_overlap) {
-        return refuse(step, hit, range, 0, "nothing to land on");
+        return refuse(step, hit, a->lift + c->snap_distance, 0, "nothing to land on");
     }
     if (tahr__is_one_way(step, hit->body)) {
         return refuse(step, hit, 0, 0, "passed from below");
@@ -105,8 +146,33 @@ static int land(tahr__step *step, attempt *a)
     if (!tahr__is_walkable(step, hit, 0) && !leads_up(step, hit, base)) {
         return refuse(step, hit, dot(hit->surface_normal, a->up), step->limits->walkable, "landing face too steep");
     }
-    a->position = add_scaled(a->position, a->up, -range * hit->fraction);
     return 1;
+}
+
+static int land(tahr__step *step, vec3 motion, attempt *a)
+{
+    if (!a->lands) {
+        lower(step, motion, a->covered, a);
+        a->lands = 1;
+    }
+    a->judged = a->judged || judge(step, a);
+    return a->judged;
+}
+
+/* A steep face that leans back gives way to the raised shape, and is mostly what it comes down on again: a slope. So
+ * there it is lowered first, at the end of the motion. Returns 1 if that is the same face, and no step. */
+static int stays_on_slope(tahr__step *step, vec3 motion, const tahr_hit *obstacle, attempt *a)
+{
+    const double leaning = 0.1, same = 1 - 1e-12; /* 6 degrees; rounding */
+    const tahr_hit *hit = &a->landing;
+    int walkable = dot(obstacle->surface_normal, a->up) >= tahr__walkable_limit(step, obstacle, 0);
+    if (dot(obstacle->normal, a->up) < leaning || walkable) {
+        return 0;
+    }
+    lower(step, motion, 1, a);
+    a->lands = hit->blocking && !hit->start_overlap && !hit->unknown;
+    int is_slope = a->lands && hit->body == obstacle->body && dot(hit->surface_normal, obstacle->surface_normal) > same;
+    return is_slope && !land(step, motion, a);
 }
 
 static int by_contact(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
@@ -138,7 +204,10 @@ double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
         dot(obstacle->normal, a.up) < -0.1) { /* struck by the upper half: a ceiling or an overhang */
         return 0;
     }
-    if (!forward(step, motion, &a) || !land(step, &a)) {
+    if (stays_on_slope(step, motion, obstacle, &a) || !forward(step, motion, obstacle, &a) || !land(step, motion, &a)) {
+        return 0;
+    }
+    if (!a.rises && (!rise(step, motion, &a) || !land(step, motion, &a))) {
         return 0;
     }
     tahr__scope_open(step, &scope);

@@ -9,6 +9,7 @@
 
 #include "base_motion.h"
 #include "floor.h"
+#include "floor_end.h"
 #include "ledge.h"
 #include "move.h"
 #include "path.h"
@@ -121,18 +122,18 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
             tahr__keep_floor(step, &floor);
             return FLOOR;
         }
-        if (w->turns > 0 && !w->careful) {
+        if (w->turns > 0 && !w->careful && !vec_equal(w->from, w->start)) { /* else nothing was gone before it */
             return WALK_AGAIN;
         }
         if (!may_walk_off(step)) {
-            tahr__stay_on_ledge(step, w);
+            tahr__stay_on_ledge(step, w, &floor);
             return FLOOR;
         }
         vec3 to = step->state.position;
-        double inside;
-        tahr__floor_end(step, w, to, &inside, part);
-        step->state.position = add_scaled(w->from, sub(to, w->from), inside);
-        tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+        tahr__floor_border end;
+        tahr__floor_end(step, w, &floor, &end);
+        floor = end.floor;
+        *part = end.outside;
         if (!floor_is_walkable(&floor) || floor.distance < 0.25 * step->config->snap_distance) {
             step->state.position = to;
             return NO_FLOOR;
@@ -140,7 +141,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
         const double left = w->left;
         const vec3 above = step->state.position;
         tahr__keep_floor(step, &floor);
-        tahr__path_cut(step, w, inside);
+        tahr__path_cut(step, w, end.inside);
         tahr__path_look_ahead(step, w);
         settle(step);
         /* Something beside the way down holds it up: what was found below the rim of the foot is no floor to go on. */

@@ -227,6 +227,13 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     context->gathers++;
 }
 
+/* What was too much for the cache is gathered again where a part of it is announced by itself, a quarter or less. */
+static int is_small_part(const tahr_bounds *part, const tahr_bounds *all)
+{
+    const tahr_vec3 a = v_sub(part->max, part->min), b = v_sub(all->max, all->min);
+    return a.x * a.y * a.z <= 0.25 * (b.x * b.y * b.z);
+}
+
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
 {
     tahr__cache *cache = context ? context->cache : NULL;
@@ -239,7 +246,8 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     cache->announced = 1;
     if (world->no_cache) return TAHR_OK;
     keep = keep && cache->gathered && cache->revision == world->revision;
-    if (keep && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds)) return TAHR_OK;
+    keep = keep && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds);
+    if (keep && !(cache->overflow && is_small_part(&p->bounds, &cache->bounds))) return TAHR_OK;
     gather_now(world, context, p);
     return TAHR_OK;
 }

@@ -115,7 +115,7 @@ static void records_that_do_not_fit_are_counted_and_flagged(void **unused)
     const tahr_state end = r.state;
     uint32_t asked = r.report.query_count;
     memcpy(all, records, sizeof all);
-    assert_true(asked > 3);
+    assert_true(asked > 2); /* the way, the way along the wall, the floor */
     for (uint32_t room = 0; room < asked; room++) {
         r.state = start;
         memset(records, 0x12, sizeof records);

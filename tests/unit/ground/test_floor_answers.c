@@ -74,6 +74,43 @@ static void what_is_not_known_never_lifts(void **unused)
     }
 }
 
+/* A backend that calls the floor absurdly deep, and meets nothing on the way up. */
+static tahr_status meet_an_abyss(void *user, const tahr_sweep *query, tahr_hit *hit)
+{
+    if (query->motion.z < 0) {
+        hit->blocking = hit->start_overlap = 1;
+        hit->depth = *(const double *)user;
+        hit->normal = hit->surface_normal = vec(0, 0, 1);
+        hit->point = vec(query->position.x, query->position.y, 0);
+        hit->fraction = 0;
+    }
+    return TAHR_OK;
+}
+
+static void nobody_rises_out_of_a_floor_by_more_than_his_height(void **unused)
+{
+    const double depths[] = {0.1, 3, 1e6, 1e300};
+    double depth;
+    tahr_callbacks callbacks = {.struct_size = sizeof callbacks, .user = &depth, .sweep = meet_an_abyss};
+    (void)unused;
+    for (int i = 0; i < 4; i++) {
+        parity p;
+        tahr_floor floor;
+        tahr_config c = parity_config();
+        c.floor_probe = TAHR_FLOOR_PROBE_WHOLE;
+        c.separation = TAHR_SEPARATION_MARGIN;
+        depth = depths[i];
+        parity_open_callbacks(&p, &callbacks, &c);
+        p.step.state.mode = TAHR_MODE_WALKING;
+        tahr__find_floor(&p.step, c.snap_distance, NULL, &floor);
+        p.step.state.floor = floor;
+        p.step.state.floor.flags |= TAHR_FLOOR_WALKABLE; /* as a wedge may be */
+        double least = min_of(depth, 2 * c.shape.half_height);
+        assert_near(tahr__adjust_height(&p.step), least + c.floor_target * c.skin, 1e-9);
+        parity_close(&p);
+    }
+}
+
 /* A backend that meets nothing and remembers what was swept. */
 static tahr_sweep swept;
 
@@ -213,6 +250,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(corner_of_a_flat_base_is_no_rim),
                                        cmocka_unit_test(what_is_not_known_never_lifts),
+                                       cmocka_unit_test(nobody_rises_out_of_a_floor_by_more_than_his_height),
                                        cmocka_unit_test(probe_is_what_the_backend_can_sweep),
                                        cmocka_unit_test(ray_that_starts_inside_finds_nothing),
                                        cmocka_unit_test(wedge_is_a_floor_for_the_joint_solver),

@@ -1,0 +1,177 @@
+/* SPDX-License-Identifier: MIT
+ * test_step_up_order.c: what a step up asks, and in which order, changes no step: against the plain order (ahead, up,
+ * down, judged by the face behind the edge), which asks everything every time. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "floor.h"
+#include "lip.h"
+#include "native_world.h"
+#include "query.h"
+#include "rig.h"
+#include "step_up.h"
+
+enum { BODIES = 40 };
+
+static const double HEIGHT = 0.9125; /* of the middle over a floor: half a height of 0.9, and 1.25 skins */
+
+static tahr__step begin(rig *r)
+{
+    tahr__step step;
+    memset(&step, 0, sizeof step);
+    step.config = &r->mover->config;
+    step.limits = &r->mover->limits;
+    step.world = r->world;
+    step.ignore_body = TAHR_NO_BODY;
+    step.input = &r->input;
+    step.pull = &r->mover->limits.pull;
+    step.state = r->state;
+    step.state.mode = TAHR_MODE_WALKING;
+    return step;
+}
+
+static void sweep(tahr__step *step, tahr_vec3 from, tahr_vec3 motion, tahr_hit *hit)
+{
+    tahr__sweep(step, &step->limits->shape, from, motion, step->config->skin, 0, hit);
+}
+
+/* As far as it is free at a height; less than 1e-4 radii is none. */
+static double ahead(tahr__step *step, tahr_vec3 motion, double lift, int *overlaps)
+{
+    tahr_hit hit;
+    sweep(step, add_scaled(step->state.position, step->state.up, lift), motion, &hit);
+    double part = hit.start_overlap ? 0 : hit.fraction;
+    *overlaps = (int)hit.start_overlap;
+    return part == 1 || part * length(motion) > 1e-4 * step->limits->width ? part : 0;
+}
+
+/* Where a step up ends, on a level floor of the height 0. Returns 0 if there is none. */
+static int plain_step(tahr__step *step, tahr_vec3 motion, const tahr_hit *obstacle, tahr_vec3 *to)
+{
+    const tahr_config *c = step->config;
+    tahr_vec3 up = step->state.up;
+    double lift = c->step_height;
+    int overlaps;
+    tahr_hit above, landing;
+    if (dot(obstacle->normal, up) < -0.1) {
+        return 0;
+    }
+    double covered = ahead(step, motion, lift, &overlaps);
+    if (covered == 0 && !overlaps) {
+        return 0;
+    }
+    sweep(step, step->state.position, scale(up, lift), &above);
+    if (above.blocking && !above.start_overlap) {
+        lift *= above.fraction;
+        covered = ahead(step, motion, lift, &overlaps);
+    }
+    if (above.start_overlap || covered == 0) {
+        return 0;
+    }
+    double range = lift + c->snap_distance;
+    tahr_vec3 raised = add_scaled(add_scaled(step->state.position, up, lift), motion, covered);
+    sweep(step, raised, scale(up, -range), &landing);
+    double top = landing.point.z, base = step->state.floor.point.z;
+    if (!landing.blocking || landing.start_overlap || top - base > c->step_height + TAHR__HEIGHT_ROUNDING ||
+        (!tahr__is_walkable(step, &landing, 0) && !tahr__tread_behind(step, &landing, base))) {
+        return 0;
+    }
+    *to = add_scaled(raised, up, -range * landing.fraction);
+    tahr__supplied supplied = {.hit = &landing};
+    tahr_floor floor;
+    tahr__step there = *step;
+    there.state.position = *to;
+    tahr__find_floor(&there, c->snap_distance, &supplied, &floor);
+    return (floor.flags & TAHR_FLOOR_WALKABLE) != 0;
+}
+
+/* A level ground, and on it, and over it, boxes that stand and lean: walls, steps, slopes, beams. */
+static void make_yard(oracle_random *random, tahr_body_desc bodies[BODIES])
+{
+    bodies[0] = native_box(fake_vec(0, 0, -1), fake_vec(20, 20, 1));
+    for (int i = 1; i < BODIES; i++) {
+        double angle = oracle_uniform(random, 0, 1.5), turn = oracle_uniform(random, 0, 3.1);
+        tahr_vec3 half = dice_vec(random, 0.05, 1);
+        tahr_vec3 at = dice_vec(random, -4, 4);
+        int kind = i % 4;
+        half.z = kind == 0 ? oracle_uniform(random, 0.02, 0.3) : kind == 1 ? 1 : half.z;
+        at.z = kind == 3 ? oracle_uniform(random, 1.7, 2.4) + half.z : kind == 2 ? 0 : half.z;
+        bodies[i] = native_box(at, half);
+        tahr_quat yaw = {0, 0, sin(turn / 2), cos(turn / 2)}, tilt = {sin(angle / 2), 0, 0, cos(angle / 2)};
+        bodies[i].pose.orientation = kind == 2 ? quat_multiply(yaw, tilt) : yaw;
+    }
+}
+
+/* Puts a character somewhere on the ground and lets it walk into something. Returns 0 if that came to nothing. */
+static int meet(rig *r, oracle_random *random, tahr__step *step, tahr_vec3 *motion, tahr_hit *obstacle)
+{
+    tahr_vec3 at = dice_vec(random, -4, 4);
+    double angle = oracle_uniform(random, 0, 6.283), reach = oracle_uniform(random, 0.03, 0.6);
+    tahr_floor floor;
+    at.z = HEIGHT;
+    *step = begin(r);
+    step->state.position = at;
+    tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+    if (!(floor.flags & TAHR_FLOOR_FACE) || floor.flags & TAHR_FLOOR_PERCHING || floor.point.z != 0 ||
+        floor.normal.z != 1) {
+        return 0;
+    }
+    *motion = fake_vec(reach * cos(angle), reach * sin(angle), 0);
+    sweep(step, at, *motion, obstacle);
+    if (!obstacle->blocking || obstacle->start_overlap) {
+        return 0;
+    }
+    step->state.position = add_scaled(at, *motion, obstacle->fraction);
+    double left = (1 - obstacle->fraction) * reach, stride = 0.5 * 0.35; /* as a walk takes them */
+    *motion = scale(*motion, (left > stride ? stride : left) / reach);
+    step->state.floor = floor;
+    step->state.floor_position = step->state.position;
+    return length(*motion) > 1e-3;
+}
+
+static void the_order_of_the_questions_changes_no_step(void **unused)
+{
+    static tahr_body_desc bodies[BODIES];
+    oracle_random random = {.state = 3};
+    uint32_t met = 0, taken = 0, asked = 0, plainly = 0;
+    (void)unused;
+    for (int yard = 0; yard < 200; yard++) {
+        rig r;
+        make_yard(&random, bodies);
+        rig_open_bodies(&r, bodies, BODIES, NULL, fake_vec(0, 0, 30));
+        for (int i = 0; i < 400; i++) {
+            tahr__step step;
+            tahr_hit obstacle;
+            tahr_vec3 motion, to;
+            if (!meet(&r, &random, &step, &motion, &obstacle)) {
+                continue;
+            }
+            tahr__step plain = step;
+            plain.queries = step.queries = 0;
+            int steps = plain_step(&plain, motion, &obstacle, &to);
+            double covered = tahr__step_up(&step, motion, &obstacle);
+            assert_int_equal(covered > 0, steps);
+            met++;
+            asked += step.queries;
+            plainly += plain.queries;
+            if (steps) {
+                assert_true(length(sub(step.state.position, to)) <= 1e-12);
+                taken++;
+            }
+        }
+        rig_close(&r);
+    }
+    assert_true(met > 3000 && taken > 1000);
+    assert_true(asked < plainly);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_order_of_the_questions_changes_no_step)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
