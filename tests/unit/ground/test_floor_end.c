@@ -36,7 +36,6 @@ static void open_on(rig *r, const tahr_body_desc *bodies, uint32_t count, tahr_v
     tahr_native_desc native;
     memset(&native, 0, sizeof native);
     native.struct_size = sizeof native;
-    native.precision = TAHR_NATIVE_DOUBLE;
     rig_open_native(r, &native, bodies, count, NULL, at);
 }
 
