@@ -232,11 +232,8 @@ static void hand_over(const tahr__step *step, int remembers, tahr_state *out)
     }
 }
 
-static tahr_status worst(uint32_t flags)
+tahr_status tahr__step_status(uint32_t flags)
 {
-    if (flags == 0) {
-        return TAHR_OK;
-    }
     if (flags & TAHR_REPORT_QUERY_CAP) {
         return TAHR_QUERY_CAP;
     }
@@ -291,8 +288,8 @@ static void detect_stuck(tahr__step *step, const tahr_state *before)
     }
 }
 
-tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                            tahr_report *report)
+tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report)
 {
     if (!mover) {
         return TAHR_E_NULL;
@@ -307,6 +304,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     if (mover->world->recording && !mover->is_recorded) {
         return tahr__record_step(mover, input, dt, state, report);
     }
+    const tahr__neighbours *around = mover->company ? mover->company->neighbours : NULL;
     int blank = state_is_blank(mover, state);
     int usual = arguments_are_usual(mover, input, dt, state, report);
     if (!blank || !usual) {
@@ -314,13 +312,6 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         if (status < 0) {
             return status;
         }
-    }
-    const tahr__neighbours *around = mover->company ? mover->company->neighbours : NULL;
-    if (mover->sleep.noted && !around && tahr__sleeps_on(mover, input, dt, state, report)) {
-        if (report) {
-            tahr__sleep_report(mover, report);
-        }
-        return worst(mover->sleep.report.flags);
     }
     tahr__step step;
     tahr__pull pull;
@@ -358,6 +349,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     }
     if (dt > 0) {
         mover->busy = 1;
+        mover->sleep.noted = 0;
         const int plain = blank && usual && mover->plain && !around; /* and nothing will be remembered */
         run(&step, dt, plain);
         mover->busy = 0;
@@ -377,12 +369,11 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
             tahr__sleep_note(mover, &step, dt, state, around || memcmp(&before, state, sizeof before) != 0);
         } else {
             hand_over(&step, !plain, state);
-            mover->sleep.noted = 0;
         }
     }
     finish_report(&step);
     if (report) {
         *report = step.report;
     }
-    return worst(step.report.flags);
+    return step.report.flags == 0 ? TAHR_OK : tahr__step_status(step.report.flags);
 }

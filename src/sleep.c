@@ -7,31 +7,76 @@
 
 #include <string.h>
 
-int tahr__sleeps_on(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
-                    const tahr_report *report)
+#include "arguments.h"
+#include "neighbours.h"
+
+/* Without a flag none of the optional fields of an input counts. b: of a step that was taken. */
+static int same_wishes(const tahr_input *a, const tahr_input *b)
 {
-    const tahr__sleep *s = &mover->sleep;
-    uint32_t capacity = report && report->events ? report->event_capacity : 0;
-    if (!s->noted || dt != s->dt || tahr_world_revision(mover->world) != s->revision ||
-        capacity != s->report.event_capacity) {
+    const size_t head = offsetof(tahr_input, facing);
+    if (memcmp(a, b, head) != 0) {
         return 0;
     }
-    if (report && (report->decisions || report->queries)) {
-        return 0; /* a trace wants to see the step */
-    }
-    return memcmp(state, &s->state, sizeof *state) == 0 && memcmp(input, &s->input, sizeof *input) == 0;
+    return a->flags == 0 ? a->reserved == 0
+                         : memcmp((const char *)a + head, (const char *)b + head, sizeof *a - head) == 0;
 }
 
-void tahr__sleep_report(const tahr_mover *mover, tahr_report *report)
+/* Can what was noted be told in this report, which may be NULL? A trace wants to see the step. */
+static int report_suits(const tahr__sleep *s, const tahr_report *report)
+{
+    if (!report) {
+        return s->report.event_capacity == 0;
+    }
+    const uint32_t capacity = report->events ? report->event_capacity : 0;
+    return report->struct_size >= sizeof *report && !report->decisions && !report->queries &&
+           capacity == s->report.event_capacity;
+}
+
+/* Would a step with these arguments, none but report NULL, repeat the one that was noted? Nothing is noted while a step
+ * is under way. Of input and report only what this version knows is looked at. */
+static int sleeps_on(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
+                     const tahr_report *report)
 {
     const tahr__sleep *s = &mover->sleep;
-    tahr_report r = s->report;
-    r.struct_size = report->struct_size;
-    r.events = report->events;
-    if (r.event_count > 0) {
-        memcpy(r.events, s->events, r.event_count * sizeof s->events[0]);
+    const tahr_world *world = mover->world;
+    if (!s->noted || world->recording || (mover->company && mover->company->neighbours)) {
+        return 0;
     }
-    *report = r;
+    return dt == s->dt && world->revision + world->motion == s->revision && report_suits(s, report) &&
+           same_wishes(input, &s->input) && memcmp(state, &s->state, sizeof *state) == 0;
+}
+
+/* All that the noted step told but queries. */
+static void tell(const tahr__sleep *s, tahr_report *report)
+{
+    const uint32_t size = report->struct_size;
+    tahr_event *events = report->events;
+    *report = s->report;
+    report->struct_size = size;
+    report->events = events;
+    for (uint32_t i = 0; i < s->report.event_count; i++) {
+        events[i] = s->events[i];
+    }
+}
+
+/* Apart from the step itself, because most characters of most scenes are asleep. What equals the arguments of the noted
+ * step was checked with them; only a longer input or report may hold something else. */
+tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report)
+{
+    if (!mover || !input || !state || !sleeps_on(mover, input, dt, state, report)) {
+        return tahr__step_awake(mover, input, dt, state, report);
+    }
+    if (input->struct_size != sizeof *input || (report && report->struct_size != sizeof *report)) {
+        tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
+        if (status < 0) {
+            return status;
+        }
+    }
+    if (report) {
+        tell(&mover->sleep, report);
+    }
+    return mover->sleep.status;
 }
 
 /* Input of a newer caller may have a tail, which is zero. */
@@ -50,6 +95,7 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
     }
     s->dt = dt;
     s->revision = tahr_world_revision(mover->world);
+    s->status = tahr__step_status(r->flags);
     s->state = *state;
     s->input = *step->input;
     s->report = (tahr_report){.flags = r->flags | TAHR_REPORT_ASLEEP,

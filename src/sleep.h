@@ -5,12 +5,12 @@
 
 #include "core.h"
 
-/* Would a step with these arguments repeat the one that was noted? */
-int tahr__sleeps_on(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
-                    const tahr_report *report);
+/* tahr_mover_step for who does not sleep; checks all that it is given. */
+tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report);
 
-/* What a step reports that was not computed: all that the noted one did but queries. */
-void tahr__sleep_report(const tahr_mover *mover, tahr_report *report);
+/* What a step with a report of these flags returns. */
+tahr_status tahr__step_status(uint32_t flags);
 
 /* Notes a step that changed no bit of the state; forgets the last one after any other. state: as it is now; changed: is
  * it another one than before the step? */
