@@ -108,16 +108,16 @@ typedef struct tahr__limits {
 /* Events of a step that can be repeated; a step with more is computed again. */
 enum { TAHR__SLEEP_EVENTS = 8 };
 
-/* The last step, if it left the state as it was (sleep.c). What a sleeper compares lies together, the state on lines of
- * memory of its own. */
+/* The last step, if it left the state as it was (sleep.h). In the order in which a sleeper compares it, from the begin of
+ * a line of memory: a crowd asleep costs the lines that it reads. */
 typedef struct tahr__sleep {
-    tahr_state state;
-    tahr_report report;
-    tahr_input input;
+    uint32_t noted; /* 1 + the report's event_capacity; 0: nothing is */
+    tahr_status status;
     double dt;
     uint64_t revision;
-    uint32_t noted;
-    tahr_status status;
+    tahr_input input;
+    _Alignas(64) tahr_state state;
+    tahr_report report;
     tahr_event events[TAHR__SLEEP_EVENTS];
 } tahr__sleep;
 
@@ -140,7 +140,7 @@ struct tahr_mover {
     uint32_t is_recorded; /* 1: the step under way has been told of */
     uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t reserved;
-    _Alignas(64) tahr__sleep sleep;
+    tahr__sleep sleep;
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
     tahr_config config;

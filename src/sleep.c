@@ -10,45 +10,22 @@
 #include "arguments.h"
 #include "neighbours.h"
 
-/* Without a flag none of the optional fields of an input counts. b: of a step that was taken. */
-static int same_wishes(const tahr_input *a, const tahr_input *b)
-{
-    const size_t head = offsetof(tahr_input, facing);
-    if (memcmp(a, b, head) != 0) {
-        return 0;
-    }
-    return a->flags == 0 ? a->reserved == 0
-                         : memcmp((const char *)a + head, (const char *)b + head, sizeof *a - head) == 0;
-}
-
 /* Can what was noted be told in this report, which may be NULL? A trace wants to see the step. */
 static int report_suits(const tahr__sleep *s, const tahr_report *report)
 {
     if (!report) {
-        return s->report.event_capacity == 0;
+        return s->noted == 1;
     }
     const uint32_t capacity = report->events ? report->event_capacity : 0;
-    return report->struct_size >= sizeof *report && !report->decisions && !report->queries &&
-           capacity == s->report.event_capacity;
-}
-
-/* Would a step with these arguments, none but report NULL, repeat the one that was noted? Nothing is noted while a step
- * is under way. Of input and report only what this version knows is looked at. */
-static int sleeps_on(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
-                     const tahr_report *report)
-{
-    const tahr__sleep *s = &mover->sleep;
-    const tahr_world *world = mover->world;
-    if (!s->noted || world->recording || (mover->company && mover->company->neighbours)) {
-        return 0;
-    }
-    return dt == s->dt && world->revision + world->motion == s->revision && report_suits(s, report) &&
-           same_wishes(input, &s->input) && memcmp(state, &s->state, sizeof *state) == 0;
+    return report->struct_size >= sizeof *report && !report->decisions && !report->queries && capacity == s->noted - 1;
 }
 
 /* All that the noted step told but queries. */
 static void tell(const tahr__sleep *s, tahr_report *report)
 {
+    if (!report) {
+        return;
+    }
     const uint32_t size = report->struct_size;
     tahr_event *events = report->events;
     *report = s->report;
@@ -59,12 +36,30 @@ static void tell(const tahr__sleep *s, tahr_report *report)
     }
 }
 
+int tahr__sleep_again(const tahr__sleep *s, tahr_report *report, tahr_status *status)
+{
+    if (!report_suits(s, report)) {
+        return 0;
+    }
+    tell(s, report);
+    *status = s->status;
+    return 1;
+}
+
+static int is_asleep(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
+                     const tahr_report *report)
+{
+    const int alone = !mover->world->recording && !(mover->company && mover->company->neighbours);
+    return alone && sleeps_on(&mover->sleep, world_revision(mover->world), input, dt, state) &&
+           report_suits(&mover->sleep, report);
+}
+
 /* Apart from the step itself, because most characters of most scenes are asleep. What equals the arguments of the noted
  * step was checked with them; only a longer input or report may hold something else. */
 tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                             tahr_report *report)
 {
-    if (!mover || !input || !state || !sleeps_on(mover, input, dt, state, report)) {
+    if (!mover || !input || !state || !is_asleep(mover, input, dt, state, report)) {
         return tahr__step_awake(mover, input, dt, state, report);
     }
     if (input->struct_size != sizeof *input || (report && report->struct_size != sizeof *report)) {
@@ -73,9 +68,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
             return status;
         }
     }
-    if (report) {
-        tell(&mover->sleep, report);
-    }
+    tell(&mover->sleep, report);
     return mover->sleep.status;
 }
 
@@ -89,12 +82,13 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
     changed |= base != TAHR_NO_BODY && base >= mover->world->body_count;
     /* A caller's own mode may depend on what the core cannot see. */
     changed |= mover->custom.run && (state->mode == TAHR_MODE_CUSTOM || (step->input->flags & TAHR_INPUT_MODE));
-    s->noted = !changed && mover->config.sleep && !r->decisions && !r->queries && r->event_count <= TAHR__SLEEP_EVENTS;
-    if (!s->noted) {
+    if (changed || !mover->config.sleep || r->decisions || r->queries || r->event_count > TAHR__SLEEP_EVENTS ||
+        r->event_capacity == UINT32_MAX) {
         return;
     }
+    s->noted = 1 + r->event_capacity;
     s->dt = dt;
-    s->revision = tahr_world_revision(mover->world);
+    s->revision = world_revision(mover->world);
     s->status = tahr__step_status(r->flags);
     s->state = *state;
     s->input = *step->input;
