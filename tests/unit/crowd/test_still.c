@@ -191,9 +191,99 @@ static void who_walks_wakes_whom_he_comes_near(void **unused)
     throng_close(&w.on);
 }
 
+static void settle(twins *w)
+{
+    for (int i = 0; i < 40; i++) {
+        assert_true(tick(&w->on, w) >= 0);
+    }
+}
+
+/* From the left, 2.5 m, at 4 m/s: a second is enough to be through him if he is not seen. */
+static void assert_stopped_by(twins *w, uint32_t walker, uint32_t sleeper)
+{
+    throng *t = &w->on;
+    throng_go(t, walker, 1, 0);
+    for (int i = 0; i < 60; i++) {
+        assert_true(tick(t, w) >= 0);
+        const double gap = throng_gap(&t->states[walker], &t->states[sleeper]);
+        if (!(gap > 0)) fail_msg("tick %d: %g m", i, gap);
+    }
+    throng_go(t, walker, 0, 0);
+}
+
+/* Shown elsewhere in a tick that steps nobody, or fails: then where he slept before. */
+static void who_comes_back_to_where_he_slept_is_seen_there(void **unused)
+{
+    (void)unused;
+    for (int wrong = 0; wrong < 2; wrong++) {
+        twins w = {.dt = DT, .shown = COUNT};
+        open_one(&w, 1);
+        settle(&w);
+        const tahr_state slept = w.on.states[10];
+        throng_place(&w.on, 10, 40, 40);
+        w.on.states[10].reserved[0] = (uint8_t)wrong;
+        w.dt = wrong ? DT : 0;
+        assert_int_equal(tick(&w.on, &w), wrong ? TAHR_E_ARGUMENT : TAHR_OK);
+        w.dt = DT;
+        w.on.states[10] = slept;
+        assert_stopped_by(&w, 9, 10);
+        throng_close(&w.on);
+    }
+}
+
+/* Nobody moves, and yet two are in each other: one came while the other was not there, or did not count. */
+static void who_finds_another_in_him_wakes(void **unused)
+{
+    (void)unused;
+    for (int alone = 0; alone < 2; alone++) {
+        twins w = {.dt = DT, .shown = COUNT};
+        open_one(&w, 1);
+        settle(&w);
+        const tahr_vec3 at = w.on.states[10].position;
+        w.shown = alone ? COUNT : 5;
+        w.on.members[0].flags = alone ? TAHR_MEMBER_ALONE : 0;
+        throng_place(&w.on, 0, at.x + 0.3, at.y);
+        settle(&w);
+        assert_true(throng_gap(&w.on.states[0], &w.on.states[10]) < -0.3);
+        w.shown = COUNT;
+        w.on.members[0].flags = 0;
+        for (int i = 0; i < 60; i++) {
+            tick(&w.on, &w);
+        }
+        assert_true(throng_gap(&w.on.states[0], &w.on.states[10]) > 0);
+        throng_close(&w.on);
+    }
+}
+
+/* Eight that are larger make other cells of the grid: those who sleep have other places in it, also those who were not
+ * there when it was made. */
+static void who_sleeps_is_found_in_other_cells(void **unused)
+{
+    (void)unused;
+    for (int few = 0; few < 2; few++) {
+        twins w = {.dt = DT, .shown = COUNT};
+        open_one(&w, 1);
+        settle(&w);
+        for (uint32_t i = 0; i < 8; i++) {
+            w.on.members[i].config = 1;
+            throng_place(&w.on, i, 30 + 3 * (double)i, -40);
+        }
+        w.shown = few ? 8 : COUNT;
+        settle(&w);
+        w.shown = COUNT;
+        for (uint32_t i = 8; i < COUNT - 1; i++) {
+            if (i % 8 < 6) assert_stopped_by(&w, i, i + 1);
+        }
+        throng_close(&w.on);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(who_comes_back_to_where_he_slept_is_seen_there),
+        cmocka_unit_test(who_finds_another_in_him_wakes),
+        cmocka_unit_test(who_sleeps_is_found_in_other_cells),
         cmocka_unit_test(whoever_sleeps_the_crowd_goes_the_same_way),
         cmocka_unit_test(who_walks_wakes_whom_he_comes_near),
     };
