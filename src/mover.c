@@ -291,12 +291,6 @@ static void detect_stuck(tahr__step *step, const tahr_state *before)
 tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                              tahr_report *report)
 {
-    if (!mover) {
-        return TAHR_E_NULL;
-    }
-    if (!input || !state) {
-        return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
-    }
     if (mover->busy) {
         return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",
                               "is being stepped already");
@@ -376,4 +370,17 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
         *report = step.report;
     }
     return step.report.flags == 0 ? TAHR_OK : tahr__step_status(step.report.flags);
+}
+
+tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report)
+{
+    if (!mover) {
+        return TAHR_E_NULL;
+    }
+    if (!input || !state) {
+        return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
+    }
+    return mover->sleep.noted ? tahr__step_noted(mover, input, dt, state, report)
+                              : tahr__step_awake(mover, input, dt, state, report);
 }

@@ -46,20 +46,15 @@ int tahr__sleep_again(const tahr__sleep *s, tahr_report *report, tahr_status *st
     return 1;
 }
 
-static int is_asleep(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
-                     const tahr_report *report)
+/* What equals the arguments of the noted step was checked with them; only a longer input or report may hold something
+ * else. */
+tahr_status tahr__step_noted(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report)
 {
-    const int alone = !mover->world->recording && !(mover->company && mover->company->neighbours);
-    return alone && sleeps_on(&mover->sleep, world_revision(mover->world), input, dt, state) &&
-           report_suits(&mover->sleep, report);
-}
-
-/* Apart from the step itself, because most characters of most scenes are asleep. What equals the arguments of the noted
- * step was checked with them; only a longer input or report may hold something else. */
-tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                            tahr_report *report)
-{
-    if (!mover || !input || !state || !is_asleep(mover, input, dt, state, report)) {
+    const tahr__sleep *s = &mover->sleep;
+    const tahr_world *world = mover->world;
+    const int alone = !world->recording && !(mover->company && mover->company->neighbours);
+    if (!alone || !sleeps_on(s, world_revision(world), input, dt, state) || !report_suits(s, report)) {
         return tahr__step_awake(mover, input, dt, state, report);
     }
     if (input->struct_size != sizeof *input || (report && report->struct_size != sizeof *report)) {
@@ -68,8 +63,8 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
             return status;
         }
     }
-    tell(&mover->sleep, report);
-    return mover->sleep.status;
+    tell(s, report);
+    return s->status;
 }
 
 /* Input of a newer caller may have a tail, which is zero. */

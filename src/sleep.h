@@ -7,7 +7,7 @@
 
 #include "core.h"
 
-/* tahr_mover_step for who does not sleep; checks all that it is given. */
+/* tahr_mover_step for who does not sleep; input and state are not NULL. */
 tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                              tahr_report *report);
 
@@ -36,6 +36,10 @@ static inline int sleeps_on(const tahr__sleep *s, uint64_t revision, const tahr_
     return s->noted && dt == s->dt && revision == s->revision && same_wishes(input, &s->input) &&
            memcmp(state, &s->state, sizeof *state) == 0;
 }
+
+/* tahr_mover_step for who may sleep: input and state are not NULL, and a step is noted. */
+tahr_status tahr__step_noted(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report);
 
 /* That repetition, of who is known to sleep on: writes report, which may be NULL and is otherwise in order, and status.
  * Returns 0, and writes nothing, if the report asks for what was not noted. */
