@@ -124,7 +124,7 @@ static void look_at_part(void *argument, uint32_t index)
     const uint32_t begin = part_begin(t, index), end = part_begin(t, index + 1);
     const tahr_member *members = t->asked->members;
     for (uint32_t i = begin; i < end; i++) {
-        if (i + 3 < end && !c->is_lean) {
+        if (i + 3 < end && c->figures[i + 3].flags & TAHR__FIGURE_NOTED) {
             fetch_sleep(c->movers[i + 3]);
         }
         part->field = tahr__tick_check_one(t, i, &part->status, &part->why);

@@ -56,7 +56,11 @@ static double asked_speed(const tahr_config *c, const tahr_input *input)
 
 static double speed_of(const tahr_config *c, const tahr_input *input, const tahr_state *s)
 {
-    double v = max_of(length(s->velocity), max_of(c->max_speed, c->jump_speed));
+    double v = max_of(c->max_speed, c->jump_speed);
+    const double now2 = length_squared(s->velocity);
+    if (!(now2 <= v * v)) { /* else its root is no more than v: rounding keeps the order, and roots of squares */
+        v = sqrt(now2);
+    }
     if (s->mode != TAHR_MODE_WALKING) {
         v = max_of(v, max_of(c->fly_speed, c->swim_speed));
     }
