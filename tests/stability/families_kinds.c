@@ -197,8 +197,7 @@ void make_sensors(trial *t, oracle_random *dice)
     for (uint32_t i = 1 + oracle_below(dice, 6); i > 0 && t->body_count < TRIAL_BODIES - 8; i--)
         trial_box(t, at(draw(dice, -4, 4), draw(dice, -0.05, 0.05), draw(dice, -1, 3)),
                   at(draw(dice, 0.1, 1.5), draw(dice, 0.1, 1.5), draw(dice, 0.1, 1.5)), TAHR_BODY_SENSOR);
-    t->keeps |= KEEPS_PROMISE;
-    t->keeps &= ~(uint32_t)KEEPS_REST; /* its twin makes it look for the floor again in every step */
+    t->keeps = KEEPS_SANE | KEEPS_RELATION | KEEPS_PROMISE;
     t->promise = keep_sensors;
 }
 
