@@ -52,6 +52,7 @@ static void what_was_broken_once_stays_whole(void **unused)
         {"soup", "native-double", TAHR_PRESET_PRECISE, 268},     /* on and off an edge, again and again in one step */
         {"blocks", "native", TAHR_PRESET_PLATFORMER, 872},       /* a head beside something lower than itself */
         {"shortcuts", "native-double", TAHR_PRESET_PRECISE, 11}, /* at rest just over the border of a cell */
+        {"water", "native-double", TAHR_PRESET_UNREAL, 136},     /* stood on a floor that was only its foot */
     };
     (void)unused;
     for (size_t i = 0; i < sizeof once / sizeof once[0]; i++) {
