@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from front import ERROR_FLOOR
 from panel import MEDIAN_ERROR, P99_ERROR, Scale, dots, over_size, scatter
-from rows import Row
+from rows import Row, thread_gains
 from style import panels
 
 NS_SWEEP = Scale(lambda r: r.ns_p50, "median time of a sweep", "s", 1e-9)
@@ -312,22 +312,6 @@ def _budget_chart(rows: Sequence[Row]) -> Chart:
     return Chart("crowds-budgets", "Crowds: a budget of error", caption, figure, list(rows))
 
 
-def _thread_gains(rows: Sequence[Row]) -> str:
-    """What threads gained where most characters were, beside what as many processes gained that share nothing."""
-    most = max((r.value for r in rows), default=0)
-    at = {r.curve: r.ns_p50 for r in rows if r.value == most}
-    one = at.get("crowd; 1 thread")
-    gains = []
-    for curve, ns in at.items():
-        threads = curve.removeprefix("crowd; ").removesuffix(" threads")
-        ceiling = at.get(f"machine's ceiling; {threads} threads")
-        if one and ceiling and curve.startswith("crowd; "):
-            gains.append(f"{threads} threads are {one / ns:.2f} times one, the machine's ceiling is {one / ceiling:.2f}")
-    if not gains:
-        return ""
-    return f" {most:.0f} characters: {'; '.join(gains)} (as many crowds, each in a process of its own, side by side)."
-
-
 def crowd_charts(rows: Sequence[Row]) -> list[Chart]:
     charts = []
     for scene in scenes_of(rows):
@@ -340,7 +324,7 @@ def crowd_charts(rows: Sequence[Row]) -> list[Chart]:
         caption = (
             f"A tick of a crowd on {describe(scene)} at 60 Hz, per character, by the wall clock, median over "
             "ticks. More threads pay where there are cores for them; caches of many characters do not fit into "
-            "the processor's." + _thread_gains(own)
+            "the processor's." + thread_gains(own)
         )
         charts.append(Chart(f"crowds-{scene}", f"Crowds on {describe(scene)}", caption, figure, own))
     return charts
