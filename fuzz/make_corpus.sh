@@ -9,7 +9,7 @@ seed() {
     printf "$3" >"fuzz/corpus/$1/seed_$2"
 }
 # The words are read as numbers modulo small ones: any text is some scene, shape and way through it.
-for target in steps engines; do
+for target in steps engines crowd; do
     seed $target empty ''
     seed $target plain 'a floor, and somebody who walks over it to the right and jumps twice before the end'
     seed $target boxes 'Qxyzzy boxes in a lattice: 0123456789 and again 9876543210, turned and touching, walked around for a while, up and down'
@@ -20,6 +20,7 @@ done
 # Of engines, two dimensions: the first byte modulo four is two.
 seed engines flat_boxes 'r3 boxes, turned, on a lattice of a plane, and somebody with a skin who passes between them 0123456789 ABCDEFGHIJ'
 seed engines flat_chains 'bA\002\004\010chains of a few corners \200\201\202\203 open and closed; who comes from behind is stopped too, zigzag 9876543210 !!!!'
+seed crowd throng 'AAAA a throng of many who come ABCDEFG one by one 0123456 and go, are put elsewhere, into each other 6666 or out of order $$$$ and walk all the same to the end of all that is written here, some of them with a budget :::: and some of them without'
 seed liar honest '\003aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa'
 seed liar mixed '\037whatever is asked, something else is answered: 0123456789 \377\376\375 and never the same twice \377\377'
 seed liar overlaps '\001oooooooo~~~~nnnn////____oooo~~~~ in and out of walls that are not there \016\036\056 forever'

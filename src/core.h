@@ -108,13 +108,15 @@ typedef struct tahr__limits {
 /* Events of a step that can be repeated; a step with more is computed again. */
 enum { TAHR__SLEEP_EVENTS = 8 };
 
-/* The last step, if it left the state as it was (sleep.c). */
+/* The last step, if it left the state as it was (sleep.h). In the order in which a sleeper compares it, from the begin of
+ * a line of memory: a crowd asleep costs the lines that it reads. */
 typedef struct tahr__sleep {
-    uint64_t revision;
+    uint32_t noted; /* 1 + the report's event_capacity; 0: nothing is */
+    tahr_status status;
     double dt;
-    uint32_t noted;
+    uint64_t revision;
     tahr_input input;
-    tahr_state state;
+    _Alignas(64) tahr_state state;
     tahr_report report;
     tahr_event events[TAHR__SLEEP_EVENTS];
 } tahr__sleep;
@@ -130,22 +132,21 @@ extern const tahr_state tahr__blank;
 
 struct tahr_mover {
     tahr_world *world;
-    tahr_config config;
-    tahr__limits limits;
+    struct tahr__company *company; /* in a step of a crowd: who else is there (neighbours.h), else NULL */
     void *cache;
     size_t cache_size;
+    tahr__custom custom;
     uint32_t busy;
-    uint32_t plain; /* 1: neither world nor config hold anything that a state remembers */
+    uint32_t is_recorded; /* 1: the step under way has been told of */
+    uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t may_go_short_way;
     uint32_t rest;   /* steps that go the long way before the short one is tried again, */
     uint32_t failed; /* and how often in a row it was of no use */
-    uint32_t reserved;
-    tahr__custom custom;
-    uint32_t record_round;         /* of the recording that has numbered it, */
-    uint32_t record_number;        /* and the number */
-    uint32_t is_recorded;          /* 1: the step under way has been told of */
-    struct tahr__company *company; /* in a step of a crowd: who else is there (neighbours.h), else NULL */
     tahr__sleep sleep;
+    uint32_t record_round;  /* of the recording that has numbered it, */
+    uint32_t record_number; /* and the number */
+    tahr_config config;
+    tahr__limits limits;
 };
 
 /* Public as the opaque tahr_step of a custom mode. */

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "message.h"
+#include "sleep.h"
 
 /* Below this many characters a part is not worth a task. */
 enum { LEAST_PART = 16 };
@@ -62,34 +63,84 @@ static int is_sample(const tahr__tick *t, uint32_t i)
     return t->asked->count < 256 || i * 2654435769u < 0x20000000u;
 }
 
+/* Who a character without a member is. */
+static const tahr_member PLAIN = {.groups = 1, .mask = ~0u};
+
+/* Puts into a figure who it is, unless it is that already, in which case it returns 1. */
+static int identify(tahr__figure *f, const tahr_member *m, uint32_t id)
+{
+    const uint32_t groups = m->groups ? m->groups : 1;
+    const uint32_t mask = m->flags & TAHR_MEMBER_ALONE ? 0 : (m->mask ? m->mask : ~0u);
+    const int same = f->id == id && f->groups == groups && f->mask == mask;
+    f->id = id;
+    f->groups = groups;
+    f->mask = mask;
+    return same;
+}
+
+/* Of a character: its figure, unless that and its step are those of the last tick. */
+static void look_at(const tahr__tick *t, uint32_t i, const tahr_member *m, tahr__part *part)
+{
+    const tahr_crowd *c = t->crowd;
+    const tahr_input *input = tick_input(t, i);
+    const tahr_state *state = &t->asked->states[i];
+    tahr__figure *f = &c->figures[i];
+    const int same = identify(f, m, m == &PLAIN ? i : m->id);
+    if (same && f->flags & TAHR__FIGURE_NOTED && c->kind_of[i] == m->config && m->budget == 0 &&
+        t->input_stride == sizeof *input && sleeps_on(&c->movers[i]->sleep, t->revision, input, t->asked->dt, state)) {
+        f->flags = (f->flags & ~(uint32_t)TAHR__FIGURE_STRAYED) | TAHR__FIGURE_STILL;
+        f->range.extra = 0;
+        part->still++;
+    } else {
+        tahr__figure_of(f, c->kinds[m->config], input, state, t->asked->dt);
+    }
+    if (is_sample(t, i)) {
+        tahr__spread_add(&part->spread, f);
+    }
+}
+
+/* Movers lie anywhere in memory, so that no processor foresees where the next one is. Its first lines are enough: what
+ * follows them is in order. */
+static void fetch_sleep(const tahr_mover *mover)
+{
+#ifdef __GNUC__
+    __builtin_prefetch(&mover->sleep);
+    __builtin_prefetch(&mover->sleep.state);
+    __builtin_prefetch(&mover->sleep.state.orientation);
+#else
+    (void)mover;
+#endif
+}
+
 static void look_at_part(void *argument, uint32_t index)
 {
     const tahr__tick *t = argument;
     tahr_crowd *c = t->crowd;
     tahr__part *part = &c->parts[index];
-    memset(part, 0, sizeof *part);
+    part->counts = (tahr_crowd_counts){.struct_size = 0};
+    part->still = part->strays = 0;
     part->bad = ~0u;
-    tahr__spread_begin(&part->spread, c->grid.axis);
+    tahr__spread_begin(&part->spread, c->grid.cells.axis);
     const uint32_t begin = part_begin(t, index), end = part_begin(t, index + 1);
+    const tahr_member *members = t->asked->members;
     for (uint32_t i = begin; i < end; i++) {
+        if (i + 3 < end && c->figures[i + 3].flags & TAHR__FIGURE_NOTED) {
+            fetch_sleep(c->movers[i + 3]);
+        }
         part->field = tahr__tick_check_one(t, i, &part->status, &part->why);
         if (part->field) {
             part->bad = i;
             return;
         }
-        const tahr_member simple = {.id = i}, *member = t->asked->members ? &t->asked->members[i] : &simple;
-        tahr__figure *f = &c->figures[i];
-        tahr__figure_of(f, c->kinds[member->config], member, tick_input(t, i), &t->asked->states[i], t->asked->dt);
-        if (is_sample(t, i)) {
-            tahr__spread_add(&part->spread, f);
-        }
+        look_at(t, i, members ? &members[i] : &PLAIN, part);
     }
 }
 
 static void place_part(void *argument, uint32_t index)
 {
     const tahr__tick *t = argument;
-    tahr__grid_place(&t->crowd->grid, part_begin(t, index), part_begin(t, index + 1));
+    const uint32_t kept = t->same_cells ? (uint32_t)TAHR__FIGURE_STILL : 0u;
+    tahr__grid_place(&t->crowd->grid, part_begin(t, index), part_begin(t, index + 1), kept);
 }
 
 static int meets_in(const tahr_crowd *c, const tahr__figure *f, uint32_t begin, uint32_t end)
@@ -127,6 +178,7 @@ static void meet_part(void *argument, uint32_t index)
     tahr_crowd *c = t->crowd;
     for (uint32_t i = part_begin(t, index); i < part_begin(t, index + 1); i++) {
         tahr__figure *f = &c->figures[i];
+        f->flags &= ~(uint32_t)TAHR__FIGURE_BESIDE;
         if (f->flags & TAHR__FIGURE_THERE && has_company(c, i)) {
             f->flags |= TAHR__FIGURE_BESIDE;
             tahr__look_of(&c->looks[i], kind_of(t, i), &t->asked->states[i], t->asked->dt);
@@ -220,6 +272,9 @@ static inline tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__compa
         mover->company = company;
         status = tahr_mover_step(mover, tick_input(t, i), t->asked->dt, state, tick_report(t, i));
         mover->company = NULL;
+        if (mover->sleep.noted && status >= 0 && t->asked->dt > 0 && !c->is_lean) {
+            c->figures[i].flags |= TAHR__FIGURE_NOTED;
+        }
     }
     if (status == TAHR__STRAYED) {
         c->strayed[i] = company->strayed;
@@ -258,9 +313,14 @@ static void step_part(void *argument, uint32_t index)
     tahr__part *part = &c->parts[index];
     const uint32_t begin = part_begin(t, index), end = part_begin(t, index + 1);
     for (uint32_t i = begin; i < end; i++) {
+        const uint32_t flags = c->figures[i].flags & (TAHR__FIGURE_STILL | TAHR__FIGURE_BESIDE);
+        if (flags == TAHR__FIGURE_STILL &&
+            tahr__sleep_again(&c->movers[i]->sleep, tick_report(t, i), &c->statuses[i])) {
+            continue;
+        }
         tahr__company company = {.range = &c->figures[i].range};
         tahr_status status =
-            c->figures[i].flags & TAHR__FIGURE_BESIDE ? take_step_among(t, i, part) : take_step(t, i, &company, part);
+            flags & TAHR__FIGURE_BESIDE ? take_step_among(t, i, part) : take_step(t, i, &company, part);
         c->statuses[i] = status;
         part->strays += status == TAHR__STRAYED;
     }
@@ -357,17 +417,27 @@ static tahr_status find_bad(const tahr__tick *t)
     return tahr__tick_check_ids(t);
 }
 
+/* Who is beside whom. Where nobody has changed nobody's company has. */
 static void look_around(tahr__tick *t)
 {
     tahr_crowd *c = t->crowd;
     tahr__spread *all = &c->parts[0].spread;
+    uint32_t still = c->parts[0].still;
     for (uint32_t i = 1; i < t->tasks; i++) {
         tahr__spread_merge(all, &c->parts[i].spread);
+        still += c->parts[i].still;
     }
+    if (still == t->asked->count && still == c->grid.count) {
+        return;
+    }
+    const tahr__cells before = c->grid.cells;
+    const int same_count = c->grid.count == t->asked->count;
     c->grid.count = t->asked->count;
     tahr__grid_begin(&c->grid, all);
+    t->same_cells = same_count && memcmp(&before, &c->grid.cells, sizeof before) == 0;
     run(t, place_part);
     tahr__grid_sort(&c->grid);
+    run(t, meet_part);
 }
 
 tahr_status tahr_crowd_step(tahr_crowd *crowd, const tahr_crowd_tick *asked)
@@ -387,7 +457,6 @@ tahr_status tahr_crowd_step(tahr_crowd *crowd, const tahr_crowd_tick *asked)
     status = find_bad(&t);
     if (status >= 0) {
         look_around(&t);
-        run(&t, meet_part);
         run(&t, step_part);
         step_again(&t);
         status = finish(&t);

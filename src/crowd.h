@@ -12,6 +12,7 @@ enum { TAHR__NEIGHBOURS = 128 };
 typedef struct tahr__part {
     tahr__spread spread;
     tahr_crowd_counts counts;
+    uint32_t still;    /* figures that are those of the last tick */
     uint32_t strays;   /* steps that must be taken again */
     uint32_t bad;      /* first character with something wrong that stops the tick, or ~0u, */
     const char *field; /* and what */
@@ -48,8 +49,10 @@ typedef struct tahr__tick {
     tahr_crowd *crowd;
     const tahr_crowd_tick *asked;
     size_t input_stride, report_stride;
+    uint64_t revision; /* of the world */
     uint32_t tasks;
-    uint32_t rules; /* TAHR__PAIR_* */
+    uint32_t rules;      /* TAHR__PAIR_* */
+    uint32_t same_cells; /* 1: the grid's cells are those of the last tick, and so many figures are in them */
 } tahr__tick;
 
 static inline const tahr_input *tick_input(const tahr__tick *t, uint32_t i)
@@ -71,13 +74,11 @@ const char *tahr__tick_check_member(const tahr__tick *tick, const tahr_member *m
 /* What is wrong with one character's part of a tick that stops all: the field, or NULL. */
 static inline const char *tahr__tick_check_one(const tahr__tick *t, uint32_t i, tahr_status *status, const char **why)
 {
-    *status = TAHR_E_STRUCT_SIZE;
-    *why = "is not that of the first one";
-    if (tick_input(t, i)->struct_size != t->input_stride) {
-        return "inputs.struct_size";
-    }
-    if (t->asked->reports && tick_report(t, i)->struct_size != t->report_stride) {
-        return "reports.struct_size";
+    const int input = tick_input(t, i)->struct_size != t->input_stride;
+    if (input || (t->asked->reports && tick_report(t, i)->struct_size != t->report_stride)) {
+        *status = TAHR_E_STRUCT_SIZE;
+        *why = "is not that of the first one";
+        return input ? "inputs.struct_size" : "reports.struct_size";
     }
     return t->asked->members ? tahr__tick_check_member(t, &t->asked->members[i], status, why) : NULL;
 }

@@ -6,6 +6,7 @@
 #include "crowd.h"
 #include "message.h"
 #include "sized.h"
+#include "sleep.h"
 
 static tahr_status refuse(const tahr_crowd *crowd, tahr_status status, const char *field, const char *what)
 {
@@ -44,8 +45,10 @@ tahr_status tahr__tick_check(tahr_crowd *crowd, const tahr_crowd_tick *asked, ta
     if (status < 0) {
         return status;
     }
-    *tick = (tahr__tick){
-        .crowd = crowd, .asked = asked, .rules = world_is_planar(crowd->world) ? (uint32_t)TAHR__PAIR_FLAT : 0u};
+    *tick = (tahr__tick){.crowd = crowd,
+                         .asked = asked,
+                         .revision = world_revision(crowd->world),
+                         .rules = world_is_planar(crowd->world) ? (uint32_t)TAHR__PAIR_FLAT : 0u};
     tick->rules |= crowd->walkable_rule == TAHR_WALKABLE_NEVER ? 0u : (uint32_t)TAHR__PAIR_LEVEL_HEADS;
     tick->input_stride = asked->count > 0 ? asked->inputs[0].struct_size : sizeof(tahr_input);
     tick->report_stride = asked->count > 0 && asked->reports ? asked->reports[0].struct_size : sizeof(tahr_report);

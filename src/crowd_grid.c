@@ -22,18 +22,21 @@ static double half_width(const tahr__figure *f, const int axis[2])
     return max_of(component(f->box, axis[0]), component(f->box, axis[1]));
 }
 
-/* The exponent of a double, from 2^-20. */
+/* The exponent of a double, from 2^-7. */
 static int size_of(double width)
 {
     uint64_t bits;
     memcpy(&bits, &width, sizeof bits);
-    int size = (int)(bits >> 52) - (1023 - 20);
+    int size = (int)(bits >> 52) - (1023 - 7);
     return size < 0 ? 0 : (size >= TAHR__SIZES ? TAHR__SIZES - 1 : size);
 }
 
 void tahr__spread_begin(tahr__spread *s, const int axis[2])
 {
-    memset(s, 0, sizeof *s);
+    for (int i = 0; i < TAHR__SIZES; i++) { /* not at once: compilers clear that much with a slow string instruction */
+        s->largest[i] = 0;
+        s->count[i] = 0;
+    }
     s->axis[0] = axis[0];
     s->axis[1] = axis[1];
     s->min = vec(INFINITY, INFINITY, INFINITY);
@@ -71,14 +74,14 @@ void tahr__grid_begin(tahr__grid *g, const tahr__spread *s)
     while (size > 0 && wide + s->count[size] <= most_wide(g->count)) {
         wide += s->count[size--];
     }
-    g->wide = s->largest[size] > 0 ? s->largest[size] : 1;
-    g->per_cell = 1 / (4.001 * g->wide); /* a thousandth for rounding */
+    g->cells.wide = s->largest[size] > 0 ? s->largest[size] : 1;
+    g->cells.per_cell = 1 / (4.001 * g->cells.wide); /* a thousandth for rounding */
     vec3 across = sub(s->max, s->min);
     for (int axis = 1; axis < 3; axis++) {
         narrow = component(across, axis) <= component(across, narrow) ? axis : narrow;
     }
-    g->axis[0] = narrow == 0 ? 1 : 0;
-    g->axis[1] = narrow == 2 ? 1 : 2;
+    g->cells.axis[0] = narrow == 0 ? 1 : 0;
+    g->cells.axis[1] = narrow == 2 ? 1 : 2;
 }
 
 static uint64_t mix(int64_t x, int64_t y)
@@ -93,17 +96,21 @@ static int64_t cell_of(double x)
     return (double)i > x ? i - 1 : i;
 }
 
-void tahr__grid_place(tahr__grid *g, uint32_t begin, uint32_t end)
+void tahr__grid_place(tahr__grid *g, uint32_t begin, uint32_t end, uint32_t kept)
 {
-    const int a = g->axis[0], b = g->axis[1];
+    const int a = g->cells.axis[0], b = g->cells.axis[1];
     for (uint32_t i = begin; i < end; i++) {
         const tahr__figure *f = &g->figures[i];
+        if (f->flags & kept) {
+            continue;
+        }
         if (!(f->flags & TAHR__FIGURE_THERE)) {
             g->bucket[i] = g->mask + 2; /* behind all buckets: in no run */
-        } else if (half_width(f, g->axis) > g->wide) {
+        } else if (half_width(f, g->cells.axis) > g->cells.wide) {
             g->bucket[i] = 0;
         } else {
-            const double x = component(f->range.at, a) * g->per_cell, y = component(f->range.at, b) * g->per_cell;
+            const double x = component(f->range.at, a) * g->cells.per_cell,
+                         y = component(f->range.at, b) * g->cells.per_cell;
             const int64_t low_x = cell_of(x - 0.5), low_y = cell_of(y - 0.5);
             const uint64_t corner = mix(low_x, low_y);
             /* Its own cell is one of the four. */

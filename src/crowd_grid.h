@@ -5,8 +5,8 @@
 
 #include "figure.h"
 
-/* Sizes of figures by powers of two, from 2^-20 m. */
-enum { TAHR__SIZES = 48 };
+/* Sizes of figures by powers of two: below 2^-6 m, and from there up to 2^8 m and more. */
+enum { TAHR__SIZES = 16 };
 
 /* What a part of the figures adds up to. No order changes it. */
 typedef struct tahr__spread {
@@ -16,12 +16,16 @@ typedef struct tahr__spread {
     uint32_t count[TAHR__SIZES];
 } tahr__spread;
 
+typedef struct tahr__cells {
+    double per_cell; /* 1/m */
+    double wide;     /* m: whose box is larger is in no cell */
+    int axis[2];     /* of the last tick, until grid_begin */
+} tahr__cells;
+
 typedef struct tahr__grid {
     const tahr__figure *figures;
-    uint32_t count;
-    double per_cell;     /* 1/m */
-    double wide;         /* m: whose box is larger is in no cell */
-    int axis[2];         /* of the last tick, until grid_begin */
+    uint32_t count; /* of the last tick, until grid_begin */
+    tahr__cells cells;
     uint32_t mask;       /* of a hash */
     uint32_t wide_count; /* those, first in order */
     uint32_t *bucket;    /* of each figure, */
@@ -36,8 +40,8 @@ void tahr__spread_merge(tahr__spread *into, const tahr__spread *other);
 
 /* Decides on cells. figures, count, mask and the arrays are set. */
 void tahr__grid_begin(tahr__grid *grid, const tahr__spread *spread);
-/* Says where some figures belong; different ones on different threads. */
-void tahr__grid_place(tahr__grid *grid, uint32_t begin, uint32_t end);
+/* Says where some figures belong; different ones on different threads. kept: flags of those for which that is known. */
+void tahr__grid_place(tahr__grid *grid, uint32_t begin, uint32_t end, uint32_t kept);
 /* All are placed: sorts them. */
 void tahr__grid_sort(tahr__grid *grid);
 

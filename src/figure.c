@@ -56,7 +56,11 @@ static double asked_speed(const tahr_config *c, const tahr_input *input)
 
 static double speed_of(const tahr_config *c, const tahr_input *input, const tahr_state *s)
 {
-    double v = max_of(length(s->velocity), max_of(c->max_speed, c->jump_speed));
+    double v = max_of(c->max_speed, c->jump_speed);
+    const double now2 = length_squared(s->velocity);
+    if (!(now2 <= v * v)) { /* else its root is no more than v: rounding keeps the order, and roots of squares */
+        v = sqrt(now2);
+    }
     if (s->mode != TAHR_MODE_WALKING) {
         v = max_of(v, max_of(c->fly_speed, c->swim_speed));
     }
@@ -135,19 +139,15 @@ static double fall_of(const tahr_mover *mover, const tahr_state *s, double dt)
     return s->mode == TAHR_MODE_WALKING ? 0 : mover->limits.pull.size * dt;
 }
 
-void tahr__figure_of(tahr__figure *f, const tahr_mover *mover, const tahr_member *member, const tahr_input *input,
-                     const tahr_state *s, double dt)
+void tahr__figure_of(tahr__figure *f, const tahr_mover *mover, const tahr_input *input, const tahr_state *s, double dt)
 {
     const tahr_config *c = &mover->config;
     const tahr_world *world = mover->world;
-    f->id = member->id;
     f->flags = f->range.bound = 0;
     f->range.extra = 0;
     if (!is_visible(&c->shape, s)) {
         return;
     }
-    f->groups = member->groups ? member->groups : 1;
-    f->mask = member->flags & TAHR_MEMBER_ALONE ? 0 : (member->mask ? member->mask : ~0u);
     const size z = largest(&c->shape, input, s);
     const double level = speed_of(c, input, s) * dt + (4 * c->skin + FORESEEN), fall = fall_of(mover, s, dt);
     const double high =

@@ -7,9 +7,11 @@
 #include "neighbours.h"
 
 enum {
-    TAHR__FIGURE_THERE = 1 << 0,  /* others meet it */
-    TAHR__FIGURE_BESIDE = 1 << 1, /* and somebody is near: its look is known */
-    TAHR__FIGURE_STRAYED = 1 << 2 /* its first step would have gone farther than foreseen */
+    TAHR__FIGURE_THERE = 1 << 0,   /* others meet it */
+    TAHR__FIGURE_BESIDE = 1 << 1,  /* and somebody is near: its look is known */
+    TAHR__FIGURE_STRAYED = 1 << 2, /* its first step would have gone farther than foreseen */
+    TAHR__FIGURE_NOTED = 1 << 3,   /* it is that of the state that its mover has noted (sleep.h) */
+    TAHR__FIGURE_STILL = 1 << 4    /* and that is still its state: figure and step are those of the last tick */
 };
 
 /* What it takes to see that nobody is near, which is most of the time. */
@@ -37,9 +39,10 @@ typedef struct tahr__party {
     const tahr__look *look;
 } tahr__party;
 
-/* Of a character with this config and state in a tick of dt seconds. Nobody sees one whose state is not valid. */
-void tahr__figure_of(tahr__figure *figure, const tahr_mover *mover, const tahr_member *member, const tahr_input *input,
-                     const tahr_state *state, double dt);
+/* Of a character with this config and state in a tick of dt seconds; id, groups and mask are set. Nobody sees one whose
+ * state is not valid. */
+void tahr__figure_of(tahr__figure *figure, const tahr_mover *mover, const tahr_input *input, const tahr_state *state,
+                     double dt);
 void tahr__look_of(tahr__look *look, const tahr_mover *mover, const tahr_state *state, double dt);
 
 /* May the two meet in this tick? Boxes only. extra: m that they may go farther. */

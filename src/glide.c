@@ -105,7 +105,11 @@ int tahr__glide_step_up(tahr__step *step, tahr__glide *g, const tahr_hit *hit, v
     }
     tahr__scope_open(step, &scope);
     stand_on_nothing(step);
-    if (tahr__step_up_at(step, level, &swept, &found) && (!keeps || keeps(step))) {
+    int up_there = tahr__step_up_at(step, level, &swept, &found);
+    if (up_there && !found) { /* Unreal's, which comes down as far where nothing is: nobody stands on the foot */
+        tahr__glide_forget_floor(step);
+    }
+    if (up_there && (!keeps || keeps(step))) {
         g->plane_count = 0; /* what stood beside the foot below need not stand here */
         g->hits++;
         g->lifted = add_scaled(g->lifted, up, dot(sub(step->state.position, before), up));

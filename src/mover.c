@@ -207,11 +207,8 @@ static void hand_over(const tahr__step *step, int remembers, tahr_state *out)
     }
 }
 
-static tahr_status worst(uint32_t flags)
+tahr_status tahr__step_status(uint32_t flags)
 {
-    if (flags == 0) {
-        return TAHR_OK;
-    }
     if (flags & TAHR_REPORT_QUERY_CAP) {
         return TAHR_QUERY_CAP;
     }
@@ -249,15 +246,9 @@ static void detect_stuck(tahr__step *step, const tahr_state *before)
     }
 }
 
-tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                            tahr_report *report)
+tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report)
 {
-    if (!mover) {
-        return TAHR_E_NULL;
-    }
-    if (!input || !state) {
-        return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
-    }
     if (mover->busy) {
         return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",
                               "is being stepped already");
@@ -265,6 +256,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     if (mover->world->recording && !mover->is_recorded) {
         return tahr__record_step(mover, input, dt, state, report);
     }
+    const tahr__neighbours *around = mover->company ? mover->company->neighbours : NULL;
     int blank = state_is_blank(mover, state);
     int usual = arguments_are_usual(mover, input, dt, state, report);
     if (!blank || !usual) {
@@ -272,13 +264,6 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
         if (status < 0) {
             return status;
         }
-    }
-    const tahr__neighbours *around = mover->company ? mover->company->neighbours : NULL;
-    if (mover->sleep.noted && !around && tahr__sleeps_on(mover, input, dt, state, report)) {
-        if (report) {
-            tahr__sleep_report(mover, report);
-        }
-        return worst(mover->sleep.report.flags);
     }
     if (blank && usual && !around && tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
@@ -320,6 +305,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     }
     if (dt > 0) {
         mover->busy = 1;
+        mover->sleep.noted = 0;
         const int plain = blank && usual && mover->plain && !around; /* and nothing will be remembered */
         run(&step, dt, plain);
         mover->busy = 0;
@@ -339,12 +325,24 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
             tahr__sleep_note(mover, &step, dt, state, around || memcmp(&before, state, sizeof before) != 0);
         } else {
             hand_over(&step, !plain, state);
-            mover->sleep.noted = 0;
         }
     }
     finish_report(&step);
     if (report) {
         *report = step.report;
     }
-    return worst(step.report.flags);
+    return step.report.flags == 0 ? TAHR_OK : tahr__step_status(step.report.flags);
+}
+
+tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report)
+{
+    if (!mover) {
+        return TAHR_E_NULL;
+    }
+    if (!input || !state) {
+        return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
+    }
+    return mover->sleep.noted ? tahr__step_noted(mover, input, dt, state, report)
+                              : tahr__step_awake(mover, input, dt, state, report);
 }

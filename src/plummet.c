@@ -42,7 +42,8 @@ int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_st
     tahr_hit none;
     uint32_t known = 0;
     if (mover->world->backend->walk(mover->world->self, &context, &walk, &none, &known) != TAHR_OK || !known ||
-        length_squared(velocity) > FASTEST2 || vec_equal(position, state->position)) {
+        length_squared(velocity) > FASTEST2 || vec_equal(position, state->position) ||
+        goes_astray(mover, position)) {
         return 0;
     }
     state->position = position;

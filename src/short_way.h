@@ -7,6 +7,7 @@
 #define TAHR_SHORT_WAY_H
 
 #include "core.h"
+#include "neighbours.h"
 #include "report.h"
 
 /* May steps of this mover be such? Asked once. No query. */
@@ -40,7 +41,7 @@ static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input,
     if (!mover->may_go_short_way || traced || input->jump || state->flags || !tahr__tries_short_way(mover, state->mode)) {
         return 0;
     }
-    int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)
+    const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)
                : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report)
                                                   : 0;
     if (done) {
@@ -48,6 +49,12 @@ static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input,
         mover->sleep.noted = 0;
     }
     return done;
+}
+
+/* In a crowd others count on how far it goes. */
+static inline int goes_astray(const tahr_mover *mover, vec3 position)
+{
+    return mover->company && company_strays(mover->company, position);
 }
 
 /* Does the shape stand against gravity? */

@@ -7,31 +7,64 @@
 
 #include <string.h>
 
-int tahr__sleeps_on(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
-                    const tahr_report *report)
+#include "arguments.h"
+#include "neighbours.h"
+
+/* Can what was noted be told in this report, which may be NULL? A trace wants to see the step. */
+static int report_suits(const tahr__sleep *s, const tahr_report *report)
 {
-    const tahr__sleep *s = &mover->sleep;
-    uint32_t capacity = report && report->events ? report->event_capacity : 0;
-    if (!s->noted || dt != s->dt || tahr_world_revision(mover->world) != s->revision ||
-        capacity != s->report.event_capacity) {
-        return 0;
+    if (!report) {
+        return s->noted == 1;
     }
-    if (report && (report->decisions || report->queries)) {
-        return 0; /* a trace wants to see the step */
-    }
-    return memcmp(state, &s->state, sizeof *state) == 0 && memcmp(input, &s->input, sizeof *input) == 0;
+    const uint32_t capacity = report->events ? report->event_capacity : 0;
+    return report->struct_size >= sizeof *report && !report->decisions && !report->queries && capacity == s->noted - 1;
 }
 
-void tahr__sleep_report(const tahr_mover *mover, tahr_report *report)
+/* All that the noted step told but queries. */
+static void tell(const tahr__sleep *s, tahr_report *report)
+{
+    if (!report) {
+        return;
+    }
+    const uint32_t size = report->struct_size;
+    tahr_event *events = report->events;
+    *report = s->report;
+    report->struct_size = size;
+    report->events = events;
+    for (uint32_t i = 0; i < s->report.event_count; i++) {
+        events[i] = s->events[i];
+    }
+}
+
+int tahr__sleep_again(const tahr__sleep *s, tahr_report *report, tahr_status *status)
+{
+    if (!report_suits(s, report)) {
+        return 0;
+    }
+    tell(s, report);
+    *status = s->status;
+    return 1;
+}
+
+/* What equals the arguments of the noted step was checked with them; only a longer input or report may hold something
+ * else. */
+tahr_status tahr__step_noted(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report)
 {
     const tahr__sleep *s = &mover->sleep;
-    tahr_report r = s->report;
-    r.struct_size = report->struct_size;
-    r.events = report->events;
-    if (r.event_count > 0) {
-        memcpy(r.events, s->events, r.event_count * sizeof s->events[0]);
+    const tahr_world *world = mover->world;
+    const int alone = !world->recording && !(mover->company && mover->company->neighbours);
+    if (!alone || !sleeps_on(s, world_revision(world), input, dt, state) || !report_suits(s, report)) {
+        return tahr__step_awake(mover, input, dt, state, report);
     }
-    *report = r;
+    if (input->struct_size != sizeof *input || (report && report->struct_size != sizeof *report)) {
+        tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
+        if (status < 0) {
+            return status;
+        }
+    }
+    tell(s, report);
+    return s->status;
 }
 
 /* Input of a newer caller may have a tail, which is zero. */
@@ -44,12 +77,14 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
     changed |= base != TAHR_NO_BODY && base >= mover->world->body_count;
     /* A caller's own mode may depend on what the core cannot see. */
     changed |= mover->custom.run && (state->mode == TAHR_MODE_CUSTOM || (step->input->flags & TAHR_INPUT_MODE));
-    s->noted = !changed && mover->config.sleep && !r->decisions && !r->queries && r->event_count <= TAHR__SLEEP_EVENTS;
-    if (!s->noted) {
+    if (changed || !mover->config.sleep || r->decisions || r->queries || r->event_count > TAHR__SLEEP_EVENTS ||
+        r->event_capacity == UINT32_MAX) {
         return;
     }
+    s->noted = 1 + r->event_capacity;
     s->dt = dt;
-    s->revision = tahr_world_revision(mover->world);
+    s->revision = world_revision(mover->world);
+    s->status = tahr__step_status(r->flags);
     s->state = *state;
     s->input = *step->input;
     s->report = (tahr_report){.flags = r->flags | TAHR_REPORT_ASLEEP,

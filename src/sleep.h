@@ -3,14 +3,50 @@
 #ifndef TAHR_SLEEP_H
 #define TAHR_SLEEP_H
 
+#include <string.h>
+
 #include "core.h"
 
-/* Would a step with these arguments repeat the one that was noted? */
-int tahr__sleeps_on(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
-                    const tahr_report *report);
+/* tahr_mover_step for who does not sleep; input and state are not NULL. */
+tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report);
 
-/* What a step reports that was not computed: all that the noted one did but queries. */
-void tahr__sleep_report(const tahr_mover *mover, tahr_report *report);
+/* tahr_world_revision. */
+static inline uint64_t world_revision(const tahr_world *world)
+{
+    return world->revision + world->motion;
+}
+
+/* Without a flag none of the optional fields of an input counts. b: of a step that was taken. */
+static inline int same_wishes(const tahr_input *a, const tahr_input *b)
+{
+    const size_t head = offsetof(tahr_input, facing);
+    if (memcmp(a, b, head) != 0) {
+        return 0;
+    }
+    return a->flags == 0 ? a->reserved == 0
+                         : memcmp((const char *)a + head, (const char *)b + head, sizeof *a - head) == 0;
+}
+
+/* Would a step with these arguments, none of them NULL, repeat the one that was noted? Nothing is noted while a step is
+ * under way. Of an input only what this version knows is looked at. */
+static inline int sleeps_on(const tahr__sleep *s, uint64_t revision, const tahr_input *input, double dt,
+                            const tahr_state *state)
+{
+    return s->noted && dt == s->dt && revision == s->revision && same_wishes(input, &s->input) &&
+           memcmp(state, &s->state, sizeof *state) == 0;
+}
+
+/* tahr_mover_step for who may sleep: input and state are not NULL, and a step is noted. */
+tahr_status tahr__step_noted(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report);
+
+/* That repetition, of who is known to sleep on: writes report, which may be NULL and is otherwise in order, and status.
+ * Returns 0, and writes nothing, if the report asks for what was not noted. */
+int tahr__sleep_again(const tahr__sleep *sleep, tahr_report *report, tahr_status *status);
+
+/* What a step with a report of these flags returns. */
+tahr_status tahr__step_status(uint32_t flags);
 
 /* Notes a step that changed no bit of the state; forgets the last one after any other. state: as it is now; changed: is
  * it another one than before the step? */

@@ -107,7 +107,8 @@ int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_sta
         return 0;
     }
     const double clearance = hit.fraction * range + c->skin;
-    if (!ends_on_face(mover, state, position, &hit, clearance) || vec_equal(position, state->position)) {
+    if (!ends_on_face(mover, state, position, &hit, clearance) || vec_equal(position, state->position) ||
+        goes_astray(mover, position)) {
         return 0;
     }
     write_floor(&state->floor, &hit, clearance);

@@ -49,7 +49,11 @@ typedef struct tahr_host {
 } tahr_host;
 
 /* Travels with every query. cache: this character's memory of cache_size() bytes, zeroed once, 64-byte aligned, or
- * NULL. It may make an answer faster and may never change one bit of it. The counters are added to by the backend. */
+ * NULL. It may make an answer faster and may never change one bit of it, whatever was announced, gathered and asked
+ * before. Only the place last announced with it (tahr_prepare: position and up) may count like a part of the query: a
+ * backend may compute relative to it. Without a cache, or before an announcement, a query is its own: as if its own
+ * position and up (of a ray +z) had been announced. So whoever wants the same bits gives the same queries a cache or
+ * gives them none, as the core does. The counters are added to by the backend. */
 typedef struct tahr_query_context {
     void *cache;
     uint64_t narrow_tests;      /* pairs of shape and feature that reached the narrow phase */
@@ -59,7 +63,8 @@ typedef struct tahr_query_context {
 } tahr_query_context;
 
 /* The announcement before a step: everything the step is expected to ask about lies in bounds. A hint only. World
- * frame. position: of the character at the start of the step; native's geometry is local to its 4 m cell. */
+ * frame. position: of the character at the start of the step; native's geometry is local to its 4 m cell, also for
+ * queries of the step that begin in the next one. */
 typedef struct tahr_prepare {
     tahr_bounds bounds;
     tahr_vec3 position;

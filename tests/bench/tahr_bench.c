@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bench_clock.h"
+#include "bench_quiet.h"
 #include "bench_query.h"
 #include "bench_run.h"
 
@@ -41,6 +42,9 @@ static int help(void)
     for (int i = 0; i < BENCH_WORLDS; i++) {
         printf(" %s", bench_world_name(i));
     }
+    for (int i = 0; i < BENCH_QUIET; i++) {
+        printf(" %s", bench_quiet_name(i));
+    }
     printf("\nbackends:");
     for (int i = 0; i < SCENE_BACKEND_COUNT; i++) {
         printf(" %s", SCENE_BACKENDS[i].name);
@@ -58,6 +62,9 @@ static int known(const options *o)
     int world = o->world == NULL, backend = o->backend == NULL;
     for (int i = 0; i < BENCH_WORLDS; i++) {
         world = world || strcmp(o->world, bench_world_name(i)) == 0;
+    }
+    for (int i = 0; i < BENCH_QUIET; i++) {
+        world = world || strcmp(o->world, bench_quiet_name(i)) == 0;
     }
     for (int i = 0; i < SCENE_BACKEND_COUNT; i++) {
         backend = backend || strcmp(o->backend, SCENE_BACKENDS[i].name) == 0;
@@ -97,13 +104,14 @@ static int read_options(options *o, int argc, char **argv)
     return known(o) ? 0 : 2;
 }
 
-static void print_row(FILE *csv, const bench_world *w, const scene_backend *b, const bench_result *r)
+static void print_row(FILE *csv, const char *world, const char *backend, const bench_result *r)
 {
-    printf("%-11s %-13s %6u %9.0f %9.0f %9.0f %7.2f %8.2f %6.3f %8.2f %8.2f %8.4f %5.0f%%\n", w->name, b->name,
-           r->characters, r->ns_median, r->ns_p99, r->ns_cpu, r->sweeps, r->contact_queries, r->rays, r->triangle_tests,
-           r->iterations, r->gathers, 100 * r->walking);
+    const int digits = r->ns_median < 100; /* after the point: a sleeper costs a few nanoseconds */
+    printf("%-12s %-13s %6u %9.*f %9.*f %9.*f %7.2f %8.2f %6.3f %8.2f %8.2f %8.4f %5.0f%%\n", world, backend,
+           r->characters, digits, r->ns_median, digits, r->ns_p99, digits, r->ns_cpu, r->sweeps, r->contact_queries,
+           r->rays, r->triangle_tests, r->iterations, r->gathers, 100 * r->walking);
     fflush(stdout);
-    fprintf(csv, "%s,%s,%u,%llu,%.1f,%.1f,%.1f,%.4f,%.4f,%.4f,%.3f,%.3f,%.5f,%.5f,%.4f,%llu,%llu\n", w->name, b->name,
+    fprintf(csv, "%s,%s,%u,%llu,%.1f,%.1f,%.1f,%.4f,%.4f,%.4f,%.3f,%.3f,%.5f,%.5f,%.4f,%llu,%llu\n", world, backend,
             r->characters, (unsigned long long)r->steps, r->ns_median, r->ns_p99, r->ns_cpu, r->sweeps,
             r->contact_queries, r->rays, r->triangle_tests, r->iterations, r->gathers, r->escapes, r->walking,
             (unsigned long long)r->bytes_per_mover, (unsigned long long)r->lost);
@@ -112,11 +120,11 @@ static void print_row(FILE *csv, const bench_world *w, const scene_backend *b, c
 static void print_build(const bench_world *w, const scene_backend *b, const bench_opened *opened)
 {
     if (w->mesh.triangle_count > 0) {
-        printf("%-11s %-13s %u triangles, opened in %.0f ms, %.1f bytes per triangle\n", w->name, b->name,
+        printf("%-12s %-13s %u triangles, opened in %.0f ms, %.1f bytes per triangle\n", w->name, b->name,
                w->mesh.triangle_count, 1e3 * opened->build_seconds, (double)opened->bytes / w->mesh.triangle_count);
         fflush(stdout);
     } else if (w->body_count > 1) {
-        printf("%-11s %-13s %u bodies, opened in %.1f ms, %.0f bytes per body\n", w->name, b->name, w->body_count,
+        printf("%-12s %-13s %u bodies, opened in %.1f ms, %.0f bytes per body\n", w->name, b->name, w->body_count,
                1e3 * opened->build_seconds, (double)opened->bytes / w->body_count);
         fflush(stdout);
     }
@@ -129,7 +137,7 @@ static int measure_backend(FILE *csv, const bench_world *w, const scene_backend 
     fprintf(stderr, "%s on %s ...\n", w->name, b->name);
     tahr_status status = bench_open(&opened, w, b);
     if (status < 0) {
-        printf("%-11s %-13s cannot be opened: %s\n", w->name, b->name, tahr_status_name(status));
+        printf("%-12s %-13s cannot be opened: %s\n", w->name, b->name, tahr_status_name(status));
         return 0;
     }
     print_build(w, b, &opened);
@@ -145,9 +153,9 @@ static int measure_backend(FILE *csv, const bench_world *w, const scene_backend 
             continue;
         }
         if (bench_run(&opened, w, p.characters, p.ticks, &result, error)) {
-            print_row(csv, w, b, &result);
+            print_row(csv, w->name, b->name, &result);
         } else {
-            printf("%-11s %-13s %6u failed: %s\n", w->name, b->name, p.characters, error);
+            printf("%-12s %-13s %6u failed: %s\n", w->name, b->name, p.characters, error);
             ok = 0;
         }
     }
@@ -172,11 +180,11 @@ static int measure_queries(FILE *csv, const bench_world *w, const options *o)
         fprintf(stderr, "%s on %s ...\n", w->name, b->name);
         tahr_status status = bench_queries_run(&queries, w, b, &r);
         if (status < 0) {
-            printf("%-11s %-13s cannot be asked: %s\n", w->name, b->name, tahr_status_name(status));
+            printf("%-12s %-13s cannot be asked: %s\n", w->name, b->name, tahr_status_name(status));
             ok = 0;
             continue;
         }
-        printf("%-11s %-13s %9.0f %9.0f %9.1e %9.1e %9.1e %7u %7u %7u %7u %9.1e %7u %7u\n", w->name, b->name,
+        printf("%-12s %-13s %9.0f %9.0f %9.1e %9.1e %9.1e %7u %7u %7u %7u %9.1e %7u %7u\n", w->name, b->name,
                r.sweep_ns, r.contacts_ns, r.gap_p50, r.gap_p99, r.gap_max, r.sweeps, r.hits, r.at_start, r.overlaps,
                r.depth_max, r.misses, r.false_hits);
         fflush(stdout);
@@ -204,6 +212,30 @@ static int measure_world(FILE *csv, const bench_world *w, const options *o)
     return ok;
 }
 
+/* What costs next to nothing, on native, whose step it is. */
+static int measure_quiet(FILE *csv, const options *o)
+{
+    static const uint32_t counts[] = {1, 256, 10000};
+    int ok = 1;
+    for (int i = 0; i < 3 * BENCH_QUIET; i++) {
+        const char *name = bench_quiet_name(i / 3);
+        const uint32_t count = o->characters ? o->characters : counts[i % 3];
+        char error[256] = "";
+        bench_result result;
+        if ((o->world && strcmp(o->world, name) != 0) || (o->characters && i % 3 > 0)) {
+            continue;
+        }
+        fprintf(stderr, "%s ...\n", name);
+        if (bench_quiet_run(i / 3, count, &result, error)) {
+            print_row(csv, name, "native", &result);
+        } else {
+            printf("%-12s %-13s %6u failed: %s\n", name, "native", count, error);
+            ok = 0;
+        }
+    }
+    return ok;
+}
+
 static int measure(FILE *csv, const options *o)
 {
     int ok = 1;
@@ -219,6 +251,9 @@ static int measure(FILE *csv, const options *o)
         ok = (world.missing[0] || measure_world(csv, &world, o)) && ok;
         bench_world_free(&world);
     }
+    if (!o->queries && (!o->backend || strcmp(o->backend, "native") == 0)) {
+        ok = measure_quiet(csv, o) && ok;
+    }
     return ok;
 }
 
@@ -229,7 +264,7 @@ static void print_heads(FILE *csv, int queries)
             "sweeps and contacts that 16 wanderers asked for, asked again one by one without a cache; gap: m, off the "
             "margin where a sweep stops;\nat 0: of the hits; overlap: the same half a margin deep, depth: m, off "
             "native, whose answers with the margin\nand 1 um beside it say what was missed or false\n");
-        printf("%-11s %-13s %9s %9s %9s %9s %9s %7s %7s %7s %7s %9s %7s %7s\n", "world", "backend", "ns sweep",
+        printf("%-12s %-13s %9s %9s %9s %9s %9s %7s %7s %7s %7s %9s %7s %7s\n", "world", "backend", "ns sweep",
                "contacts", "gap p50", "gap p99", "gap max", "sweeps", "hits", "at 0", "overlap", "depth", "missed",
                "false");
         fprintf(csv, "world,backend,sweeps,contact_queries,ns_sweep,ns_contacts,gap_p50,gap_p99,gap_max,hits,at_start,"
@@ -238,7 +273,7 @@ static void print_heads(FILE *csv, int queries)
     }
     printf("60 Hz; reading the clock costs %.0f ns, subtracted; columns from 'sweeps' to 'gathers' are per step\n",
            bench_clock_cost());
-    printf("%-11s %-13s %6s %9s %9s %9s %7s %8s %6s %8s %8s %8s %6s\n", "world", "backend", "chars", "ns median",
+    printf("%-12s %-13s %6s %9s %9s %9s %7s %8s %6s %8s %8s %8s %6s\n", "world", "backend", "chars", "ns median",
            "ns p99", "ns cpu", "sweeps", "contacts", "rays", "tests", "iters", "gathers", "walk");
     fprintf(csv,
             "world,backend,characters,steps,ns_median,ns_p99,ns_cpu_mean,sweeps,contact_queries,rays,triangle_tests,"

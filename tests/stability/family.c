@@ -4,6 +4,8 @@
 
 #include "relations.h"
 
+#include <tahr/backend.h>
+
 #include <string.h>
 
 /* One trial in so many is a sphere's, or a circle's. */
@@ -50,6 +52,18 @@ const family FAMILIES[] = {
     {ROW("huge_dt", "steps of up to a second", BOTH, "", make_huge_dt)},
     {ROW("tiny_dt", "steps down to less than a nanosecond, and of none", BOTH, "", make_tiny_dt)},
     {ROW("wrong_input", "numbers that are none", BOTH, "", make_wrong_input)},
+    {ROW("hulls", "convex solids any way", IN_SPACE, NEEDS_DEPTH, make_hulls), .needs = TAHR_CAP_HULLS,
+     .needs_why = "it has no hulls"},
+    {ROW("heights", "a field of heights, with holes", IN_SPACE, NEEDS_DEPTH, make_heights), .needs = TAHR_CAP_HEIGHTS,
+     .needs_why = "it has no fields of heights"},
+    {ROW("one_way", "platforms that are there from above only", BOTH, "", make_one_way), .needs = TAHR_CAP_ONE_WAY,
+     .needs_why = "it has no one-way bodies"},
+    {ROW("sensors", "what is felt and does not block", BOTH, "", make_sensors), .needs = TAHR_CAP_SENSORS,
+     .needs_why = "it has no sensors", .twin = twin_senseless},
+    {ROW("water", "a basin, swum in, dived in and left", IN_SPACE, NEEDS_DEPTH, make_water), .needs = NEEDS_FLUIDS,
+     .needs_why = "it has no water"},
+    {ROW("pushed", "a plough, with room before it", BOTH, "", make_pushed), .moves = 1},
+    {ROW("box_character", "who is a box, in gaps and on steps of its size", BOTH, "", make_box_character)},
     {ROW("same_again", "run twice: the same bits", BOTH, "", relate_any), .twin = twin_again},
     {ROW("shortcuts", "cache, lanes, kept floors, sleep off: the same bits", BOTH, "", relate_any),
      .twin = twin_shortcuts},

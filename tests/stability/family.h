@@ -13,7 +13,9 @@ typedef struct family {
     uint32_t worlds;     /* IN_* */
     const char *why_not; /* why not in the others */
     void (*make)(trial *t, oracle_random *dice);
-    int moves; /* bodies do: not for who cannot be told how they do */
+    int moves;             /* bodies do: not for who cannot be told how they do */
+    uint32_t needs;        /* TAHR_CAP_*, NEEDS_FLUIDS */
+    const char *needs_why; /* said of who has not got them */
     /* What UNREAL does not keep, as it documents, and why. */
     uint32_t unreal_loses;
     const char *unreal_why;
@@ -62,6 +64,13 @@ void make_tiny_scale(trial *t, oracle_random *dice);
 void make_skins(trial *t, oracle_random *dice);
 void make_huge_dt(trial *t, oracle_random *dice);
 void make_tiny_dt(trial *t, oracle_random *dice);
+void make_hulls(trial *t, oracle_random *dice);
+void make_heights(trial *t, oracle_random *dice);
+void make_one_way(trial *t, oracle_random *dice);
+void make_sensors(trial *t, oracle_random *dice);
+void make_water(trial *t, oracle_random *dice);
+void make_pushed(trial *t, oracle_random *dice);
+void make_box_character(trial *t, oracle_random *dice);
 void make_wrong_input(trial *t, oracle_random *dice);
 /* One of those that stand still and need nothing of their own: what is far, huge or slow is one of them. */
 void make_any(trial *t, oracle_random *dice);

@@ -7,11 +7,22 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Bodies that never block, or not from everywhere, have neither: their families look at them. */
 struct judge {
     const trial *trial;
-    scene_solid *near[TRIAL_BODIES];    /* for distances: of a box both sides of its faces */
-    scene_solid *through[TRIAL_BODIES]; /* for ways: of a box the way in alone */
+    scene_solid *near[TRIAL_BODIES];    /* for distances: of a solid both sides of its faces */
+    scene_solid *through[TRIAL_BODIES]; /* for ways: of a solid the way in alone */
 };
+
+static int blocks(const trial_body *b)
+{
+    return !(b->desc.flags & (TAHR_BODY_SENSOR | TAHR_BODY_FLUID | TAHR_BODY_ONE_WAY));
+}
+
+static int is_solid(const trial_body *b)
+{
+    return b->desc.type == TAHR_BODY_BOX || b->desc.type == TAHR_BODY_HULL;
+}
 
 judge *judge_open(const trial *t)
 {
@@ -21,7 +32,8 @@ judge *judge_open(const trial *t)
     for (uint32_t i = 0; good && i < t->body_count; i++) {
         const trial_body *b = &t->bodies[i];
         int both = (b->desc.flags & TAHR_BODY_TWO_SIDED) != 0;
-        j->near[i] = scene_solid_open(&b->mesh, both || b->desc.type == TAHR_BODY_BOX);
+        if (!blocks(b)) continue;
+        j->near[i] = scene_solid_open(&b->mesh, both || is_solid(b));
         j->through[i] = scene_solid_open(&b->mesh, both);
         good = j->near[i] && j->through[i];
     }
@@ -75,11 +87,32 @@ static int swallowed(const trial_body *b, const tahr_vec3 ends[2])
     return in;
 }
 
+/* Who is a box, along the axes like all bodies of its trials: to one of them. m; below 0 as deep as it would have to be
+ * moved. */
+static double gap_of_boxes(const trial *t, const tahr_pose *pose, const tahr_state *s, uint32_t body)
+{
+    const tahr_shape *shape = &t->config.shape;
+    const tahr_vec3 h = t->bodies[body].desc.half_extents, p = s->position;
+    const double y = t->world == IN_PLANE ? s->half_height : shape->half_y;
+    const double z = t->world == IN_PLANE ? 0 : s->half_height;
+    const double d[3] = {fabs(p.x - pose->position.x) - h.x - shape->half_x, fabs(p.y - pose->position.y) - h.y - y,
+                         fabs(p.z - pose->position.z) - h.z - z};
+    const double most = fmax(d[0], fmax(d[1], d[2]));
+    return most < 0 ? most : sqrt(pow(fmax(d[0], 0), 2) + pow(fmax(d[1], 0), 2) + pow(fmax(d[2], 0), 2));
+}
+
 double judge_gap(const judge *j, const tahr_pose *poses, const tahr_state *state, double limit, uint32_t *body)
 {
     double best = limit;
     for (uint32_t i = 0; i < j->trial->body_count; i++) {
         tahr_vec3 ends[2];
+        if (!j->near[i]) continue;
+        if (j->trial->config.shape.type == TAHR_SHAPE_BOX) {
+            const double d = gap_of_boxes(j->trial, &poses[i], state, i);
+            if (d < best && body) *body = i;
+            best = fmin(best, d);
+            continue;
+        }
         axis_of(&poses[i], state, ends);
         double gap = scene_solid_distance(j->near[i], ends[0], ends[1], best + state->radius, NULL) - state->radius;
         if (swallowed(&j->trial->bodies[i], (const tahr_vec3 *)ends)) gap = -state->radius;
@@ -96,6 +129,7 @@ double judge_gap_again(const judge *j, const tahr_pose *poses, const tahr_state 
     const trial_body *b = &j->trial->bodies[body];
     const double still[3] = {0, 0, 0};
     tahr_vec3 ends[2];
+    if (j->trial->config.shape.type == TAHR_SHAPE_BOX) return gap_of_boxes(j->trial, &poses[body], state, body);
     axis_of(&poses[body], state, ends);
     oracle_core core = {
         .axis_count = 1,
@@ -103,7 +137,7 @@ double judge_gap_again(const judge *j, const tahr_pose *poses, const tahr_state 
         .axis = {{(ends[1].x - ends[0].x) / 2, (ends[1].y - ends[0].y) / 2, (ends[1].z - ends[0].z) / 2}}};
     if (swallowed(b, (const tahr_vec3 *)ends)) return -state->radius;
     long double best = 1e30L;
-    int both = (b->desc.flags & TAHR_BODY_TWO_SIDED) != 0 || b->desc.type == TAHR_BODY_BOX;
+    int both = (b->desc.flags & TAHR_BODY_TWO_SIDED) != 0 || is_solid(b);
     for (uint32_t i = 0; i < b->mesh.triangle_count; i++) {
         double corner[3][3], normal[3], side = 0;
         for (int k = 0; k < 3; k++) {
@@ -127,5 +161,6 @@ double judge_gap_again(const judge *j, const tahr_pose *poses, const tahr_state 
 int judge_crossed(const judge *j, uint32_t body, const tahr_pose *before, const tahr_pose *now, tahr_vec3 from,
                   tahr_vec3 to)
 {
+    if (!j->through[body]) return 0;
     return scene_solid_crossed(j->through[body], local(before, from), local(now, to), NULL);
 }

@@ -220,6 +220,17 @@ static tahr_status place(void *self, const tahr_body_pose *poses, uint32_t count
     return native()->place(((liar *)self)->inner, poses, count);
 }
 
+static tahr_status fluid(void *self, tahr_query_context *context, const tahr_fluid_query *q, tahr_fluid *answer)
+{
+    liar *l = self;
+    tahr_status status = native()->fluid(l->inner, context, q, answer);
+    if (status < 0 || oracle_below(&l->dice, TRUE_TO_LIES)) return status;
+    if (l->lie == LIE_NOT_NUMBERS || l->lie == LIE_GARBAGE) answer->immersion = number(&l->dice);
+    if (l->lie == LIE_LATE) answer->immersion *= 0.9;
+    if (l->lie == LIE_FALSE) answer->immersion = 1;
+    return status;
+}
+
 const tahr_backend *liar_backend(void)
 {
     static const tahr_backend backend = {
@@ -227,7 +238,8 @@ const tahr_backend *liar_backend(void)
         .abi_major = TAHR_ABI_MAJOR,
         .abi_minor = TAHR_ABI_MINOR,
         .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
-                        TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_SENSORS,
+                        TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_HULLS | TAHR_CAP_HEIGHTS |
+                        TAHR_CAP_SENSORS | TAHR_CAP_ONE_WAY,
         .name = "liar",
         .version = "1",
         .open = open,
@@ -238,6 +250,7 @@ const tahr_backend *liar_backend(void)
         .cache_size = cache_size,
         .prepare = prepare,
         .place = place,
+        .fluid = fluid,
     };
     return &backend;
 }

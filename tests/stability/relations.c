@@ -82,6 +82,18 @@ static int on_double(const subject *s)
     return s->gap <= 1e-9;
 }
 
+/* The same without its sensors, which are its last bodies: they change no way. Its bodies are fewer, so that the
+ * revision of its world is another one, and floors are looked for at other times. */
+void twin_senseless(const trial *t, oracle_random *dice, twin *w)
+{
+    (void)dice;
+    twin_begin(w, t);
+    trial *o = &w->other;
+    while (o->body_count > 0 && o->bodies[o->body_count - 1].desc.flags & TAHR_BODY_SENSOR)
+        scene_mesh_free(&o->bodies[--o->body_count].mesh);
+    w->in_step = 1;
+}
+
 /* Whole cells of 4 m, on a lattice: velocities, floors and modes have the same bits, and positions those that are left
  * so far away. */
 void twin_cells(const trial *t, oracle_random *dice, twin *w)

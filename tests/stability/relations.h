@@ -23,6 +23,7 @@ void twin_far_triangles(const trial *t, oracle_random *dice, twin *w);
 void twin_shuffled(const trial *t, oracle_random *dice, twin *w);
 void twin_pieces(const trial *t, oracle_random *dice, twin *w);
 void twin_shortcuts(const trial *t, oracle_random *dice, twin *w);
+void twin_senseless(const trial *t, oracle_random *dice, twin *w);
 void twin_again(const trial *t, oracle_random *dice, twin *w);
 
 #endif

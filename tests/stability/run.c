@@ -39,6 +39,8 @@ int run_possible(const family *f, const subject *s, uint32_t preset, const char 
         *why = f->why_not;
     } else if (f->moves && strcmp(s->name, "sweep-only") == 0) {
         *why = "no callback says how bodies move";
+    } else if (f->needs & ~subject_capabilities(s)) {
+        *why = f->needs_why;
     } else if (f->twin && s->lie && !s->judged) {
         *why = "lies are related to nothing";
     }
@@ -359,7 +361,10 @@ static uint32_t expected(const run_request *q, const trial *t)
     /* One surface at a time is left only by a motion that begins in it: who stands still overlaps, and does not know. */
     if (t->config.depenetration == TAHR_DEPENETRATION_SINGLE) keeps &= ~(uint32_t)KEEPS_WORD;
     /* Behind callbacks the library does not know which bodies move: what moves in is left as an overlap is. */
-    if (q->family->moves && strcmp(q->subject->name, "callbacks") == 0) keeps &= ~(uint32_t)KEEPS_SKIN;
+    if (q->family->moves && strcmp(q->subject->name, "callbacks") == 0) {
+        keeps &= ~(uint32_t)KEEPS_SKIN;
+        if (t->promise) keeps &= ~(uint32_t)(KEEPS_PROMISE | KEEPS_SOLID); /* and is gone through in the end */
+    }
     return keeps | KEEPS_SANE;
 }
 

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <tahr/backend.h>
 #include <tahr/native.h>
 #ifdef TAHR_HAVE_CCD
 #include <tahr/ccd.h>
@@ -104,6 +105,17 @@ static void chain_of(const trial_body *b, double *vertices, tahr_body_desc *desc
     desc->vertex_count = (uint32_t)b->outline_count;
 }
 
+enum { TRIAL_HEIGHTS = 24 * 24 };
+
+static void heights_of(const trial_body *b, double *heights, tahr_body_desc *desc)
+{
+    for (uint32_t i = 0; i < b->mesh.vertex_count && i < TRIAL_HEIGHTS; i++) {
+        const double z = b->mesh.vertices[3 * i + 2];
+        heights[i] = z == TRIAL_HOLE ? NAN : z;
+    }
+    desc->heights = heights;
+}
+
 /* The triangles of a trial's meshes, by the names that they have there, in some order. */
 static tahr_status gather(void *user, const tahr_bounds *box, uint32_t mask, tahr_gather *out)
 {
@@ -151,6 +163,7 @@ static tahr_status open_on(const opening *how, const trial *t, opened *o)
     const tahr_native_desc *native = how->options;
     int left_out = how->backend == tahr_backend_v1_native() && native->gather != NULL;
     static double chains[TRIAL_BODIES][3 * TRIAL_OUTLINE]; /* read while opening only, and cells run one at a time */
+    static double heights[TRIAL_HEIGHTS];                  /* of one field a trial */
     tahr_body_desc bodies[TRIAL_BODIES];
     tahr_world_desc desc;
     uint32_t count = 0;
@@ -161,11 +174,14 @@ static tahr_status open_on(const opening *how, const trial *t, opened *o)
         *to = b->desc;
         if (how->planar && b->outline_count > 0) {
             chain_of(b, chains[i], to);
-        } else if (b->desc.type == TAHR_BODY_MESH) {
+        } else if (b->desc.type == TAHR_BODY_HEIGHTS) {
+            heights_of(b, heights, to);
+        } else if (b->desc.type == TAHR_BODY_MESH || b->desc.type == TAHR_BODY_HULL) {
+            int mesh = b->desc.type == TAHR_BODY_MESH;
             to->vertices = b->mesh.vertices;
             to->vertex_count = b->mesh.vertex_count;
-            to->indices = b->mesh.indices;
-            to->triangle_count = b->mesh.triangle_count;
+            to->indices = mesh ? b->mesh.indices : NULL;
+            to->triangle_count = mesh ? b->mesh.triangle_count : 0;
         }
         count++;
     }
@@ -205,6 +221,31 @@ static tahr_status open_world(const subject_request *r, opened *o)
     if (s->kind == ON_MUTANT) how = (opening){mutant_backend(), &mutant, 0, 0};
     if (!how.backend) how.callbacks = s->kind;
     return open_on(&how, r->trial, o);
+}
+
+static uint32_t able(const tahr_backend *b)
+{
+    return b->capabilities | (b->fluid ? (uint32_t)NEEDS_FLUIDS : 0u);
+}
+
+uint32_t subject_capabilities(const subject *s)
+{
+    const uint32_t native = able(tahr_backend_v1_native());
+    switch (s->kind) {
+#ifdef TAHR_HAVE_BOX2D
+    case ON_BOX2D: return able(tahr_backend_v1_box2d());
+#endif
+#ifdef TAHR_HAVE_CCD
+    case ON_CCD: return able(tahr_backend_v1_ccd());
+#endif
+#ifdef TAHR_HAVE_FCL
+    case ON_FCL: return able(tahr_backend_v1_fcl());
+#endif
+    case ON_LIAR: return able(liar_backend());
+    case ON_MUTANT: return able(mutant_backend());
+    case ON_ONE_CALLBACK: return native & ~(uint32_t)(TAHR_CAP_SENSORS | TAHR_CAP_ONE_WAY | NEEDS_FLUIDS);
+    default: return native; /* itself, or the engine behind callbacks */
+    }
 }
 
 tahr_status subject_open(const subject_request *r, opened *o)

@@ -48,6 +48,12 @@ const subject *subject_named(const char *name);
 subject subject_mutant(uint32_t which);
 subject subject_judged(const char *liar);
 
+/* Beside TAHR_CAP_*: the slot for fluids. */
+enum { NEEDS_FLUIDS = 1 << 30 };
+
+/* TAHR_CAP_* and that, of its backend. */
+uint32_t subject_capabilities(const subject *subject);
+
 typedef struct subject_request {
     const subject *subject;
     const trial *trial;

@@ -51,6 +51,7 @@ static void what_was_broken_once_stays_whole(void **unused)
         {"soup", "native", TAHR_PRESET_PRECISE, 268},      /* on and off an edge, again and again in one step */
         {"blocks", "native", TAHR_PRESET_PLATFORMER, 872}, /* a head beside something lower than itself */
         {"shortcuts", "native", TAHR_PRESET_PRECISE, 11},  /* at rest just over the border of a cell */
+        {"water", "native", TAHR_PRESET_UNREAL, 136},      /* stood on a floor that was only its foot */
     };
     (void)unused;
     for (size_t i = 0; i < sizeof once / sizeof once[0]; i++) {
@@ -78,8 +79,8 @@ static uint32_t broken_by(const family *f, const subject *s, uint32_t preset, ui
     return kept;
 }
 
-/* Which mutants the matrix must see, and in which family. Those that are left out break what no trial uses: fluids,
- * sensors, masks, the names of surfaces, rays, other bodies and shapes, orders and capacities of answers. */
+/* Which mutants the matrix must see, and in which family. Those that are left out break what no trial uses: masks,
+ * the names of surfaces, rays, round bodies, orders and capacities of answers. */
 static void mutants_turn_their_families_red(void **unused)
 {
     static const struct {
@@ -125,6 +126,13 @@ static void mutants_turn_their_families_red(void **unused)
         {FRACTION_IS_MINUS_ONE, "lift"},
         {ALWAYS_UNKNOWN, "edges"},
         {PLACING_IGNORED, "shuttle"},
+        {HULLS_SHIFTED, "hulls"},
+        {HEIGHTS_SHIFTED, "heights"},
+        {SENSORS_BLOCK, "sensors"},
+        {SENSORS_FORGOTTEN, "sensors"},
+        {IMMERSION_HALVED, "water"},
+        {PLACING_IGNORED, "pushed"},
+        {BOX_IS_A_CAPSULE, "box_character"},
     };
     int alive = 0;
     (void)unused;
@@ -150,6 +158,44 @@ static void the_truth_about_native_is_that_nothing_is_broken(void **unused)
         if (broken_by(f, &honest, TAHR_PRESET_PRECISE, &runs)) print_error("%s\n", f->name);
         assert_int_equal(runs, 0);
     }
+}
+
+/* A platform 0.1 m thick with its top at 1 m, and somebody whose foot goes from one height to another, or who meets it
+ * with this normal. Returns how much of the promise is used up. */
+static double one_way_used(const trial *t, double from, double to, const tahr_vec3 *normal)
+{
+    const char *what = "";
+    tahr_state a = {.half_height = 0.9, .radius = 0.35}, b = a;
+    tahr_event hit = {.type = TAHR_EVENT_HIT, .body = 1};
+    tahr_report r = {.struct_size = sizeof r, .events = &hit, .event_count = normal != NULL};
+    a.position.z = from + a.half_height;
+    b.position.z = to + b.half_height;
+    if (normal) hit.normal = *normal;
+    return t->promise(t, 0, &a, &b, &r, &what);
+}
+
+/* The mutant has no one-way bodies, which would have to be broken one by one for the conformance kit too. */
+static void who_falls_through_a_platform_or_bumps_against_it_is_seen(void **unused)
+{
+    trial t;
+    const tahr_vec3 up = {0, 0, 1}, side = {1, 0, 0}, down = {0, 0, -1};
+    (void)unused;
+    family_make(family_named("one_way"), IN_SPACE, TAHR_PRESET_PRECISE, 1, &t);
+    const uint32_t all = t.body_count;
+    assert_true(all > 1 && t.bodies[1].desc.flags & TAHR_BODY_ONE_WAY);
+    t.body_count = 2;
+    t.bodies[1].desc.pose.position = (tahr_vec3){0, 0, 0.95};
+    t.bodies[1].desc.half_extents = (tahr_vec3){2, 2, 0.05};
+    assert_true(one_way_used(&t, 1.2, 1.01, NULL) == 0);
+    assert_true(one_way_used(&t, 1.2, 0.99, NULL) > 1);
+    assert_true(one_way_used(&t, 0.5, 0.4, NULL) == 0);
+    assert_true(one_way_used(&t, 0.5, 1.3, NULL) == 0);
+    assert_true(one_way_used(&t, 1.2, 1.01, &up) == 0);
+    assert_true(one_way_used(&t, 0.5, 0.6, &side) > 1 && one_way_used(&t, -1, -0.9, &down) > 1);
+    t.bodies[1].desc.pose.position.x = 10;
+    assert_true(one_way_used(&t, 1.2, 0.5, NULL) == 0);
+    t.body_count = all;
+    trial_free(&t);
 }
 
 /* Late hits are lies of the mildest kind: well formed, and only a decimetre off. What no family sees of them it would
@@ -231,6 +277,7 @@ int main(void)
         cmocka_unit_test(the_judge_measures_what_is_known),
         cmocka_unit_test(the_truth_about_native_is_that_nothing_is_broken),
         cmocka_unit_test(mutants_turn_their_families_red),
+        cmocka_unit_test(who_falls_through_a_platform_or_bumps_against_it_is_seen),
         cmocka_unit_test(no_family_takes_late_hits_for_the_truth),
         cmocka_unit_test(what_unreal_is_let_off_it_really_loses),
         cmocka_unit_test(what_was_broken_once_stays_whole),

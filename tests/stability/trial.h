@@ -99,6 +99,9 @@ void trial_shift(trial *t, tahr_vec3 by);
 /* Returns 0 if out of memory. to is freed by the caller all the same. */
 int trial_copy(const trial *from, trial *to);
 
+/* A height that is none: of a mesh that stands for TAHR_BODY_HEIGHTS. */
+#define TRIAL_HOLE 1e6
+
 /* Bodies, z up; all block on one side as boxes do, but for flags. */
 trial_body *trial_box(trial *t, tahr_vec3 centre, tahr_vec3 half, uint32_t flags);
 trial_body *trial_mesh(trial *t, uint32_t flags); /* an empty mesh; IN_SPACE only */

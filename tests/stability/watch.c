@@ -155,7 +155,8 @@ static void check_energy(watch *w, int step, const tahr_state *a, const tahr_sta
     const tahr_config *c = &w->trial->config;
     double base = 2 * carried(w, a, dt) + length(a->base.velocity) + length(b->base.velocity);
     double more = fmax(c->acceleration * fmax(1, c->air_control * c->air_boost), 0) * dt + pull(w->trial) * dt;
-    if (has_event(r, TAHR_EVENT_JUMPED) || (a->flags & TAHR_STATE_JUMPING)) more += c->jump_speed;
+    if (has_event(r, TAHR_EVENT_JUMPED) || (a->flags & TAHR_STATE_JUMPING))
+        more += a->mode == TAHR_MODE_SWIMMING ? fmax(c->jump_speed, c->water_exit_speed) : c->jump_speed;
     if (has_event(r, TAHR_EVENT_WALL_JUMPED)) more += c->jump_speed + c->wall_jump_speed;
     double bound = length(a->velocity) + base + more;
     at_most(w, KEEPS_ENERGY, step, length(b->velocity), bound * (1 + 1e-9) + 1e-12, "faster than it can be, m/s");

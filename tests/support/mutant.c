@@ -73,6 +73,8 @@ static int change_body(uint32_t which, tahr_body_desc *b)
         if (b->type == TAHR_BODY_CAPSULE) b->half_height = b->radius + 0.5 * (b->half_height - b->radius);
         break;
     case MESHES_SHIFTED: b->pose.position.z += mesh ? 0.001 : 0; break;
+    case HULLS_SHIFTED: b->pose.position.z -= b->type == TAHR_BODY_HULL ? 0.001 : 0; break;
+    case HEIGHTS_SHIFTED: b->pose.position.z -= b->type == TAHR_BODY_HEIGHTS ? 0.001 : 0; break;
     case DEGENERATE_REFUSED:
         for (uint32_t i = 0; mesh && i < b->triangle_count; i++) {
             if (b->indices[3 * i] == b->indices[3 * i + 1]) return 0;
@@ -454,7 +456,8 @@ static const tahr_backend backend = {
     .abi_major = TAHR_ABI_MAJOR,
     .abi_minor = TAHR_ABI_MINOR,
     .capabilities = TAHR_CAP_MARGIN | TAHR_CAP_CONTACTS | TAHR_CAP_RAY | TAHR_CAP_SPHERE | TAHR_CAP_CAPSULE |
-                    TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_SENSORS,
+                    TAHR_CAP_BOX | TAHR_CAP_MESH | TAHR_CAP_SOLIDS | TAHR_CAP_HULLS | TAHR_CAP_HEIGHTS |
+                    TAHR_CAP_SENSORS,
     .name = "mutant",
     .version = "1",
     .open = open,

@@ -58,6 +58,8 @@
     X(SPHERES_ARE_BOXES, "body_sphere")                              \
     X(CAPSULES_WITHOUT_CAPS, "body_capsule")                         \
     X(MESHES_SHIFTED, "body_mesh")                                   \
+    X(HULLS_SHIFTED, "body_hull")                                    \
+    X(HEIGHTS_SHIFTED, "body_heights")                               \
     X(IMMERSION_HALVED, "fluid_immersion")                           \
     X(CONTACT_DISTANCE_UNSIGNED, "contact_distance")                 \
     X(CONTACT_NORMAL_FLIPPED, "contact_distance")                    \

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "ceiling.h"
 #include "run.h"
 #include "throng.h"
 
@@ -38,10 +39,15 @@ static void put_times(chart_row *row, double *ns, uint32_t ticks)
     row->ns_second = row->ns_mean * 60;
 }
 
+static uint32_t ticks_of(uint32_t count)
+{
+    return (uint32_t)fmin(MAX_TICKS, fmax(MIN_TICKS, TICK_STEPS / count));
+}
+
 static int time_ticks(chart_throng *t, chart_row *row)
 {
     static double ns[MAX_TICKS];
-    uint32_t ticks = (uint32_t)fmin(MAX_TICKS, fmax(MIN_TICKS, TICK_STEPS / t->count));
+    uint32_t ticks = ticks_of(t->count);
     for (uint32_t k = 0; k < WARM_UP_TICKS; k++) {
         if (chart_throng_tick(t) < 0) return 0;
     }
@@ -74,6 +80,29 @@ static void measure(chart_run *run, const bench_world *level, uint32_t count, ui
         chart_run_fail(run, name, status < 0 ? tahr_status_name(status) : "a step failed");
     }
     chart_throng_free(&t);
+}
+
+/* As many crowds as threads, side by side and each for itself: no crowd on so many threads can be faster. */
+static void measure_ceiling(chart_run *run, const bench_world *level, uint32_t count, uint32_t threads)
+{
+    static double ns[MAX_TICKS];
+    const uint32_t ticks = ticks_of(count);
+    char name[48];
+    chart_row row;
+    chart_row_clear(&row);
+    snprintf(name, sizeof name, "machine's ceiling; %u threads", threads);
+    row.scene = level->name;
+    row.curve = row.setting = name;
+    row.value = count;
+    row.threads = threads;
+    const char *wrong = chart_ceiling(level, count, threads, ns, ticks);
+    if (wrong) {
+        chart_run_fail(run, name, wrong);
+        return;
+    }
+    put_times(&row, ns, ticks);
+    row.samples = (uint64_t)ticks * count;
+    chart_run_write(run, &row);
 }
 
 /* What a budget of error buys, and what it costs: characters that are alone, each with a budget, beside others that
@@ -160,6 +189,9 @@ void chart_crowds(chart_run *run)
                 char name[48];
                 snprintf(name, sizeof name, "%u characters; %u threads", COUNTS[i], all[k]);
                 if (chart_run_next(run, hills ? "hills" : "plane", name)) measure(run, &level, COUNTS[i], all[k]);
+                if (all[k] > 1 && chart_run_next(run, hills ? "hills" : "plane", "machine's ceiling")) {
+                    measure_ceiling(run, &level, COUNTS[i], all[k]);
+                }
             }
         }
         bench_world_free(&level);

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from front import ERROR_FLOOR
 from panel import MEDIAN_ERROR, P99_ERROR, Scale, dots, over_size, scatter
-from rows import Row
+from rows import Row, thread_gains
 from style import panels
 
 NS_SWEEP = Scale(lambda r: r.ns_p50, "median time of a sweep", "s", 1e-9)
@@ -323,7 +323,7 @@ def crowd_charts(rows: Sequence[Row]) -> list[Chart]:
         caption = (
             f"A tick of a crowd on {describe(scene)} at 60 Hz, per character, by the wall clock, median over "
             "ticks. More threads pay where there are cores for them; caches of many characters do not fit into "
-            "the processor's."
+            "the processor's." + thread_gains(own)
         )
         charts.append(Chart(f"crowds-{scene}", f"Crowds on {describe(scene)}", caption, figure, own))
     return charts

@@ -3,6 +3,7 @@
 
 import csv
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 
@@ -112,3 +113,19 @@ def read_machine(path: Path) -> list[tuple[str, str]]:
             raise ChartError(f"{path}:{number}: {len(line)} fields, expected 2")
         pairs.append((line[0], line[1]))
     return pairs
+
+
+def thread_gains(rows: Sequence[Row]) -> str:
+    """What threads gained where most characters were, beside what as many processes gained that share nothing."""
+    most = max((r.value for r in rows), default=0)
+    at = {r.curve: r.ns_p50 for r in rows if r.value == most}
+    one = at.get("crowd; 1 thread")
+    gains = []
+    for curve, ns in at.items():
+        threads = curve.removeprefix("crowd; ").removesuffix(" threads")
+        ceiling = at.get(f"machine's ceiling; {threads} threads")
+        if one and ceiling and curve.startswith("crowd; "):
+            gains.append(f"{threads} threads are {one / ns:.2f} times one, the machine's ceiling is {one / ceiling:.2f}")
+    if not gains:
+        return ""
+    return f" {most:.0f} characters: {'; '.join(gains)} (as many crowds, each in a process of its own, side by side)."

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from rows import COLUMNS, ChartError, read_machine, read_rows
+from rows import COLUMNS, ChartError, read_machine, read_rows, thread_gains
 
 GOOD = "sweeps,meshes,native,native,,,default,truth,126,0,,1e-9,2e-9,3e-9,,100,200,120,,1,4.5,2,,,"
 
@@ -34,6 +34,21 @@ class Rows(unittest.TestCase):
         self.assertEqual((row.samples, row.failed, row.error_p99_m, row.ns_p50), (126, 0, 2e-9, 100.0))
         self.assertTrue(math.isnan(row.value) and math.isnan(row.threads))
         self.assertEqual(row.tests_and_iterations, 6.5)
+
+    def test_what_threads_gain_stands_beside_what_the_machine_gives(self):
+        def crowd(curve: str, count: int, ns: float) -> str:
+            return f"crowds,plane,{curve},{curve},{count},60,default,,100,0,,,,,,{ns},{ns},{ns},,,,,,,2"
+
+        self.write(
+            crowd("crowd; 1 thread", 10, 900),
+            crowd("crowd; 1 thread", 1000, 1000),
+            crowd("crowd; 2 threads", 1000, 625),
+            crowd("machine's ceiling; 2 threads", 1000, 500),
+        )
+        text = thread_gains(read_rows(self.path))
+        self.assertIn("1000 characters: 2 threads are 1.60 times one, the machine's ceiling is 2.00", text)
+        self.write(crowd("crowd; 1 thread", 1000, 1000), crowd("crowd; 2 threads", 1000, 625))
+        self.assertEqual(thread_gains(read_rows(self.path)), "")
 
     def test_a_missing_file_is_named(self):
         self.assertIn("sweeps.csv: is not there", self.wrong())

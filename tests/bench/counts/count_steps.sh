@@ -1,5 +1,5 @@
 #!/bin/sh
-# count_steps.sh: counts the instructions of a step on four fixed scenes with callgrind and compares them with
+# count_steps.sh: counts the instructions of a step on fixed scenes with callgrind and compares them with
 # counts.txt: a rise of more than 3 % fails. The counts are those of gcc 12 at -O3 on a processor with AVX2; with another
 # compiler or build they are printed and not compared. Usage: count_steps.sh PROGRAM COMPILER-VERSION BUILD-TYPE [--write]
 set -eu
@@ -20,8 +20,9 @@ grep -q -w avx2 /proc/cpuinfo 2>/dev/null || other="recorded on a processor with
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 status=0
-for scene in flat hills wall stairs; do
-    steps=$(valgrind --tool=callgrind --toggle-collect=tahr_mover_step --callgrind-out-file="$work/out" \
+for scene in flat hills wall stairs asleep free_fall crowd crowd_asleep; do
+    case $scene in crowd*) step=tahr_crowd_step ;; *) step=tahr_mover_step ;; esac
+    steps=$(valgrind --tool=callgrind --toggle-collect=$step --callgrind-out-file="$work/out" \
         "$program" "$scene" 2>"$work/log") || { cat "$work/log"; exit 1; }
     total=$(awk '/Collected :/ {print $4}' "$work/log")
     now=$((total / steps))

@@ -121,6 +121,72 @@ static void any_change_wakes(void **unused)
     rig_close(&r);
 }
 
+/* Without their flags. With them all counts again. */
+static void fields_that_do_not_count_wake_nobody(void **unused)
+{
+    fake_world w;
+    rig r;
+    (void)unused;
+    open_at_wall(&r, &w, 1);
+    r.input.facing = r.input.launch = r.input.drive = fake_vec(NAN, 1, 2);
+    r.input.gravity = fake_vec(0, 0, INFINITY);
+    r.input.radius = -1;
+    r.input.mode = 77;
+    step(&r, 1.0 / 60, RIG_EVENTS);
+    assert_true(asleep(&r));
+    r.input.facing = fake_vec(0, 1, 0);
+    r.input.flags = TAHR_INPUT_FACING;
+    for (int i = 0; i < 3; i++)
+        step(&r, 1.0 / 60, RIG_EVENTS);
+    r.input.launch = fake_vec(0, 0, 1);
+    step(&r, 1.0 / 60, RIG_EVENTS);
+    assert_false(asleep(&r));
+    rig_close(&r);
+}
+
+/* What a caller of a newer version hands over. */
+typedef struct newer {
+    tahr_input input;
+    double unknown;
+} newer;
+
+static void who_sleeps_refuses_what_is_wrong_as_well(void **unused)
+{
+    fake_world w;
+    rig r;
+    (void)unused;
+    open_at_wall(&r, &w, 1);
+    newer input = {.input = r.input};
+    const tahr_state at_rest = r.state;
+    const double dt = 1.0 / 60;
+    step(&r, dt, 0);
+    step(&r, dt, 0);
+    assert_true(asleep(&r));
+    assert_int_equal(tahr_mover_step(r.mover, NULL, dt, &r.state, NULL), TAHR_E_NULL);
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, dt, NULL, NULL), TAHR_E_NULL);
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, NAN, &r.state, NULL), TAHR_E_ARGUMENT);
+    tahr_report cut = {.struct_size = sizeof cut - 8};
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, dt, &r.state, &cut), TAHR_E_STRUCT_SIZE);
+    cut.struct_size = 1u << 30;
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, dt, &r.state, &cut), TAHR_E_STRUCT_SIZE);
+    r.input.reserved = 1;
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, dt, &r.state, NULL), TAHR_E_ARGUMENT);
+    r.input.reserved = 0;
+    r.state.reserved[sizeof r.state.reserved - 1] = 1;
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, dt, &r.state, NULL), TAHR_E_ARGUMENT);
+    r.state = at_rest;
+    input.input.struct_size = sizeof input;
+    for (int i = 0; i < 2; i++) {
+        r.report = (tahr_report){.struct_size = sizeof r.report};
+        assert_int_equal(tahr_mover_step(r.mover, &input.input, dt, &r.state, &r.report), TAHR_OK);
+    }
+    assert_true(asleep(&r));
+    input.unknown = 1;
+    assert_int_equal(tahr_mover_step(r.mover, &input.input, dt, &r.state, NULL), TAHR_E_UNSUPPORTED);
+    assert_memory_equal(&r.state, &at_rest, sizeof at_rest);
+    rig_close(&r);
+}
+
 /* A wall that goes away is noticed as soon as the world says so. */
 static void a_changed_world_lets_go(void **unused)
 {
@@ -202,6 +268,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pushing_a_wall_costs_nothing_and_reports_the_hit),
         cmocka_unit_test(any_change_wakes),
+        cmocka_unit_test(fields_that_do_not_count_wake_nobody),
+        cmocka_unit_test(who_sleeps_refuses_what_is_wrong_as_well),
         cmocka_unit_test(a_changed_world_lets_go),
         cmocka_unit_test(a_mover_does_not_mix_characters),
         cmocka_unit_test(sleep_on_equals_off_bit_for_bit),

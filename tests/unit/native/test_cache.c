@@ -94,6 +94,103 @@ static void caches_and_lanes_change_no_bit(void **state)
     assert_true(hits > 1000 && contacts > 1000 && rays > 1000); /* else nothing was compared */
 }
 
+/* A query near a place, of any kind that a step asks. */
+static tahr_sweep near_place(oracle_random *r, tahr_vec3 place, double reach, int n)
+{
+    tahr_vec3 at = v_add(place, dice_vec(r, -reach, reach));
+    tahr_sweep q = fixture_sweep(native_shape(n % 11 == 0 ? 2 : n % 3 == 0 ? 0 : 1), at, v_make(0, 0, 0), 0.01);
+    q.motion = dice_vec(r, -0.5, 0.4);
+    if ((n / 50) % 2) q.up = v_make(0.6, 0, 0.8);
+    return q;
+}
+
+static void open_hills(fixture *f, native_grid *grid)
+{
+    tahr_body_desc bodies[NATIVE_HILLS];
+    tahr_native_desc o = fixture_options();
+    native_hills(grid, bodies);
+    o.cache_triangles = 400;
+    fixture_init(f);
+    assert_int_equal(fixture_open(f, bodies, NATIVE_HILLS, &o, 1), TAHR_OK);
+}
+
+/* A ray has no up: without an announcement it is +z. */
+static void forget_ray(answers *a)
+{
+    memset(&a->ray, 0, sizeof a->ray);
+    a->ray_count = 0;
+}
+
+/* The third word of backend.h on caches. */
+static void without_a_cache_a_query_is_its_own_announcement(void **state)
+{
+    static native_grid grid;
+    (void)state;
+    fixture f;
+    open_hills(&f, &grid);
+    void *cache = f.context.cache;
+    oracle_random r = {11};
+    uint64_t hits = 0;
+    for (int n = 0; n < 3000; n++) {
+        answers with, without, unannounced;
+        const tahr_sweep q = near_place(&r, v_make(6, 6, 1.2), 3.5, n);
+        announce(&f, q.position, q.up, 0xFFFFFFFFu);
+        ask(&f, &q, &with);
+        f.context.cache = NULL;
+        ask(&f, &q, &without);
+        f.context.cache = cache;
+        if (q.up.z < 1) forget_ray(&with), forget_ray(&without);
+        assert_memory_equal(&with, &without, sizeof with);
+        if (n % 100 == 0) {
+            memset(cache, 0, tahr_backend_v1_native()->cache_size(f.self));
+            ask(&f, &q, &unannounced);
+            if (q.up.z < 1) forget_ray(&unannounced);
+            assert_memory_equal(&with, &unannounced, sizeof with);
+        }
+        hits += with.hit_count;
+    }
+    assert_true(hits > 300);
+    native_close(&f);
+}
+
+/* And its second: also where the query begins in another cell than that of the place. */
+static void only_the_place_last_announced_counts(void **state)
+{
+    static native_grid grid;
+    (void)state;
+    fixture fresh, used;
+    open_hills(&fresh, &grid);
+    open_hills(&used, &grid);
+    const size_t size = tahr_backend_v1_native()->cache_size(fresh.self);
+    oracle_random r = {23};
+    uint64_t hits = 0, across = 0, differ = 0;
+    for (int n = 0; n < 3000; n++) {
+        answers a, b, none;
+        const tahr_vec3 place = v_add(v_make(6, 6, 1.2), dice_vec(&r, -3, 3));
+        const tahr_vec3 before = v_add(place, dice_vec(&r, -2, 2));
+        const tahr_sweep q = near_place(&r, place, 2, n), other = near_place(&r, before, 2, n);
+        memset(fresh.context.cache, 0, size);
+        announce(&fresh, place, q.up, 0xFFFFFFFFu);
+        ask(&fresh, &q, &a);
+        announce(&used, before, other.up, 1 + (uint32_t)(n % 2));
+        ask(&used, &other, &b);
+        announce(&used, place, q.up, 1 + (uint32_t)(n % 3));
+        ask(&used, &other, &b);
+        ask(&used, &q, &b);
+        assert_memory_equal(&a, &b, sizeof a);
+        fixture alone = used;
+        alone.context.cache = NULL;
+        ask(&alone, &q, &none);
+        hits += a.hit_count;
+        across += floor(place.x / 4) != floor(q.position.x / 4);
+        differ += memcmp(&a, &none, sizeof a) != 0;
+    }
+    print_message("    %d of 3000 answers depend on the place announced\n", (int)differ);
+    assert_true(hits > 300 && across > 300);
+    native_close(&fresh);
+    native_close(&used);
+}
+
 static void only_what_was_gathered_for_fewer_bodies_is_gathered_anew(void **state)
 {
     (void)state;
@@ -124,6 +221,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(caches_and_lanes_change_no_bit),
+        cmocka_unit_test(without_a_cache_a_query_is_its_own_announcement),
+        cmocka_unit_test(only_the_place_last_announced_counts),
         cmocka_unit_test(only_what_was_gathered_for_fewer_bodies_is_gathered_anew),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -142,15 +142,61 @@ static void what_is_kept_comes_near(void **unused)
     assert_true(near > 0.7 * kept);
 }
 
+/* Of a segment at rest: what is left out is farther than asked for, and no distance that is told is more than it is. */
+static void what_is_near_is_no_nearer_than_told(void **unused)
+{
+    static scene s;
+    oracle_random seed = {43};
+    uint32_t left_out = 0, kept = 0, close = 0;
+    (void)unused;
+    for (int run = 0; run < 3000; run++) {
+        if (run % 20 == 0) make(&s, &seed);
+        motion m = random_motion(&seed);
+        m.by = v_make(0, 0, 0);
+        tahr__lanes_query q = query_of(&m);
+        tahr__lanes_found found[COUNT];
+        uint32_t count = tahr__lanes_near_1(&s.lanes, &q, found), next = 0;
+        for (uint32_t i = 0; i < COUNT; i++) {
+            int is_found = next < count && found[next].index == i;
+            double away = distance(&m, &s.facets[i], 0);
+            if (is_found) {
+                double told = found[next].time;
+                assert_true(told - TAHR__LANE_SLACK <= away);
+                close += told > 0.5 * away;
+                kept++;
+                next++;
+            } else {
+                assert_true(away > m.reach);
+                left_out++;
+            }
+        }
+        assert_int_equal(next, count);
+    }
+    print_message("    %u left out, %u kept, %u of them told half as far as they are, or farther\n", left_out, kept, close);
+    assert_true(kept > 3000 && left_out > 10 * kept && close > 0.7 * kept);
+}
+
+static void assert_same_bits(tahr__lanes_fn *one, tahr__lanes_fn *const widths[3], const tahr__lanes *lanes,
+                             const tahr__lanes_query *q)
+{
+    tahr__lanes_found expected[COUNT], many[COUNT];
+    uint32_t count = one(lanes, q, expected);
+    for (int w = 0; w < 3; w++) {
+        assert_int_equal(widths[w](lanes, q, many), count);
+        assert_memory_equal(many, expected, count * sizeof expected[0]);
+    }
+}
+
 static void every_width_keeps_the_same_bits(void **unused)
 {
     static scene s;
     oracle_random seed = {5};
-    tahr__lanes_fn *widths[] = {tahr__lanes_cull_4, tahr__lanes_best(),
-                                tahr__lanes_best() == tahr__lanes_cull_8 ? tahr__lanes_cull_8 : tahr__lanes_cull_4};
+    const tahr__lanes_way *best = tahr__lanes_best(0);
+    const int eight = best->cull == tahr__lanes_cull_8;
+    tahr__lanes_fn *const culls[] = {tahr__lanes_cull_4, best->cull, eight ? tahr__lanes_cull_8 : tahr__lanes_cull_4};
+    tahr__lanes_fn *const nears[] = {tahr__lanes_near_4, best->near, eight ? tahr__lanes_near_8 : tahr__lanes_near_4};
     (void)unused;
-    print_message("    eight lanes: %s\n",
-                  tahr__lanes_best() == tahr__lanes_cull_8 ? "tested" : "no AVX2 here, not tested");
+    print_message("    eight lanes: %s\n", eight ? "tested" : "no AVX2 here, not tested");
     for (int run = 0; run < 20000; run++) {
         if (run % 50 == 0) make(&s, &seed);
         motion m = random_motion(&seed);
@@ -160,12 +206,8 @@ static void every_width_keeps_the_same_bits(void **unused)
         memcpy(rest, s.blocks, sizeof rest);
         tahr__lanes_end(rest, lanes.count);
         lanes.blocks = rest;
-        tahr__lanes_found one[COUNT], many[COUNT];
-        uint32_t count = tahr__lanes_cull_1(&lanes, &q, one);
-        for (size_t w = 0; w < sizeof widths / sizeof widths[0]; w++) {
-            assert_int_equal(widths[w](&lanes, &q, many), count);
-            assert_memory_equal(many, one, count * sizeof one[0]);
-        }
+        assert_same_bits(tahr__lanes_cull_1, culls, &lanes, &q);
+        assert_same_bits(tahr__lanes_near_1, nears, &lanes, &q);
     }
 }
 
@@ -174,6 +216,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_left_out_is_out_of_reach),
         cmocka_unit_test(what_is_kept_comes_near),
+        cmocka_unit_test(what_is_near_is_no_nearer_than_told),
         cmocka_unit_test(every_width_keeps_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
