@@ -231,6 +231,7 @@ static void finish_report(tahr__step *step)
     r->narrow_iterations = step->context.narrow_iterations;
     r->gathers = step->context.gathers;
     r->escapes = step->context.escapes;
+    r->spared = step->context.spared;
 }
 
 /* Asked to move, nothing in the way that it could have slid along, and yet not moved: held by an overlap. */

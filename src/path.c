@@ -169,9 +169,8 @@ static vec3 along_floor(const tahr__path *w, const tahr__step *step, vec3 level)
                                             * bevel */
         climb = rise;
     }
-    return step->config->keep_level_speed
-               ? tahr__cap_rise(step, add_scaled(level, step->state.up, whole), rise, size)
-               : tahr__lift(level, step->state.up, whole, climb);
+    return step->config->keep_level_speed ? tahr__cap_rise(step, add_scaled(level, step->state.up, whole), rise, size)
+                                          : tahr__lift(level, step->state.up, whole, climb);
 }
 
 /* m: heights that are rounding of the backends, and nothing to step up on. */

@@ -17,8 +17,7 @@ int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_st
     const tahr_config *c = &mover->config;
     const vec3 axis = state->up;
     const double gravity = mover->limits.pull.size, rise = dot(state->velocity, axis);
-    if (dt <= TAHR__SHORTEST || !is_one_chord(c, gravity, rise, dt) ||
-        !is_against_gravity(&mover->limits.pull, axis)) {
+    if (dt <= TAHR__SHORTEST || !is_one_chord(c, gravity, rise, dt) || !is_against_gravity(&mover->limits.pull, axis)) {
         return 0;
     }
     const vec3 wish = reject(input->move, axis);
@@ -42,8 +41,7 @@ int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_st
     tahr_hit none;
     uint32_t known = 0;
     if (mover->world->backend->walk(mover->world->self, &context, &walk, &none, &known) != TAHR_OK || !known ||
-        length_squared(velocity) > FASTEST2 || vec_equal(position, state->position) ||
-        goes_astray(mover, position)) {
+        length_squared(velocity) > FASTEST2 || vec_equal(position, state->position) || goes_astray(mover, position)) {
         return 0;
     }
     state->position = position;

@@ -37,13 +37,14 @@ static inline int tahr__tries_short_way(tahr_mover *mover, uint32_t mode)
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report)
 {
-    const int traced = report && (report->decisions || report->queries);
-    if (!mover->may_go_short_way || traced || input->jump || state->flags || !tahr__tries_short_way(mover, state->mode)) {
+    const int traced = report && (report->decisions || report->queries), knows = mover->world->backend->walk != NULL;
+    if (!mover->may_go_short_way || !knows || traced || input->jump || state->flags ||
+        !tahr__tries_short_way(mover, state->mode)) {
         return 0;
     }
     const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)
-               : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report)
-                                                  : 0;
+                     : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report)
+                                                        : 0;
     if (done) {
         mover->failed = mover->rest = 0;
         mover->sleep.noted = 0;
@@ -75,6 +76,7 @@ static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, const
     r->slices = 1;
     r->triangle_tests = context->narrow_tests;
     r->narrow_iterations = context->narrow_iterations;
+    r->spared = context->spared;
 }
 
 #endif

@@ -14,9 +14,9 @@ static const double ON_FACE = 1 - 1e-6;
 
 int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits)
 {
-    return world->backend->walk && !world_is_planar(world) && !world->has && !limits->feel && !limits->in_plane &&
-           limits->usual && config->short_ways && !config->keep_level_speed &&
-           config->floor_probe == TAHR_FLOOR_PROBE_WHOLE && limits->shape.type == TAHR_SHAPE_CAPSULE;
+    return !world_is_planar(world) && !world->has && !limits->feel && !limits->in_plane && limits->usual &&
+           config->short_ways && !config->keep_level_speed && config->floor_probe == TAHR_FLOOR_PROBE_WHOLE &&
+           limits->shape.type == TAHR_SHAPE_CAPSULE;
 }
 
 /* Does it walk on a face that is all there is to know of its floor? */
@@ -24,9 +24,8 @@ static int begins_on_face(const tahr_mover *mover, const tahr_state *s)
 {
     const tahr_floor *f = &s->floor;
     const uint32_t face = TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE;
-    return s->floor_revision == mover->world->revision &&
-           vec_equal(s->floor_position, s->position) && (f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) == face &&
-           dot(f->normal, f->surface_normal) >= ON_FACE &&
+    return s->floor_revision == mover->world->revision && vec_equal(s->floor_position, s->position) &&
+           (f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) == face && dot(f->normal, f->surface_normal) >= ON_FACE &&
            (dot(f->surface_normal, s->up) > GENTLE || (f->flags & TAHR_FLOOR_SLOPE)) &&
            is_against_gravity(&mover->limits.pull, s->up);
 }
@@ -36,8 +35,7 @@ static vec3 motion_of(const tahr_mover *mover, const tahr_input *input, double d
 {
     const vec3 up = s->up, n = s->floor.surface_normal, wish = reject(input->move, up);
     const double size = length(wish);
-    const tahr__law law =
-        tahr__law_of_wish(&mover->config, wish, size, mover->limits.speed * min_of(size, 1), 1);
+    const tahr__law law = tahr__law_of_wish(&mover->config, wish, size, mover->limits.speed * min_of(size, 1), 1);
     const tahr__motion m = tahr__law_advance(&law, reject(s->velocity, up), dt);
     *velocity = m.velocity;
     if (m.stop_time >= 0) {

@@ -171,8 +171,8 @@ typedef struct tahr__vicinity {
     uint32_t needed;   /* and how many there must be */
     tahr_vec3 spot;    /* on the floor: within `alone` m (<= 0: none) nothing of it is but the triangle `under` */
     double alone;
-    tahr_vec3 face;  /* the exact normal of that, toward the character */
-    uint32_t under;  /* index */
+    tahr_vec3 face; /* the exact normal of that, toward the character */
+    uint32_t under; /* index */
     uint32_t reserved;
     uint32_t count, near[TAHR__VICINITY_MOST]; /* indices of the nearest, */
     double far[TAHR__VICINITY_MOST];           /* and m to them */

@@ -366,7 +366,10 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.sensors = capacity > 1 ? TAHR__SENSORS_TOO : TAHR__SENSORS_NONE;
     if (sweep->flags & TAHR_SWEEP_SENSORS) query.sensors = TAHR__SENSORS_ONLY;
     const uint64_t before = context->narrow_tests;
-    if (capacity > 0 && tahr__vicinity_is_calm(&query) && tahr__vicinity_answer(&query, hits, count)) return TAHR_OK;
+    if (capacity > 0 && tahr__vicinity_is_calm(&query) && tahr__vicinity_answer(&query, hits, count)) {
+        context->spared++;
+        return TAHR_OK;
+    }
     begin(&s, &query);
     run(&s);
     tahr__vicinity_learn(&query, context->narrow_tests - before);

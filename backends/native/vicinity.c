@@ -151,7 +151,8 @@ static double outside_of_all(const tahr__query *query)
     if (query->world->gather) return 0;
     if (query->world->fixed.count == 0) return 1e30;
     const tahr__bvh_node *root = &tree->nodes[0];
-    const tahr_vec3 at = v_add(query->frame->origin, tahr__frame_to_world(query->frame, query->start)), o = tree->centre;
+    const tahr_vec3 at = v_add(query->frame->origin, tahr__frame_to_world(query->frame, query->start)),
+                    o = tree->centre;
     double gap2 = 0;
     for (int axis = 0; axis < 3; axis++) {
         double x = v_get(at, axis) - v_get(o, axis), gap = d_max(root->lo[axis] - x, x - root->hi[axis]);
@@ -266,7 +267,8 @@ static int way_of(const tahr__query *query)
 static int is_stale(const tahr__query *query)
 {
     const tahr__vicinity *v = &query->cache->vicinity;
-    return v->clear <= 0 || away2(v, query, query->start) > DRIFT * DRIFT || (!v->over && query->cache->recent[1] < query->cache->count);
+    return v->clear <= 0 || away2(v, query, query->start) > DRIFT * DRIFT ||
+           (!v->over && query->cache->recent[1] < query->cache->count);
 }
 
 /* Where the lower end of the query's segment comes down on the floor. */

@@ -36,9 +36,11 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
     if (!tahr__vicinity_knows(&query, hit, &count) || count > 0) return TAHR_OK;
     if (!walk->foot) {
         *known = 1;
+        context->spared++;
         return TAHR_OK;
     }
     aim(&query, walk->foot, walk->foot_position, walk->foot_motion);
     *known = tahr__vicinity_knows(&query, hit, &count) && count > 0;
+    context->spared += *known ? 2 : 0;
     return TAHR_OK;
 }

@@ -69,6 +69,7 @@ static void charge(const tahr_trace_reader *r, tahr_query_context *context)
     context->narrow_iterations += cost->narrow_iterations;
     context->gathers += cost->gathers;
     context->escapes += cost->escapes;
+    context->spared += cost->spared;
 }
 
 /* Of a file that lies no more than there is room for. */

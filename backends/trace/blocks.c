@@ -94,6 +94,7 @@ static void get_cost(tahr_trace_reader *r)
     cost->narrow_iterations = tahr__trace_get(&r->in, "a number of iterations");
     cost->gathers = tahr__trace_get(&r->in, "a number of gathers");
     cost->escapes = tahr__trace_get(&r->in, "a number of escapes");
+    cost->spared = tahr__trace_get(&r->in, "a number of spared sweeps");
 }
 
 /* How the answer was; how many follow is checked. */

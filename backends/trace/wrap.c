@@ -18,6 +18,7 @@ static void put_cost(tahr_trace *trace, const tahr_query_context *before, const 
     tahr__trace_put(&trace->out, after->narrow_iterations - before->narrow_iterations);
     tahr__trace_put(&trace->out, after->gathers - before->gathers);
     tahr__trace_put(&trace->out, after->escapes - before->escapes);
+    tahr__trace_put(&trace->out, after->spared - before->spared);
 }
 
 static int is_work(const tahr_query_context *before, const tahr_query_context *after)

@@ -60,6 +60,7 @@ typedef struct tahr_query_context {
     uint64_t narrow_iterations; /* iterations inside it */
     uint64_t gathers;           /* times local geometry was gathered */
     uint64_t escapes;           /* queries whose box left the gathered one */
+    uint64_t spared;            /* sweeps answered from what was known of the place, without a look at the scene */
 } tahr_query_context;
 
 /* The announcement before a step: everything the step is expected to ask about lies in bounds. A hint only. World

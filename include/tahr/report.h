@@ -170,6 +170,8 @@ typedef struct tahr_report {
     uint64_t narrow_iterations;
     uint64_t gathers;
     uint64_t escapes;
+    uint64_t spared;    /* of the sweeps, those answered by what was known of the place; a cached floor and sleep, which
+                      * ask nothing at all, are flags */
     double step_offset; /* m along up: sudden rise or drop by steps and snaps, for smoothing what is shown */
     double residual;    /* m, deepest overlap that is left */
     double time_lost; /* s, not simulated because a cap was reached or nothing could be moved; then TIME_LOST is set */

@@ -25,7 +25,7 @@ tahr_status recording_end(tahr_trace *trace, tahr_world *world);
 
 /* Sums of what reports count: sweeps, contact queries, rays, fluid queries, triangle tests, narrow iterations, gathers,
  * escapes; and a hash of each step's, in order. */
-enum { RECORDING_COUNTS = 8 };
+enum { RECORDING_COUNTS = 9 };
 typedef struct recording_counts {
     uint64_t sum[RECORDING_COUNTS];
     uint64_t hash;

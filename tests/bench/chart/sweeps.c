@@ -48,7 +48,7 @@ static void ask(const chart_run *run, const tahr_backend *backend, void *self, c
     t->false_hits += verdict == CHART_FALSE_HIT;
     t->turned += verdict == CHART_WRONG_NORMAL;
     t->gave_up += verdict == CHART_GAVE_UP;
-    tahr_query_context unused = {t->context.cache, 0, 0, 0, 0};
+    tahr_query_context unused = {.cache = t->context.cache};
     for (uint32_t round = 0; round < run->budget->sweep_rounds; round++) {
         double before = chart_monotonic();
         for (int k = 0; k < ASKINGS; k++) {

@@ -172,7 +172,8 @@ static void what_is_near_is_no_nearer_than_told(void **unused)
         }
         assert_int_equal(next, count);
     }
-    print_message("    %u left out, %u kept, %u of them told half as far as they are, or farther\n", left_out, kept, close);
+    print_message("    %u left out, %u kept, %u of them told half as far as they are, or farther\n", left_out, kept,
+                  close);
     assert_true(kept > 3000 && left_out > 10 * kept && close > 0.7 * kept);
 }
 
