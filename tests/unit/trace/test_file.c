@@ -163,8 +163,8 @@ static void another_version_or_no_trace_is_told_apart(void **unused)
     replay_run(&p, &file);
     assert_int_equal(p.opened, TAHR_E_ABI);
     assert_non_null(
-        strstr(file.message, "byte 8: recorded as version 1 of the format with ABI 0.1, expected 2 with 0.1"));
-    file.bytes[8] = 2, file.bytes[12] = 7;
+        strstr(file.message, "byte 8: recorded as version 1 of the format with ABI 0.1, expected 3 with 0.1"));
+    file.bytes[8] = 3, file.bytes[12] = 7;
     sign_head(&file);
     replay_run(&p, &file);
     assert_int_equal(p.opened, TAHR_E_ABI);
