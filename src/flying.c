@@ -3,6 +3,7 @@
 #include "flying.h"
 
 #include "glide.h"
+#include "launch.h"
 #include "move.h"
 #include "report.h"
 #include "stepped.h"
@@ -10,13 +11,21 @@
 /* m/s: a drag alone never ends. A deceleration of the drag at this speed does, at the same time at every frame rate. */
 static const double HOVERS = 1e-3;
 
-/* Along walls what they leave of the wish is asked for, as in walking. */
+/* Is the drive the velocity all the time? Every wall then takes its part of the drive itself, as in walking: of what the
+ * wall before left, a gutter whose walls lean to each other would leave less and less. */
+static int holds_drive(const tahr__step *step)
+{
+    return is_driven(step) && !(step->input->flags & TAHR_INPUT_DRIVE_LEVEL) &&
+           step->config->integrator == TAHR_INTEGRATOR_EXACT;
+}
+
+/* Along walls what they leave of the wish is asked for, as in walking. g: NULL: there are none. */
 static tahr__law law_of(const tahr__step *step, const tahr__glide *g)
 {
     const tahr_config *c = step->config;
     vec3 wish = step->input->move;
     double size = length(wish), stick = min_of(size, 1), kept = 1;
-    if (size > 0 && g->plane_count > 0) {
+    if (size > 0 && g && g->plane_count > 0) {
         wish = tahr__glide_bend(g, wish);
         kept = length(wish) / size;
     }
@@ -60,13 +69,30 @@ static tahr__motion stepped(const tahr__step *step, const tahr__law *law, vec3 v
     return m;
 }
 
+/* An edge or something round that was met: whether it is gone around. */
+static void look_around(const tahr__step *step, tahr__glide *g, const tahr__law *law, vec3 v)
+{
+    double glimpse = TAHR__GLIMPSE * g->left;
+    vec3 freely = scale(step->input->drive, glimpse);
+    if (!holds_drive(step)) {
+        const tahr__law open = law_of(step, NULL);
+        freely = tahr__law_advance(&open, v, glimpse).displacement;
+    }
+    vec3 along = tahr__glide_bend(g, tahr__law_advance(law, v, g->left).displacement);
+    tahr__around_start(step, &g->around, along, freely, g->left);
+}
+
 /* One piece of the slice. Returns 0 if nothing can go on from where it ended. */
 static int fly_piece(tahr__step *step, tahr__glide *g)
 {
     int steps = step->config->integrator == TAHR_INTEGRATOR_STEPPED;
     tahr_hit hit;
-    vec3 v = tahr__glide_bend(g, step->state.velocity);
-    tahr__law law = law_of(step, g);
+    int driven = holds_drive(step);
+    vec3 v = tahr__glide_bend(g, driven ? step->input->drive : step->state.velocity);
+    tahr__law law = driven ? drive_law(v) : law_of(step, g);
+    if (g->around.is_round || g->around.turns) {
+        look_around(step, g, &law, v);
+    }
     double piece = tahr__glide_piece(step, g, bending(&law, v)), used = piece;
     tahr__motion m = steps ? stepped(step, &law, v, piece) : tahr__law_advance(&law, v, piece);
     vec3 way = tahr__glide_bend(g, m.displacement);
@@ -91,9 +117,13 @@ static int fly_piece(tahr__step *step, tahr__glide *g)
         tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);
         step->ahead = 0;
     }
+    if (!hit.blocking) {
+        tahr__glide_pass(step, g, used);
+        return 1;
+    }
     tahr__glide_use(step, g, used);
-    if (!hit.blocking || hit.start_overlap || hit.unknown) {
-        return !hit.blocking;
+    if (hit.start_overlap || hit.unknown) {
+        return 0;
     }
     if (tahr__glide_step_up(step, g, &hit, scale(way, 1 - hit.fraction), NULL)) {
         tahr__glide_forget_floor(step);

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: MIT
+ * around.h: going on around an edge or a round body within a slice: when a slide is turned, and by how much. */
+#ifndef TAHR_AROUND_H
+#define TAHR_AROUND_H
+
+#include "core.h"
+
+/* What is gone around: the character's place lies on a circle about an axis, or on a sphere about a point, and the
+ * plane that it slides along touches that. */
+typedef struct tahr__around {
+    vec3 pivot;    /* of the place: a point of the axis, or the centre */
+    vec3 axis;     /* unit; zero: about the point */
+    double radius; /* m */
+    vec3 normal;   /* of the plane as it is now */
+    double piece;  /* s between two turns */
+    double next;   /* s until the next one */
+    uint32_t body, feature;
+    uint32_t is_round; /* 1: what was met last can be gone around */
+    uint32_t turns;    /* 1: and is: the plane is turned */
+    uint32_t done;     /* turns in this slice */
+    uint32_t is_flat;  /* 1: what looked round in this slice did not turn: no more of it */
+} tahr__around;
+
+/* Of the time of what lies ahead. */
+#define TAHR__GLIMPSE 0.0625
+
+/* The most turns of a slice: 16 of a tolerance of 2 mm go around a quarter of a pillar of 10 m. */
+enum { TAHR__MOST_TURNS = 16 };
+
+/* Nothing was met yet. */
+static inline void tahr__around_begin(tahr__around *a)
+{
+    a->is_round = a->turns = a->done = a->is_flat = 0;
+}
+
+/* Looks at what was met at the character's place: an edge, or a round body. level: 1: of a character that stays at its
+ * height, which goes around what is upright or a ball. No query. */
+void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, tahr__around *a);
+
+/* What `time` seconds would bring: the way along the plane, and a glimpse of the one without it: in this part of the
+ * time. Turns from here on if the
+ * character is pressed against what it met and the way is long enough to matter. */
+void tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec3 freely, double time);
+
+/* s of a piece that the next turn leaves of `time`. */
+static inline double tahr__around_piece(const tahr__around *a, double time)
+{
+    return a->turns && a->next < time ? a->next : time;
+}
+
+/* `time` seconds of a piece passed with nothing met. Returns 1 if the plane must be turned now. */
+int tahr__around_use(tahr__around *a, double time);
+
+/* Turns the plane at the character's place. [out] plane: it, [in,out] velocity: turned with it. Returns 0 if there is
+ * nothing to turn. No query. */
+int tahr__around_turn(tahr__step *step, tahr__around *a, tahr__plane *plane, vec3 *velocity);
+
+#endif
