@@ -15,6 +15,7 @@
  * Turned is by reflection: the two tangents from a point to a circle mirror each other in the line to its centre. */
 #include "around.h"
 
+#include "elementary.h"
 #include "plane.h"
 #include "shape.h"
 
@@ -62,19 +63,13 @@ static double roundness(const tahr__step *step, const tahr_hit *hit, vec3 *axis)
     return note->round;
 }
 
-/* Where the side of a capsule is met, the place and what it met are round together only about up: about an axis beside
- * it, or a flat patch that two crossing segments span. */
-static int side_is_round(const tahr__step *step, vec3 normal, vec3 *axis)
+/* The side of a capsule goes around what it meets about up: an edge along it, a ball, or a corner, which looks like one
+ * of its edges. A true edge across it spans a flat patch with it: that shows when it was turned. */
+static int is_side(const tahr__step *step, vec3 normal)
 {
     const tahr_shape *shape = &step->limits->shape;
     double lean = dot(normal, step->state.up);
-    if (shape->half_height <= shape->radius || lean > ALIGNED || lean < -ALIGNED) {
-        return 1;
-    }
-    if (length_squared(*axis) == 0) {
-        *axis = step->state.up;
-    }
-    return is_along(*axis, step->state.up);
+    return shape->half_height > shape->radius && lean < ALIGNED && lean > -ALIGNED;
 }
 
 void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, tahr__around *a)
@@ -92,10 +87,13 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
         return;
     }
     double more = roundness(step, hit, &axis);
-    if (more < 0 || !side_is_round(step, normal, &axis)) {
+    if (more < 0) {
         return;
     }
     double radius = shape->radius + more + max_of(hit->distance, 0);
+    if (!level && is_side(step, normal)) {
+        axis = step->state.up;
+    }
     if (level || is_in_plane(step)) { /* the circle in which its plane cuts the ball or the cylinder */
         vec3 held = level ? step->state.up : step->limits->plane;
         if ((level && is_in_plane(step)) || (length_squared(axis) > 0 && !is_along(axis, held))) {
@@ -127,16 +125,77 @@ static int is_pressed(const tahr__around *a, vec3 along, vec3 freely)
     return -dot(a->normal, freely) * 2 * a->radius >= length_squared(across(a, along)) * (part * part);
 }
 
+/* Cuts `time` into pieces, of a way of so many metres. */
+static void cut(const tahr__step *step, tahr__around *a, double way, double time)
+{
+    double pieces = way / sqrt(8 * a->radius * step->config->path_tolerance);
+    a->piece = time / (double)(1 + (int)min_of(pieces, TAHR__MOST_TURNS - 1));
+    a->rest = a->over = 0;
+}
+
 void tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec3 freely, double time)
 {
     double way = length(across(a, along));
     a->turns = is_pressed(a, along, freely) && way > SHORT * a->radius;
+    a->reach = 0;
     if (a->turns && a->is_round) {
-        double pieces = way / sqrt(8 * a->radius * step->config->path_tolerance);
-        a->piece = time / (double)(1 + (int)min_of(pieces, TAHR__MOST_TURNS - 1));
-        a->next = 0.5 * a->piece;
+        cut(step, a, way, time);
+    }
+    a->next = a->rest + 0.5 * a->piece;
+    a->rest = 0.5 * a->piece;
+    a->is_round = 0;
+}
+
+/* Tangent of half the angle by which a constant wish that comes at half_tangent of the normal goes around in a time,
+ * until it leads off. [in,out] time: until then. exponent: |wish| time / R. */
+static double tangent_of_turn(double half_tangent, double exponent, double *time)
+{
+    double gain = half_tangent * tahr__expm1(min_of(exponent, 64));
+    double most = 1 - half_tangent;
+    if (gain >= most) {
+        *time *= half_tangent > 0 ? tahr__log1p(most / half_tangent) / exponent : 1;
+        gain = most;
+    }
+    return gain / (1 + half_tangent * (half_tangent + gain));
+}
+
+void tahr__around_drive(const tahr__step *step, tahr__around *a, vec3 wish, vec3 along, double time)
+{
+    vec3 u = across(a, wish);
+    double speed = length(u), into = -dot(a->normal, u), tangent = length(across(a, along));
+    double exact = sqrt(max_of(speed * speed - into * into, 0));
+    if (tangent < exact * (1 - ALIGNED) || tangent > exact * (1 + ALIGNED)) { /* something else bends it too */
+        tahr__around_start(step, a, scale(along, time), scale(wish, TAHR__GLIMPSE * time), time);
+        return;
+    }
+    double half = tangent / (speed + into), whole = time;
+    double way = 2 * a->radius * tangent_of_turn(half, speed * time / a->radius, &whole);
+    a->turns = into > 0 && way > SHORT * a->radius;
+    if (a->turns && a->is_round) {
+        cut(step, a, way, time);
     }
     a->is_round = 0;
+    if (!a->turns) {
+        a->reach = 0;
+        return;
+    }
+    double piece = a->piece;
+    double over = a->radius * tangent_of_turn(half, speed * piece / a->radius, &piece);
+    int last = time <= a->rest * (1 + ALIGNED);
+    a->next = a->rest + (last ? 0 : 0.5 * piece);
+    a->reach = a->over + (last ? 0 : over);
+    a->rest = 0.5 * piece;
+    a->over = over;
+}
+
+vec3 tahr__around_way(const tahr__around *a, vec3 along, double time)
+{
+    vec3 level = across(a, along);
+    double size = length(level);
+    if (!a->turns || a->reach == 0 || size == 0) {
+        return scale(along, time);
+    }
+    return add_scaled(scale(along, time), level, (a->reach / (a->next * size) - 1) * time);
 }
 
 int tahr__around_use(tahr__around *a, double time)
@@ -151,7 +210,6 @@ int tahr__around_turn(tahr__step *step, tahr__around *a, tahr__plane *plane, vec
     vec3 out = unit(across(a, sub(step->state.position, a->pivot)));
     vec3 normal = unit(add_scaled(scale(a->normal, -1), out, 2 * dot(a->normal, out)));
     double turned = dot(normal, a->normal);
-    a->next = a->piece;
     a->turns = ++a->done < TAHR__MOST_TURNS && turned > 0;
     if (turned <= 0 || turned >= 1) {
         return 0;

@@ -14,6 +14,9 @@ typedef struct tahr__around {
     vec3 normal;   /* of the plane as it is now */
     double piece;  /* s between two turns */
     double next;   /* s until the next one */
+    double rest;   /* s from a turn to where the circle is touched again, */
+    double over;   /* and m along the tangent, of a constant velocity */
+    double reach;  /* m across the axis until the next turn, of a constant velocity; 0: as the law says */
     uint32_t body, feature;
     uint32_t is_round; /* 1: what was met last can be gone around */
     uint32_t turns;    /* 1: and is: the plane is turned */
@@ -38,9 +41,15 @@ static inline void tahr__around_begin(tahr__around *a)
 void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, tahr__around *a);
 
 /* What `time` seconds would bring: the way along the plane, and a glimpse of the one without it: in this part of the
- * time. Turns from here on if the
- * character is pressed against what it met and the way is long enough to matter. */
+ * time. Turns from here on if the character is pressed against what it met and the way is long enough to matter. */
 void tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec3 freely, double time);
+
+/* The same of a constant velocity `wish`, of which the planes leave `along`: as far as it goes until the next turn is
+ * then a closed form. time: s that are left. */
+void tahr__around_drive(const tahr__step *step, tahr__around *a, vec3 wish, vec3 along, double time);
+
+/* The way of a piece of `time` seconds at that velocity. */
+vec3 tahr__around_way(const tahr__around *a, vec3 along, double time);
 
 /* s of a piece that the next turn leaves of `time`. */
 static inline double tahr__around_piece(const tahr__around *a, double time)

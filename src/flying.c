@@ -73,11 +73,12 @@ static tahr__motion stepped(const tahr__step *step, const tahr__law *law, vec3 v
 static void look_around(const tahr__step *step, tahr__glide *g, const tahr__law *law, vec3 v)
 {
     double glimpse = TAHR__GLIMPSE * g->left;
-    vec3 freely = scale(step->input->drive, glimpse);
-    if (!holds_drive(step)) {
-        const tahr__law open = law_of(step, NULL);
-        freely = tahr__law_advance(&open, v, glimpse).displacement;
+    if (holds_drive(step)) {
+        tahr__around_drive(step, &g->around, step->input->drive, v, g->left);
+        return;
     }
+    const tahr__law open = law_of(step, NULL);
+    vec3 freely = tahr__law_advance(&open, v, glimpse).displacement;
     vec3 along = tahr__glide_bend(g, tahr__law_advance(law, v, g->left).displacement);
     tahr__around_start(step, &g->around, along, freely, g->left);
 }
@@ -95,7 +96,7 @@ static int fly_piece(tahr__step *step, tahr__glide *g)
     }
     double piece = tahr__glide_piece(step, g, bending(&law, v)), used = piece;
     tahr__motion m = steps ? stepped(step, &law, v, piece) : tahr__law_advance(&law, v, piece);
-    vec3 way = tahr__glide_bend(g, m.displacement);
+    vec3 way = tahr__glide_bend(g, driven ? tahr__around_way(&g->around, v, piece) : m.displacement);
     step->state.velocity = m.velocity;
     if (length_squared(way) == 0) {
         tahr__glide_use(step, g, piece);
@@ -110,7 +111,7 @@ static int fly_piece(tahr__step *step, tahr__glide *g)
     }
     step->just_teleported |= (uint32_t)tahr__move(step, way, &hit);
     if (hit.blocking) {
-        used = steps ? piece * hit.fraction : time_of_part(&law, v, piece, way, hit.fraction);
+        used = steps || driven ? piece * hit.fraction : time_of_part(&law, v, piece, way, hit.fraction);
         step->state.velocity = steps ? m.velocity : tahr__law_advance(&law, v, used).velocity;
     } else if (m.stop_time >= 0) {
         step->ahead = m.stop_time;
