@@ -82,10 +82,6 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
     if (step->config->path_tolerance == 0 || !is_ball || a->is_flat || a->done >= TAHR__MOST_TURNS) {
         return;
     }
-    if (again && dot(hit->normal, a->normal) < 1 - 0.5 * ALIGNED) { /* it was turned, the thing was not */
-        a->is_flat = 1;
-        return;
-    }
     double more = roundness(step, hit, &axis);
     if (more < 0) {
         return;
@@ -103,6 +99,10 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
         normal = reject(normal, held);
         radius *= length(normal);
         normal = unit(normal);
+    }
+    if (again && dot(normal, a->normal) < 1 - 0.5 * ALIGNED) { /* the plane was turned, the thing was not */
+        a->is_flat = 1;
+        return;
     }
     a->pivot = add_scaled(step->state.position, normal, -radius);
     a->axis = axis;
@@ -136,7 +136,8 @@ static void cut(const tahr__step *step, tahr__around *a, double way, double time
 void tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec3 freely, double time)
 {
     double way = length(across(a, along));
-    a->turns = is_pressed(a, along, freely) && way > SHORT * a->radius;
+    int goes_on = a->turns || a->is_round;
+    a->turns = goes_on && is_pressed(a, along, freely) && way > SHORT * a->radius;
     a->reach = 0;
     if (a->turns && a->is_round) {
         cut(step, a, way, time);
@@ -168,9 +169,10 @@ void tahr__around_drive(const tahr__step *step, tahr__around *a, vec3 wish, vec3
         tahr__around_start(step, a, scale(along, time), scale(wish, TAHR__GLIMPSE * time), time);
         return;
     }
+    int goes_on = a->turns || a->is_round;
     double half = tangent / (speed + into), whole = time;
     double way = 2 * a->radius * tangent_of_turn(half, speed * time / a->radius, &whole);
-    a->turns = into > 0 && way > SHORT * a->radius;
+    a->turns = goes_on && into > 0 && way > SHORT * a->radius;
     if (a->turns && a->is_round) {
         cut(step, a, way, time);
     }

@@ -36,6 +36,12 @@ static inline void tahr__around_begin(tahr__around *a)
     a->is_round = a->turns = a->done = a->is_flat = 0;
 }
 
+/* It is left behind. */
+static inline void tahr__around_leave(tahr__around *a)
+{
+    a->is_round = a->turns = 0;
+}
+
 /* Looks at what was met at the character's place: an edge, or a round body. level: 1: of a character that stays at its
  * height, which goes around what is upright or a ball. No query. */
 void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, tahr__around *a);

@@ -12,10 +12,11 @@
 static const double HOVERS = 1e-3;
 
 /* Is the drive the velocity all the time? Every wall then takes its part of the drive itself, as in walking: of what the
- * wall before left, a gutter whose walls lean to each other would leave less and less. */
+ * wall before left, a gutter whose walls lean to each other would leave less and less. path_tolerance 0 is a flight
+ * whose bends are the coarse ones. */
 static int holds_drive(const tahr__step *step)
 {
-    return is_driven(step) && !(step->input->flags & TAHR_INPUT_DRIVE_LEVEL) &&
+    return step->config->path_tolerance > 0 && is_driven(step) && !(step->input->flags & TAHR_INPUT_DRIVE_LEVEL) &&
            step->config->integrator == TAHR_INTEGRATOR_EXACT;
 }
 

@@ -17,28 +17,28 @@
 
 /* The velocity asked for, and how it is approached. Along walls what they leave of it is asked for: pushing slantwise
  * into a wall is walking along it at the wish's part along it, at every rate. */
-static inline void set_law(tahr__path *w, const tahr__step *step)
+static inline tahr__law law_along(const tahr__step *step, const tahr__plane *walls, uint32_t count)
 {
     const tahr_config *c = step->config;
     if (c->integrator == TAHR_INTEGRATOR_STEPPED) { /* the slice began with its velocity */
-        w->law = tahr__constant_law();
-        return;
+        return tahr__constant_law();
     }
     vec3 wish = step_level(step, step->input->move);
     double size = length(wish);
     double asked = step->limits->speed * min_of(size, 1);
     double kept = 1; /* cosine to the wall: of the speed and of the acceleration */
-    if (w->wall_count > 0 && size > 0) {
-        wish = tahr__bend(w->walls, w->wall_count, wish);
+    if (count > 0 && size > 0) {
+        wish = tahr__bend(walls, count, wish);
         kept = length(wish) / size;
         size *= kept;
     }
-    w->law.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0);
-    w->law.speed = asked * kept;
-    w->law.acceleration = c->acceleration * kept;
-    w->law.turn_friction = c->turn_friction;
-    w->law.braking = c->braking_deceleration;
-    w->law.drag = c->braking_drag;
+    tahr__law law = {.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0),
+                     .speed = asked * kept,
+                     .acceleration = c->acceleration * kept,
+                     .turn_friction = c->turn_friction,
+                     .braking = c->braking_deceleration,
+                     .drag = c->braking_drag};
+    return law;
 }
 
 /* Ramps are not merged as walls are: two faces that differ by a hair both carry, and the steeper one decides. */
@@ -64,9 +64,10 @@ void tahr__path_carry_floor(tahr__path *w, const tahr__step *step)
 /* Begins a piece with the velocity that the walls leave. */
 static inline void begin_piece(tahr__step *step, tahr__path *w, vec3 velocity, double duration)
 {
-    set_law(w, step);
+    w->law = law_along(step, w->walls, w->wall_count);
     w->velocity = tahr__slide(w->walls, w->wall_count, velocity);
     w->duration = duration;
+    w->rest = 0;
     tahr__motion m = tahr__law_advance(&w->law, w->velocity, duration);
     w->wish = m.displacement;
     w->left = w->left_before = 1;
@@ -87,6 +88,7 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     w->careful = 0;
     w->ease = 0;
     w->drifts = 0;
+    tahr__around_begin(&w->around);
     tahr__path_carry_floor(w, step);
     w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
     begin_piece(step, w, step_level(step, step->state.velocity), duration);
@@ -118,7 +120,46 @@ double tahr__path_used(const tahr__path *w)
 static void end_piece(tahr__step *step, tahr__path *w, double used, vec3 velocity)
 {
     w->began += used;
-    begin_piece(step, w, velocity, w->duration - used);
+    begin_piece(step, w, velocity, w->duration + w->rest - used);
+}
+
+/* Around something that was met the piece, just begun, ends where the wall is turned. */
+static void go_around(tahr__step *step, tahr__path *w)
+{
+    tahr__around *a = &w->around;
+    double time = w->duration, glimpse = TAHR__GLIMPSE * time;
+    if (w->drifts) {
+        tahr__around_leave(a);
+        return;
+    }
+    if (is_driven(step)) {
+        tahr__around_drive(step, a, step_level(step, step->input->drive), w->velocity, time);
+    } else {
+        const tahr__law open = law_along(step, NULL, 0);
+        tahr__around_start(step, a, w->wish, tahr__law_advance(&open, w->velocity, glimpse).displacement, time);
+    }
+    w->duration = tahr__around_piece(a, time);
+    w->rest = time - w->duration;
+    if (is_driven(step)) {
+        w->wish = tahr__around_way(a, w->velocity, w->duration);
+    } else if (w->rest > 0) {
+        tahr__motion m = tahr__law_advance(&w->law, w->velocity, w->duration);
+        w->wish = m.displacement;
+        step->state.velocity = m.velocity;
+        w->stop_time = m.stop_time >= 0 ? w->began + m.stop_time : -1;
+    }
+}
+
+/* The piece is gone along; another one follows. */
+static void turn(tahr__step *step, tahr__path *w)
+{
+    tahr__plane wall;
+    vec3 velocity = step->state.velocity;
+    if (tahr__around_use(&w->around, w->duration) && tahr__around_turn(step, &w->around, &wall, &velocity)) {
+        tahr__planes_add(w->walls, &w->wall_count, &wall);
+    }
+    end_piece(step, w, w->duration, velocity);
+    go_around(step, w);
 }
 
 void tahr__path_bend(tahr__step *step, tahr__path *w)
@@ -225,6 +266,7 @@ static int take_step(tahr__step *step, tahr__path *w, vec3 level, const tahr_hit
         return 0;
     }
     w->left *= 1 - covered * stride;
+    tahr__around_leave(&w->around);
     w->wall_count = 0; /* what stood beside the foot below need not stand here */
     tahr__path_carry_floor(w, step);
     w->from = step->state.position;
@@ -261,7 +303,11 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit, doubl
     if (!add_wall(step, w, hit)) {
         return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");
     }
+    tahr__around_meet(step, hit, 1, &w->around);
     end_piece(step, w, used, velocity);
+    if (w->around.is_round) {
+        go_around(step, w);
+    }
     return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(hit->normal, step->state.up), 0, "slides along");
 }
 
@@ -315,7 +361,7 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
 {
     tahr_hit hit;
     w->lost = 0;
-    for (uint32_t i = 0; i < step->config->max_slides && w->left > 0 && step->error >= 0; i++) {
+    for (uint32_t i = 0; i < step->config->max_slides + w->around.done && w->left > 0 && step->error >= 0; i++) {
         vec3 level = tahr__slide(w->walls, w->wall_count, scale(w->wish, w->left));
         if (length_squared(level) == 0) {
             return;
@@ -327,6 +373,13 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         w->left *= hit.blocking ? 1 - hit.fraction : 0;
         if (step->trail) {
             leave_trail(step, w);
+        }
+        if (!hit.blocking && w->rest > 0) {
+            if (w->careful && !stands_here(step)) {
+                return;
+            }
+            turn(step, w);
+            continue;
         }
         if (!hit.blocking) {
             return;
@@ -354,5 +407,5 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
             return;
         }
     }
-    w->lost = w->duration - tahr__path_used(w);
+    w->lost = w->duration + w->rest - tahr__path_used(w);
 }

@@ -3,6 +3,7 @@
 #ifndef TAHR_PATH_H
 #define TAHR_PATH_H
 
+#include "around.h"
 #include "trail.h"
 
 /* Where a slice is: the piece of it that is under way, and what has been met. A piece is one closed-form motion; a wall
@@ -12,6 +13,7 @@ typedef struct tahr__path {
     vec3 velocity;    /* at the begin of the piece */
     double began;     /* s from the begin of the slice */
     double duration;  /* s of the piece, if nothing ends it */
+    double rest;      /* s of the slice after it: 0 unless it goes around something */
     vec3 wish;        /* level displacement of the whole piece */
     double left;      /* part of it not yet covered */
     double stop_time; /* s from the begin of the slice at which the character stops; < 0: it does not */
@@ -30,6 +32,7 @@ typedef struct tahr__path {
     vec3 given;                /* the state's velocity then */
     uint32_t drifts;           /* 1: a drive comes on top of the velocity */
     vec3 drift;                /* m/s, with drifts: its level part */
+    tahr__around around;       /* what the last wall belongs to */
 } tahr__path;
 
 /* Starts a path of `duration` seconds at the state's position and velocity. No query. */
