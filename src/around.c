@@ -78,7 +78,7 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
     int is_ball = shape->type == TAHR_SHAPE_SPHERE || shape->type == TAHR_SHAPE_CAPSULE;
     vec3 axis, normal = hit->normal;
     int again = a->done > 0 && a->body == hit->body && a->feature == hit->feature;
-    a->is_round = a->turns = 0;
+    tahr__around_leave(a);
     if (step->config->path_tolerance == 0 || !is_ball || a->is_flat || a->done >= TAHR__MOST_TURNS) {
         return;
     }
@@ -87,18 +87,23 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
         return;
     }
     double radius = shape->radius + more + max_of(hit->distance, 0);
-    if (!level && is_side(step, normal)) {
-        axis = step->state.up;
-    }
-    if (level || is_in_plane(step)) { /* the circle in which its plane cuts the ball or the cylinder */
-        vec3 held = level ? step->state.up : step->limits->plane;
-        if ((level && is_in_plane(step)) || (length_squared(axis) > 0 && !is_along(axis, held))) {
+    if (is_side(step, normal)) {
+        if (level && length_squared(axis) > 0 && !is_along(axis, step->state.up)) {
             return;
         }
-        axis = held;
-        normal = reject(normal, held);
+        axis = step->state.up;
+    }
+    if (level && is_in_plane(step)) { /* on a line */
+        return;
+    }
+    if (level && length_squared(axis) == 0) { /* the circle at its height */
+        axis = step->state.up;
+        normal = step_level(step, normal);
         radius *= length(normal);
         normal = unit(normal);
+    }
+    if (is_in_plane(step) && length_squared(axis) > 0 && !is_along(axis, step->limits->plane)) {
+        return;
     }
     if (again && dot(normal, a->normal) < 1 - 0.5 * ALIGNED) { /* the plane was turned, the thing was not */
         a->is_flat = 1;
@@ -133,11 +138,11 @@ static void cut(const tahr__step *step, tahr__around *a, double way, double time
     a->rest = a->over = 0;
 }
 
-void tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec3 freely, double time)
+int tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec3 freely, double time)
 {
     double way = length(across(a, along));
-    int goes_on = a->turns || a->is_round;
-    a->turns = goes_on && is_pressed(a, along, freely) && way > SHORT * a->radius;
+    int goes_on = a->turns || a->is_round, pressed = is_pressed(a, along, freely);
+    a->turns = goes_on && pressed && way > SHORT * a->radius;
     a->reach = 0;
     if (a->turns && a->is_round) {
         cut(step, a, way, time);
@@ -145,6 +150,7 @@ void tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec
     a->next = a->rest + 0.5 * a->piece;
     a->rest = 0.5 * a->piece;
     a->is_round = 0;
+    return pressed;
 }
 
 /* Tangent of half the angle by which a constant wish that comes at half_tangent of the normal goes around in a time,

@@ -22,6 +22,8 @@ typedef struct tahr__around {
     uint32_t turns;    /* 1: and is: the plane is turned */
     uint32_t done;     /* turns in this slice */
     uint32_t is_flat;  /* 1: what looked round in this slice did not turn: no more of it */
+    uint32_t leaves;   /* 1: flies off along a curve: */
+    vec3 aside;        /* m: its second half, after half of the tangent */
 } tahr__around;
 
 /* Of the time of what lies ahead. */
@@ -33,13 +35,13 @@ enum { TAHR__MOST_TURNS = 16 };
 /* Nothing was met yet. */
 static inline void tahr__around_begin(tahr__around *a)
 {
-    a->is_round = a->turns = a->done = a->is_flat = 0;
+    a->is_round = a->turns = a->done = a->is_flat = a->leaves = 0;
 }
 
 /* It is left behind. */
 static inline void tahr__around_leave(tahr__around *a)
 {
-    a->is_round = a->turns = 0;
+    a->is_round = a->turns = a->leaves = 0;
 }
 
 /* Looks at what was met at the character's place: an edge, or a round body. level: 1: of a character that stays at its
@@ -47,8 +49,9 @@ static inline void tahr__around_leave(tahr__around *a)
 void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, tahr__around *a);
 
 /* What `time` seconds would bring: the way along the plane, and a glimpse of the one without it: in this part of the
- * time. Turns from here on if the character is pressed against what it met and the way is long enough to matter. */
-void tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec3 freely, double time);
+ * time. Turns from here on if the character is pressed against what it met and the way is long enough to matter.
+ * Returns 0 if it is not pressed: the free path leaves the circle. */
+int tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec3 freely, double time);
 
 /* The same of a constant velocity `wish`, of which the planes leave `along`: as far as it goes until the next turn is
  * then a closed form. time: s that are left. */

@@ -123,30 +123,61 @@ static void end_piece(tahr__step *step, tahr__path *w, double used, vec3 velocit
     begin_piece(step, w, velocity, w->duration + w->rest - used);
 }
 
+/* The piece, just begun, is only the first of the slice: so many seconds of it. */
+static void cut_piece(tahr__step *step, tahr__path *w, double time)
+{
+    tahr__motion m = tahr__law_advance(&w->law, w->velocity, time);
+    w->rest += w->duration - time;
+    w->duration = time;
+    w->wish = m.displacement;
+    step->state.velocity = m.velocity;
+    w->stop_time = m.stop_time >= 0 ? w->began + m.stop_time : -1;
+}
+
+/* Who is too fast to be held by what it pushes with leaves an edge along the curve of its law, and the curve leaves the
+ * edge, but not its chord, which would meet it again. The two tangents at its ends do: half of the way along the plane,
+ * then to where the curve ends; no further off it than path_tolerance. */
+static void fly_off(tahr__step *step, tahr__path *w, const tahr__law *open)
+{
+    tahr__around *a = &w->around;
+    vec3 d = tahr__law_advance(open, w->velocity, w->duration).displacement;
+    double off = -dot(a->normal, d), sagitta = 0.25 * off / step->config->path_tolerance;
+    if (w->wall_count != 1 || off <= 0) {
+        return;
+    }
+    double time = w->duration / (1 + (int)sqrt(min_of(sagitta, 1e4)));
+    d = tahr__law_advance(open, w->velocity, time).displacement;
+    vec3 along = scale(tahr__slide(w->walls, 1, d), 0.5);
+    w->wall_count = 0;
+    w->law = *open;
+    cut_piece(step, w, 0.5 * time);
+    w->wish = along;
+    a->aside = sub(d, along);
+    a->leaves = 1;
+    step->report.arcs++;
+}
+
 /* Around something that was met the piece, just begun, ends where the wall is turned. */
 static void go_around(tahr__step *step, tahr__path *w)
 {
     tahr__around *a = &w->around;
-    double time = w->duration, glimpse = TAHR__GLIMPSE * time;
-    if (w->drifts) {
+    double time = w->duration;
+    int held = a->is_round || a->turns;
+    if (w->drifts || !held) {
         tahr__around_leave(a);
-        return;
-    }
-    if (is_driven(step)) {
+    } else if (is_driven(step)) {
         tahr__around_drive(step, a, step_level(step, step->input->drive), w->velocity, time);
+        w->duration = tahr__around_piece(a, time);
+        w->rest = time - w->duration;
+        w->wish = tahr__around_way(a, w->velocity, w->duration);
     } else {
         const tahr__law open = law_along(step, NULL, 0);
-        tahr__around_start(step, a, w->wish, tahr__law_advance(&open, w->velocity, glimpse).displacement, time);
-    }
-    w->duration = tahr__around_piece(a, time);
-    w->rest = time - w->duration;
-    if (is_driven(step)) {
-        w->wish = tahr__around_way(a, w->velocity, w->duration);
-    } else if (w->rest > 0) {
-        tahr__motion m = tahr__law_advance(&w->law, w->velocity, w->duration);
-        w->wish = m.displacement;
-        step->state.velocity = m.velocity;
-        w->stop_time = m.stop_time >= 0 ? w->began + m.stop_time : -1;
+        vec3 freely = tahr__law_advance(&open, w->velocity, TAHR__GLIMPSE * time).displacement;
+        if (tahr__around_start(step, a, w->wish, freely, time)) {
+            cut_piece(step, w, tahr__around_piece(a, time));
+        } else {
+            fly_off(step, w, &open);
+        }
     }
 }
 
@@ -154,8 +185,18 @@ static void go_around(tahr__step *step, tahr__path *w)
 static void turn(tahr__step *step, tahr__path *w)
 {
     tahr__plane wall;
+    tahr__around *a = &w->around;
     vec3 velocity = step->state.velocity;
-    if (tahr__around_use(&w->around, w->duration) && tahr__around_turn(step, &w->around, &wall, &velocity)) {
+    if (a->leaves) {
+        double time = w->duration;
+        end_piece(step, w, time, velocity);
+        cut_piece(step, w, min_of(time, w->duration));
+        w->wish = a->aside;
+        tahr__around_leave(a);
+        return;
+    }
+    if (tahr__around_use(a, w->duration) && tahr__around_turn(step, a, &wall, &velocity)) {
+        wall.normal = unit(step_level(step, wall.normal));
         tahr__planes_add(w->walls, &w->wall_count, &wall);
     }
     end_piece(step, w, w->duration, velocity);
