@@ -123,11 +123,15 @@ static vec3 across(const tahr__around *a, vec3 v)
     return length_squared(a->axis) > 0 ? reject(v, a->axis) : v;
 }
 
-/* A free path that falls below the plane less than the circle does leaves it. */
-static int is_pressed(const tahr__around *a, vec3 along, vec3 freely)
+/* A free path that bends less than the circle leaves it. What rises off the plane by the rounding of the chords before,
+ * and is back within the time, does not. */
+static int is_pressed(const tahr__around *a, const tahr__ahead *ahead)
 {
     const double part = TAHR__GLIMPSE;
-    return -dot(a->normal, freely) * 2 * a->radius >= length_squared(across(a, along)) * (part * part);
+    double lift = dot(a->normal, ahead->velocity) * (part * ahead->time);
+    double fall = lift - dot(a->normal, ahead->freely);
+    double way2 = length_squared(across(a, ahead->along)) * (part * part);
+    return fall * 2 * a->radius >= way2 && lift * part <= fall;
 }
 
 /* Cuts `time` into pieces, of a way of so many metres. */
@@ -138,14 +142,14 @@ static void cut(const tahr__step *step, tahr__around *a, double way, double time
     a->rest = a->over = 0;
 }
 
-int tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec3 freely, double time)
+int tahr__around_start(const tahr__step *step, tahr__around *a, const tahr__ahead *ahead)
 {
-    double way = length(across(a, along));
-    int goes_on = a->turns || a->is_round, pressed = is_pressed(a, along, freely);
+    double way = length(across(a, ahead->along));
+    int goes_on = a->turns || a->is_round, pressed = is_pressed(a, ahead);
     a->turns = goes_on && pressed && way > SHORT * a->radius;
     a->reach = 0;
     if (a->turns && a->is_round) {
-        cut(step, a, way, time);
+        cut(step, a, way, ahead->time);
     }
     a->next = a->rest + 0.5 * a->piece;
     a->rest = 0.5 * a->piece;
@@ -172,7 +176,7 @@ void tahr__around_drive(const tahr__step *step, tahr__around *a, vec3 wish, vec3
     double speed = length(u), into = -dot(a->normal, u), tangent = length(across(a, along));
     double exact = sqrt(max_of(speed * speed - into * into, 0));
     if (tangent < exact * (1 - ALIGNED) || tangent > exact * (1 + ALIGNED)) { /* something else bends it too */
-        tahr__around_start(step, a, scale(along, time), scale(wish, TAHR__GLIMPSE * time), time);
+        tahr__around_start(step, a, &(tahr__ahead){along, scale(along, time), scale(wish, TAHR__GLIMPSE * time), time});
         return;
     }
     int goes_on = a->turns || a->is_round;

@@ -48,10 +48,23 @@ static inline void tahr__around_leave(tahr__around *a)
  * height, which goes around what is upright or a ball. No query. */
 void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, tahr__around *a);
 
-/* What `time` seconds would bring: the way along the plane, and a glimpse of the one without it: in this part of the
- * time. Turns from here on if the character is pressed against what it met and the way is long enough to matter.
- * Returns 0 if it is not pressed: the free path leaves the circle. */
-int tahr__around_start(const tahr__step *step, tahr__around *a, vec3 along, vec3 freely, double time);
+/* What lies ahead. */
+typedef struct tahr__ahead {
+    vec3 velocity; /* m/s, now, */
+    vec3 along;    /* m: the way along the plane, in `time`, */
+    vec3 freely;   /* and a glimpse of the one without it: in TAHR__GLIMPSE of it */
+    double time;   /* s */
+} tahr__ahead;
+
+/* Turns from here on if the character is pressed against what it met and the way is long enough to matter. Returns 0 if
+ * it is not pressed: the free path leaves the circle. */
+int tahr__around_start(const tahr__step *step, tahr__around *a, const tahr__ahead *ahead);
+
+/* The velocity of who is held by what it goes around: none off it. */
+static inline vec3 tahr__around_hold(const tahr__around *a, vec3 normal, vec3 velocity)
+{
+    return a->turns ? reject(velocity, normal) : velocity;
+}
 
 /* The same of a constant velocity `wish`, of which the planes leave `along`: as far as it goes until the next turn is
  * then a closed form. time: s that are left. */

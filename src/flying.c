@@ -70,18 +70,19 @@ static tahr__motion stepped(const tahr__step *step, const tahr__law *law, vec3 v
     return m;
 }
 
-/* An edge or something round that was met: whether it is gone around. */
-static void look_around(const tahr__step *step, tahr__glide *g, const tahr__law *law, vec3 v)
+/* An edge or something round that was met: whether it is gone around. Returns the velocity that is left. */
+static vec3 look_around(const tahr__step *step, tahr__glide *g, const tahr__law *law, vec3 v)
 {
     double glimpse = TAHR__GLIMPSE * g->left;
     if (holds_drive(step)) {
         tahr__around_drive(step, &g->around, step->input->drive, v, g->left);
-        return;
+        return v;
     }
     const tahr__law open = law_of(step, NULL);
     vec3 freely = tahr__law_advance(&open, v, glimpse).displacement;
     vec3 along = tahr__glide_bend(g, tahr__law_advance(law, v, g->left).displacement);
-    tahr__around_start(step, &g->around, along, freely, g->left);
+    tahr__around_start(step, &g->around, &(tahr__ahead){v, along, freely, g->left});
+    return tahr__around_hold(&g->around, g->around.normal, v);
 }
 
 /* One piece of the slice. Returns 0 if nothing can go on from where it ended. */
@@ -93,7 +94,7 @@ static int fly_piece(tahr__step *step, tahr__glide *g)
     vec3 v = tahr__glide_bend(g, driven ? step->input->drive : step->state.velocity);
     tahr__law law = driven ? drive_law(v) : law_of(step, g);
     if (g->around.is_round || g->around.turns) {
-        look_around(step, g, &law, v);
+        v = look_around(step, g, &law, v);
     }
     double piece = tahr__glide_piece(step, g, bending(&law, v)), used = piece;
     tahr__motion m = steps ? stepped(step, &law, v, piece) : tahr__law_advance(&law, v, piece);
