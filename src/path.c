@@ -198,6 +198,7 @@ static void turn(tahr__step *step, tahr__path *w)
     }
     if (tahr__around_use(a, w->duration) && tahr__around_turn(step, a, &wall, &velocity)) {
         wall.normal = unit(step_level(step, wall.normal));
+        velocity = scale(unit(step_level(step, velocity)), length(step->state.velocity));
         tahr__planes_add(w->walls, &w->wall_count, &wall);
     }
     end_piece(step, w, w->duration, velocity);
