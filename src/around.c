@@ -77,9 +77,9 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
     const tahr_shape *shape = &step->limits->shape;
     int is_ball = shape->type == TAHR_SHAPE_SPHERE || shape->type == TAHR_SHAPE_CAPSULE;
     vec3 axis, normal = hit->normal;
-    int again = a->done > 0 && a->body == hit->body && a->feature == hit->feature;
+    int again = a->body == hit->body && a->feature == hit->feature;
     tahr__around_leave(a);
-    if (step->config->path_tolerance == 0 || !is_ball || a->is_flat || a->done >= TAHR__MOST_TURNS) {
+    if (step->config->path_tolerance == 0 || !is_ball || a->is_over || a->done >= TAHR__MOST_TURNS) {
         return;
     }
     double more = roundness(step, hit, &axis);
@@ -105,8 +105,10 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
     if (is_in_plane(step) && length_squared(axis) > 0 && !is_along(axis, step->limits->plane)) {
         return;
     }
-    if (again && dot(normal, a->normal) < 1 - 0.5 * ALIGNED) { /* the plane was turned, the thing was not */
-        a->is_flat = 1;
+    /* The plane was turned or left, and the thing was not; or another one is in the way: between two edges going around
+     * one would lead into the other, and back. */
+    if (a->done > 0 && (!again || dot(normal, a->normal) < 1 - 0.5 * ALIGNED)) {
+        a->is_over = 1;
         return;
     }
     a->pivot = add_scaled(step->state.position, normal, -radius);

@@ -21,7 +21,7 @@ typedef struct tahr__around {
     uint32_t is_round; /* 1: what was met last can be gone around */
     uint32_t turns;    /* 1: and is: the plane is turned */
     uint32_t done;     /* turns in this slice */
-    uint32_t is_flat;  /* 1: what looked round in this slice did not turn: no more of it */
+    uint32_t is_over;  /* 1: no more of it in this slice */
     uint32_t leaves;   /* 1: flies off along a curve: */
     vec3 aside;        /* m: its second half, after half of the tangent */
 } tahr__around;
@@ -35,7 +35,7 @@ enum { TAHR__MOST_TURNS = 16 };
 /* Nothing was met yet. */
 static inline void tahr__around_begin(tahr__around *a)
 {
-    a->is_round = a->turns = a->done = a->is_flat = a->leaves = 0;
+    a->is_round = a->turns = a->done = a->is_over = a->leaves = 0;
 }
 
 /* It is left behind. */

@@ -154,6 +154,7 @@ static void fly_off(tahr__step *step, tahr__path *w, const tahr__law *open)
     w->wish = along;
     a->aside = sub(d, along);
     a->leaves = 1;
+    a->done++;
     step->report.arcs++;
 }
 
