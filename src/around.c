@@ -77,7 +77,7 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
     const tahr_shape *shape = &step->limits->shape;
     int is_ball = shape->type == TAHR_SHAPE_SPHERE || shape->type == TAHR_SHAPE_CAPSULE;
     vec3 axis, normal = hit->normal;
-    int again = a->body == hit->body && a->feature == hit->feature;
+    int again = a->body == hit->body && a->feature == hit->feature, before = a->done > 0 || a->turns;
     tahr__around_leave(a);
     if (step->config->path_tolerance == 0 || !is_ball || a->is_over || a->done >= TAHR__MOST_TURNS) {
         return;
@@ -107,7 +107,7 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
     }
     /* The plane was turned or left, and the thing was not; or another one is in the way: between two edges going around
      * one would lead into the other, and back. */
-    if (a->done > 0 && (!again || dot(normal, a->normal) < 1 - 0.5 * ALIGNED)) {
+    if (before && (!again || dot(normal, a->normal) < 1 - 0.5 * ALIGNED)) {
         a->is_over = 1;
         return;
     }

@@ -311,6 +311,7 @@ static int take_step(tahr__step *step, tahr__path *w, vec3 level, const tahr_hit
     }
     w->left *= 1 - covered * stride;
     tahr__around_leave(&w->around);
+    w->around.is_over = 1;
     w->wall_count = 0; /* what stood beside the foot below need not stand here */
     tahr__path_carry_floor(w, step);
     w->from = step->state.position;
@@ -401,11 +402,23 @@ static void open_late(tahr__step *step, tahr__path *w)
     w->scope->velocity = w->given;
 }
 
+/* Each turn goes along two more lines. */
+static int is_under_way(const tahr__step *step, const tahr__path *w, uint32_t sweeps)
+{
+    return sweeps < step->config->max_slides + 2 * w->around.done && (w->left > 0 || w->rest > 0) && step->error >= 0;
+}
+
 void tahr__path_walk(tahr__step *step, tahr__path *w)
 {
     tahr_hit hit;
     w->lost = 0;
-    for (uint32_t i = 0; i < step->config->max_slides + w->around.done && w->left > 0 && step->error >= 0; i++) {
+    for (uint32_t i = 0; is_under_way(step, w, i); i++) {
+        if (w->left <= 0) {
+            if (w->careful && !stands_here(step)) {
+                return;
+            }
+            turn(step, w);
+        }
         vec3 level = tahr__slide(w->walls, w->wall_count, scale(w->wish, w->left));
         if (length_squared(level) == 0) {
             return;
@@ -418,15 +431,11 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         if (step->trail) {
             leave_trail(step, w);
         }
-        if (!hit.blocking && w->rest > 0) {
-            if (w->careful && !stands_here(step)) {
-                return;
-            }
-            turn(step, w);
-            continue;
+        if (!hit.blocking && w->rest <= 0) {
+            return;
         }
         if (!hit.blocking) {
-            return;
+            continue;
         }
         if (hit.unknown || hit.start_overlap) {
             break;

@@ -42,7 +42,7 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration);
 void tahr__path_find_slope(tahr__path *w, tahr__step *step);
 
 /* Goes along the path until its end, or until nothing of it is left. At most max_slides sweeps, and what the steps in
- * the way ask. */
+ * the way ask; two more for each turn around something (report.arcs). */
 void tahr__path_walk(tahr__step *step, tahr__path *w);
 
 /* The last straight piece of the way went only a part of it, to where the character is now. No query. */
