@@ -72,6 +72,19 @@ static int is_side(const tahr__step *step, vec3 normal)
     return shape->half_height > shape->radius && lean < ALIGNED && lean > -ALIGNED;
 }
 
+/* A plane that was turned is where the thing should be. Beside what is really there it would hold the character by a
+ * hair of an angle. */
+void tahr__around_hit(const tahr__around *a, tahr__plane *planes, uint32_t *count)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; a->done > 0 && i < *count; i++) {
+        if (planes[i].body != a->body || planes[i].feature != a->feature) {
+            planes[kept++] = planes[i];
+        }
+    }
+    *count = a->done > 0 ? kept : *count;
+}
+
 void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, tahr__around *a)
 {
     const tahr_shape *shape = &step->limits->shape;

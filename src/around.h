@@ -44,6 +44,9 @@ static inline void tahr__around_leave(tahr__around *a)
     a->is_round = a->turns = a->leaves = 0;
 }
 
+/* Something was met: of the planes that one goes which was turned. No query. */
+void tahr__around_hit(const tahr__around *a, tahr__plane *planes, uint32_t *count);
+
 /* Looks at what was met at the character's place: an edge, or a round body. level: 1: of a character that stays at its
  * height, which goes around what is upright or a ball. No query. */
 void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, tahr__around *a);

@@ -135,6 +135,7 @@ int tahr__glide_meet(tahr__step *step, tahr__glide *g, const tahr_hit *hit)
     g->hits++;
     tahr__plane plane = tahr__plane_of(step, hit);
     tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(step->state.velocity, hit->normal), 0));
+    tahr__around_hit(&g->around, g->planes, &g->plane_count);
     tahr__planes_add(g->planes, &g->plane_count, &plane);
     tahr__around_meet(step, hit, 0, &g->around);
     step->state.velocity = tahr__glide_bend(g, step->state.velocity);

@@ -345,6 +345,7 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit, doubl
     vec3 whole = w->drifts ? add(velocity, w->drift) : velocity;
     tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(whole, hit->normal), 0));
     step->report.slides++;
+    tahr__around_hit(&w->around, w->walls, &w->wall_count);
     if (!add_wall(step, w, hit)) {
         return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");
     }
