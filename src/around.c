@@ -26,8 +26,11 @@ static const double ON_FACE = 1e-4;
 /* Of two directions: parallel or across, but for rounding. */
 static const double ALIGNED = 1e-6;
 
-/* Of the radius: a way of less is off by half a thousandth of itself at most if it stays straight. */
-static const double SHORT = 1e-3;
+/* Of a round body's side: what the normals of backends lean by. */
+static const double UPRIGHT = 1e-3;
+
+/* Of the radius: a way of less is off by half a ten-thousandth of itself at most if it stays straight. */
+static const double SHORT = 1e-4;
 
 static int is_along(vec3 a, vec3 b)
 {
@@ -40,7 +43,7 @@ static int axis_of_body(const tahr__body_note *note, vec3 normal, vec3 *axis)
 {
     *axis = rotate(note->pose.orientation, vec(0, 0, 1));
     double lean = dot(normal, *axis);
-    return note->straight > 0 && lean < ALIGNED && lean > -ALIGNED;
+    return note->straight > 0 && lean < UPRIGHT && lean > -UPRIGHT;
 }
 
 /* m that the thing met adds to the radius; < 0: it is not round. An edge lies across its own contact and face. */
@@ -100,6 +103,7 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
         return;
     }
     double radius = shape->radius + more + max_of(hit->distance, 0);
+    normal = length_squared(axis) > 0 ? unit(reject(normal, axis)) : normal;
     if (is_side(step, normal)) {
         if (level && length_squared(axis) > 0 && !is_along(axis, step->state.up)) {
             return;
@@ -157,6 +161,11 @@ static void cut(const tahr__step *step, tahr__around *a, double way, double time
     a->rest = a->over = 0;
 }
 
+double tahr__around_longest(const tahr__law *law, double speed, double time)
+{
+    return min_of(max_of(speed, law->speed), speed + law->acceleration * time) * time;
+}
+
 int tahr__around_start(const tahr__step *step, tahr__around *a, const tahr__ahead *ahead)
 {
     double way = length(across(a, ahead->along));
@@ -164,7 +173,7 @@ int tahr__around_start(const tahr__step *step, tahr__around *a, const tahr__ahea
     a->turns = goes_on && pressed && way > SHORT * a->radius;
     a->reach = 0;
     if (a->turns && a->is_round) {
-        cut(step, a, way, ahead->time);
+        cut(step, a, ahead->longest, ahead->time);
     }
     a->next = a->rest + 0.5 * a->piece;
     a->rest = 0.5 * a->piece;
@@ -191,7 +200,7 @@ void tahr__around_drive(const tahr__step *step, tahr__around *a, vec3 wish, vec3
     double speed = length(u), into = -dot(a->normal, u), tangent = length(across(a, along));
     double exact = sqrt(max_of(speed * speed - into * into, 0));
     if (tangent < exact * (1 - ALIGNED) || tangent > exact * (1 + ALIGNED)) { /* something else bends it too */
-        tahr__around_start(step, a, &(tahr__ahead){along, scale(along, time), scale(wish, TAHR__GLIMPSE * time), time});
+        tahr__around_start(step, a, &(tahr__ahead){along, scale(along, time), scale(wish, TAHR__GLIMPSE * time), speed * time, time});
         return;
     }
     int goes_on = a->turns || a->is_round;

@@ -56,8 +56,13 @@ typedef struct tahr__ahead {
     vec3 velocity; /* m/s, now, */
     vec3 along;    /* m: the way along the plane, in `time`, */
     vec3 freely;   /* and a glimpse of the one without it: in TAHR__GLIMPSE of it */
-    double time;   /* s */
+    double longest; /* m: no way along the thing is longer */
+    double time;    /* s */
 } tahr__ahead;
+
+/* m: the way in a time at the fastest that this law leads to from a speed. Pieces of one duration are then none of them
+ * too long. */
+double tahr__around_longest(const tahr__law *law, double speed, double time);
 
 /* Turns from here on if the character is pressed against what it met and the way is long enough to matter. Returns 0 if
  * it is not pressed: the free path leaves the circle. */

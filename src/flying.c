@@ -81,7 +81,8 @@ static vec3 look_around(const tahr__step *step, tahr__glide *g, const tahr__law 
     const tahr__law open = law_of(step, NULL);
     vec3 freely = tahr__law_advance(&open, v, glimpse).displacement;
     vec3 along = tahr__glide_bend(g, tahr__law_advance(law, v, g->left).displacement);
-    tahr__around_start(step, &g->around, &(tahr__ahead){v, along, freely, g->left});
+    double longest = tahr__around_longest(&open, length(v), g->left);
+    tahr__around_start(step, &g->around, &(tahr__ahead){v, along, freely, longest, g->left});
     return tahr__around_hold(&g->around, g->around.normal, v);
 }
 

@@ -174,7 +174,8 @@ static void go_around(tahr__step *step, tahr__path *w)
     } else {
         const tahr__law open = law_along(step, NULL, 0);
         vec3 freely = tahr__law_advance(&open, w->velocity, TAHR__GLIMPSE * time).displacement;
-        if (tahr__around_start(step, a, &(tahr__ahead){w->velocity, w->wish, freely, time})) {
+        double longest = tahr__around_longest(&open, length(w->velocity), time);
+        if (tahr__around_start(step, a, &(tahr__ahead){w->velocity, w->wish, freely, longest, time})) {
             w->velocity = tahr__around_hold(a, unit(step_level(step, a->normal)), w->velocity);
             cut_piece(step, w, tahr__around_piece(a, time));
         } else {
