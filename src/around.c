@@ -218,6 +218,8 @@ void tahr__around_drive(const tahr__step *step, tahr__around *a, vec3 wish, vec3
     double piece = a->piece;
     double over = a->radius * tangent_of_turn(half, speed * piece / a->radius, &piece);
     int last = time <= a->rest * (1 + ALIGNED);
+    a->rested = a->rest;
+    a->passed = a->over;
     a->next = a->rest + (last ? 0 : 0.5 * piece);
     a->reach = a->over + (last ? 0 : over);
     a->rest = 0.5 * piece;
@@ -232,6 +234,19 @@ vec3 tahr__around_way(const tahr__around *a, vec3 along, double time)
         return scale(along, time);
     }
     return add_scaled(scale(along, time), level, (a->reach / (a->next * size) - 1) * time);
+}
+
+/* Slower before the circle is touched than after it. */
+double tahr__around_time(const tahr__around *a, double time, double part)
+{
+    double way = part * a->reach;
+    if (!a->turns || a->reach == 0) {
+        return part * time;
+    }
+    if (way <= a->passed) {
+        return a->passed > 0 ? a->rested * way / a->passed : 0;
+    }
+    return a->rested + (time - a->rested) * (way - a->passed) / (a->reach - a->passed);
 }
 
 int tahr__around_use(tahr__around *a, double time)

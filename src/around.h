@@ -17,6 +17,8 @@ typedef struct tahr__around {
     double rest;   /* s from a turn to where the circle is touched again, */
     double over;   /* and m along the tangent, of a constant velocity */
     double reach;  /* m across the axis until the next turn, of a constant velocity; 0: as the law says */
+    double rested; /* s and m of rest and over that are in this piece: where it touches the circle */
+    double passed;
     uint32_t body, feature;
     uint32_t is_round; /* 1: what was met last can be gone around */
     uint32_t turns;    /* 1: and is: the plane is turned */
@@ -78,8 +80,9 @@ static inline vec3 tahr__around_hold(const tahr__around *a, vec3 normal, vec3 ve
  * then a closed form. time: s that are left. */
 void tahr__around_drive(const tahr__step *step, tahr__around *a, vec3 wish, vec3 along, double time);
 
-/* The way of a piece of `time` seconds at that velocity. */
+/* The way of a piece of `time` seconds at that velocity, and when a part of it was covered. */
 vec3 tahr__around_way(const tahr__around *a, vec3 along, double time);
+double tahr__around_time(const tahr__around *a, double time, double part);
 
 /* s of a piece that the next turn leaves of `time`. */
 static inline double tahr__around_piece(const tahr__around *a, double time)

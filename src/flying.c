@@ -114,7 +114,9 @@ static int fly_piece(tahr__step *step, tahr__glide *g)
     }
     step->just_teleported |= (uint32_t)tahr__move(step, way, &hit);
     if (hit.blocking) {
-        used = steps || driven ? piece * hit.fraction : time_of_part(&law, v, piece, way, hit.fraction);
+        used = driven  ? tahr__around_time(&g->around, piece, hit.fraction)
+               : steps ? piece * hit.fraction
+                       : time_of_part(&law, v, piece, way, hit.fraction);
         step->state.velocity = steps ? m.velocity : tahr__law_advance(&law, v, used).velocity;
     } else if (m.stop_time >= 0) {
         step->ahead = m.stop_time;

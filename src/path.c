@@ -102,6 +102,9 @@ static double time_of_part(const tahr__path *w, double part)
     if (part <= 0 || part >= 1 || size2 == 0) {
         return part <= 0 ? 0 : w->duration;
     }
+    if (w->around.turns && w->around.reach > 0) {
+        return tahr__around_time(&w->around, w->duration, part);
+    }
     if (w->drifts) {
         return tahr__drift_time(&w->law, w->velocity, w->drift, w->duration, w->wish, part);
     }
