@@ -29,6 +29,9 @@ static const double ALIGNED = 1e-6;
 /* Of a round body's side: what the normals of backends lean by. */
 static const double UPRIGHT = 1e-3;
 
+/* Cosine between where a plane was turned to and where it is: a thousandth of a radian. */
+static const double TURNED = 1 - 0.5e-6;
+
 /* Of the radius: a way of less is off by half a ten-thousandth of itself at most if it stays straight. */
 static const double SHORT = 1e-4;
 
@@ -49,14 +52,14 @@ static int axis_of_body(const tahr__body_note *note, vec3 normal, vec3 *axis)
 /* m that the thing met adds to the radius; < 0: it is not round. An edge lies across its own contact and face. */
 static double roundness(const tahr__step *step, const tahr_hit *hit, vec3 *axis)
 {
+    const tahr_world *world = step->world;
     vec3 along = cross(hit->normal, hit->surface_normal);
-    double sine = length(along);
-    if (sine > ON_FACE) {
-        *axis = scale(along, 1 / sine);
+    double sine2 = length_squared(along);
+    if (sine2 > ON_FACE * ON_FACE) {
+        *axis = scale(along, 1 / sqrt(sine2));
         return 0;
     }
-    const tahr_world *world = step->world;
-    if (hit->body >= world->body_count || world->bodies[hit->body].round == 0) {
+    if (!world->bodies || hit->body >= world->body_count || world->bodies[hit->body].round == 0) {
         return -1;
     }
     const tahr__body_note *note = &world->bodies[hit->body];
@@ -80,61 +83,71 @@ static int is_side(const tahr__step *step, vec3 normal)
 void tahr__around_hit(const tahr__around *a, tahr__plane *planes, uint32_t *count)
 {
     uint32_t kept = 0;
-    for (uint32_t i = 0; a->done > 0 && i < *count; i++) {
+    if (a->done == 0) {
+        return;
+    }
+    for (uint32_t i = 0; i < *count; i++) {
         if (planes[i].body != a->body || planes[i].feature != a->feature) {
             planes[kept++] = planes[i];
         }
     }
-    *count = a->done > 0 ? kept : *count;
+    *count = kept;
+}
+
+/* A cylinder about `axis` or a ball, cut by the plane that the character stays in. Returns 0 if that leaves no circle. */
+static int cut_by_plane(const tahr__step *step, int level, tahr__around *a)
+{
+    vec3 held = level ? step->state.up : step->limits->plane;
+    if (level && is_in_plane(step)) { /* a line */
+        return 0;
+    }
+    if (length_squared(a->axis) > 0) { /* aslant of level an ellipse: the plane is turned as the cylinder's */
+        return level || is_along(a->axis, held);
+    }
+    vec3 flat = reject(a->normal, held);
+    a->axis = held;
+    a->radius *= length(flat);
+    a->normal = unit(flat);
+    return a->radius > 0;
+}
+
+static int make_round(const tahr__step *step, const tahr_hit *hit, int level, tahr__around *a)
+{
+    double more = roundness(step, hit, &a->axis);
+    if (more < 0) {
+        return 0;
+    }
+    if (is_side(step, hit->normal)) {
+        if (level && length_squared(a->axis) > 0 && !is_along(a->axis, step->state.up)) {
+            return 0;
+        }
+        a->axis = step->state.up;
+    }
+    a->radius = step->limits->shape.radius + more + max_of(hit->distance, 0);
+    a->normal = length_squared(a->axis) > 0 ? unit(reject(hit->normal, a->axis)) : hit->normal;
+    return !(level || is_in_plane(step)) || cut_by_plane(step, level, a);
 }
 
 void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, tahr__around *a)
 {
-    const tahr_shape *shape = &step->limits->shape;
-    int is_ball = shape->type == TAHR_SHAPE_SPHERE || shape->type == TAHR_SHAPE_CAPSULE;
-    vec3 axis, normal = hit->normal;
-    int again = a->body == hit->body && a->feature == hit->feature, before = a->done > 0 || a->turns;
+    uint32_t shape = step->limits->shape.type;
+    int before = a->done > 0 || a->turns;
+    const vec3 was = a->normal;
     tahr__around_leave(a);
-    if (step->config->path_tolerance == 0 || !is_ball || a->is_over || a->done >= TAHR__MOST_TURNS) {
-        return;
-    }
-    double more = roundness(step, hit, &axis);
-    if (more < 0) {
-        return;
-    }
-    double radius = shape->radius + more + max_of(hit->distance, 0);
-    normal = length_squared(axis) > 0 ? unit(reject(normal, axis)) : normal;
-    if (is_side(step, normal)) {
-        if (level && length_squared(axis) > 0 && !is_along(axis, step->state.up)) {
-            return;
-        }
-        axis = step->state.up;
-    }
-    if (level && is_in_plane(step)) { /* on a line */
-        return;
-    }
-    if (level && length_squared(axis) == 0) { /* the circle at its height */
-        axis = step->state.up;
-        normal = step_level(step, normal);
-        radius *= length(normal);
-        normal = unit(normal);
-    }
-    if (is_in_plane(step) && length_squared(axis) > 0 && !is_along(axis, step->limits->plane)) {
+    if (step->config->path_tolerance == 0 || a->is_over || a->done >= TAHR__MOST_TURNS ||
+        (shape != TAHR_SHAPE_SPHERE && shape != TAHR_SHAPE_CAPSULE) || !make_round(step, hit, level, a)) {
         return;
     }
     /* The plane was turned or left, and the thing was not; or another one is in the way: between two edges going around
      * one would lead into the other, and back. */
-    if (before && (!again || dot(normal, a->normal) < 1 - 0.5 * ALIGNED)) {
+    if (before && (a->body != hit->body || a->feature != hit->feature || dot(a->normal, was) < TURNED)) {
         a->is_over = 1;
         return;
     }
-    a->pivot = add_scaled(step->state.position, normal, -radius);
-    a->axis = axis;
-    a->radius = radius;
-    a->normal = normal;
+    a->pivot = add_scaled(step->state.position, a->normal, -a->radius);
     a->body = hit->body;
     a->feature = hit->feature;
-    a->is_round = radius > 0;
+    a->is_round = 1;
 }
 
 static vec3 across(const tahr__around *a, vec3 v)

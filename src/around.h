@@ -38,6 +38,7 @@ enum { TAHR__MOST_TURNS = 16 };
 static inline void tahr__around_begin(tahr__around *a)
 {
     a->is_round = a->turns = a->done = a->is_over = a->leaves = 0;
+    a->normal.x = a->normal.y = a->normal.z = 0;
 }
 
 /* It is left behind. */
