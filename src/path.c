@@ -156,7 +156,7 @@ static void fly_off(tahr__step *step, tahr__path *w, const tahr__law *open)
     cut_piece(step, w, 0.5 * time);
     w->wish = along;
     a->aside = sub(d, along);
-    a->leaves = 1;
+    a->leaves = a->is_over = 1;
     a->done++;
     step->report.arcs++;
 }
