@@ -213,7 +213,8 @@ void tahr__around_drive(const tahr__step *step, tahr__around *a, vec3 wish, vec3
     double speed = length(u), into = -dot(a->normal, u), tangent = length(across(a, along));
     double exact = sqrt(max_of(speed * speed - into * into, 0));
     if (tangent < exact * (1 - ALIGNED) || tangent > exact * (1 + ALIGNED)) { /* something else bends it too */
-        tahr__around_start(step, a, &(tahr__ahead){along, scale(along, time), scale(wish, TAHR__GLIMPSE * time), speed * time, time});
+        tahr__around_start(
+            step, a, &(tahr__ahead){along, scale(along, time), scale(wish, TAHR__GLIMPSE * time), speed * time, time});
         return;
     }
     int goes_on = a->turns || a->is_round;
@@ -280,8 +281,7 @@ int tahr__around_turn(tahr__step *step, tahr__around *a, tahr__plane *plane, vec
     }
     *velocity = rotate(quat_between(a->normal, normal), *velocity);
     a->normal = normal;
-    *plane = (tahr__plane){
-        .normal = normal, .anchor = step->state.position, .body = a->body, .feature = a->feature};
+    *plane = (tahr__plane){.normal = normal, .anchor = step->state.position, .body = a->body, .feature = a->feature};
     step->report.arcs++;
     return 1;
 }

@@ -56,9 +56,9 @@ void tahr__around_meet(const tahr__step *step, const tahr_hit *hit, int level, t
 
 /* What lies ahead. */
 typedef struct tahr__ahead {
-    vec3 velocity; /* m/s, now, */
-    vec3 along;    /* m: the way along the plane, in `time`, */
-    vec3 freely;   /* and a glimpse of the one without it: in TAHR__GLIMPSE of it */
+    vec3 velocity;  /* m/s, now, */
+    vec3 along;     /* m: the way along the plane, in `time`, */
+    vec3 freely;    /* and a glimpse of the one without it: in TAHR__GLIMPSE of it */
     double longest; /* m: no way along the thing is longer */
     double time;    /* s */
 } tahr__ahead;

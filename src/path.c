@@ -213,6 +213,7 @@ static void turn(tahr__step *step, tahr__path *w)
 void tahr__path_bend(tahr__step *step, tahr__path *w)
 {
     double used = tahr__path_used(w);
+    tahr__around_leave(&w->around);
     end_piece(step, w, used, tahr__law_advance(&w->law, w->velocity, used).velocity);
 }
 
