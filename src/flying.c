@@ -39,14 +39,6 @@ static tahr__law law_of(const tahr__step *step, const tahr__glide *g)
     return law;
 }
 
-/* m/s2 that bend the path: nothing does while it flies straight along the wish, or brakes. */
-static double bending(const tahr__law *law, vec3 v)
-{
-    vec3 across = reject(v, law->wish);
-    int straight = length_squared(across) <= 1e-12 * length_squared(v);
-    return law->speed > 0 && !straight ? law->acceleration + law->turn_friction * length(across) : 0;
-}
-
 /* Of a piece, when a part of it was covered. */
 static double time_of_part(const tahr__law *law, vec3 v, double piece, vec3 whole, double part)
 {
@@ -97,7 +89,7 @@ static int fly_piece(tahr__step *step, tahr__glide *g)
     if (g->around.is_round || g->around.turns) {
         v = look_around(step, g, &law, v);
     }
-    double piece = tahr__glide_piece(step, g, bending(&law, v)), used = piece;
+    double piece = tahr__glide_piece(step, g, tahr__law_bending(&law, v)), used = piece;
     tahr__motion m = steps ? stepped(step, &law, v, piece) : tahr__law_advance(&law, v, piece);
     vec3 way = tahr__glide_bend(g, driven ? tahr__around_way(&g->around, v, piece) : m.displacement);
     step->state.velocity = m.velocity;

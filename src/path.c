@@ -88,6 +88,8 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     w->careful = 0;
     w->ease = 0;
     w->drifts = 0;
+    w->chord = 0;
+    w->chords = 0;
     tahr__around_begin(&w->around);
     tahr__path_carry_floor(w, step);
     w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
@@ -199,6 +201,11 @@ static void turn(tahr__step *step, tahr__path *w)
         cut_piece(step, w, min_of(time, w->duration));
         w->wish = a->aside;
         tahr__around_leave(a);
+        return;
+    }
+    if (w->chord > 0) {
+        end_piece(step, w, w->duration, velocity);
+        cut_piece(step, w, min_of(w->chord, w->duration));
         return;
     }
     if (tahr__around_use(a, w->duration) && tahr__around_turn(step, a, &wall, &velocity)) {
@@ -350,6 +357,7 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit, doubl
     vec3 whole = w->drifts ? add(velocity, w->drift) : velocity;
     tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(whole, hit->normal), 0));
     step->report.slides++;
+    w->chord = 0;
     tahr__around_hit(&w->around, w->walls, &w->wall_count);
     if (!add_wall(step, w, hit)) {
         return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");
@@ -408,10 +416,37 @@ static void open_late(tahr__step *step, tahr__path *w)
     w->scope->velocity = w->given;
 }
 
+/* A way that turns toward the wish was stopped on its chord, off where it is itself: once more, in chords that lie off it
+ * by no more than path_tolerance. A chord that nothing stops ends where the way does, and is as good. Returns 0 if it is
+ * near enough. */
+static int cut_up(tahr__step *step, tahr__path *w)
+{
+    double tolerance = step->config->path_tolerance;
+    int whole = w->wall_count == 0 && w->left_before == 1 && w->rest == 0 && w->chord == 0;
+    if (!whole || tolerance == 0 || step->input->flags & TAHR_INPUT_DRIVE) {
+        return 0;
+    }
+    double sagitta = tahr__law_bending(&w->law, w->velocity) * w->duration * w->duration / 8;
+    if (sagitta <= tolerance) {
+        return 0;
+    }
+    step->state.position = w->from;
+    w->left = 1;
+    if (step->trail) {
+        tahr__trail_cut(step, w->from, 0);
+    }
+    w->chords = 1 + (uint32_t)min_of(sqrt(sagitta / tolerance), TAHR__MOST_TURNS - 1);
+    w->chord = w->duration / w->chords;
+    cut_piece(step, w, w->chord);
+    step->report.arcs++;
+    return 1;
+}
+
 /* Each turn goes along two more lines. */
 static int is_under_way(const tahr__step *step, const tahr__path *w, uint32_t sweeps)
 {
-    return sweeps < step->config->max_slides + 2 * w->around.done && (w->left > 0 || w->rest > 0) && step->error >= 0;
+    return sweeps < step->config->max_slides + 2 * w->around.done + w->chords && (w->left > 0 || w->rest > 0) &&
+           step->error >= 0;
 }
 
 void tahr__path_walk(tahr__step *step, tahr__path *w)
@@ -432,7 +467,8 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         vec3 motion = along_floor(w, step, level);
         w->from = step->state.position;
         w->left_before = w->left;
-        w->careful |= (uint32_t)tahr__move(step, motion, &hit); /* pushed out of an overlap: there is no way back */
+        uint32_t pushed = (uint32_t)tahr__move(step, motion, &hit);
+        w->careful |= pushed; /* out of an overlap: there is no way back */
         w->left *= hit.blocking ? 1 - hit.fraction : 0;
         if (step->trail) {
             leave_trail(step, w);
@@ -448,6 +484,9 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         }
         if (w->turns++ == 0 && !w->careful && w->scope) {
             open_late(step, w);
+        }
+        if (!pushed && cut_up(step, w)) {
+            continue;
         }
         if (w->careful && !stands_here(step)) {
             return;

@@ -33,6 +33,8 @@ typedef struct tahr__path {
     uint32_t drifts;           /* 1: a drive comes on top of the velocity */
     vec3 drift;                /* m/s, with drifts: its level part */
     tahr__around around;       /* what the last wall belongs to */
+    double chord;              /* s of each piece of a way that bends; 0: it is not cut up */
+    uint32_t chords;           /* of them */
 } tahr__path;
 
 /* Starts a path of `duration` seconds at the state's position and velocity. No query. */

@@ -83,9 +83,9 @@ typedef struct tahr_config {
     uint32_t mask;       /* [all bits] bodies this character meets; 0: none */
     uint32_t max_slides; /* [8] sweeps of one slice of walking or falling, then the rest of the motion is dropped */
     double skin;         /* m [0.01 | 0.019] distance kept from everything that blocks (PULL_BACK: from floors) */
-    /* m [0.002] JOINT: a slide around an edge or a round body is bent on within a slice, swept along straight lines that
-     * lie no further off the arc; 0: off, it goes on straight until the next slice. Asks one sweep more for each slice
-     * that goes around something */
+    /* m [0.002] EXACT, JOINT: a slide around an edge or a round body is bent on within a slice, and a walk that turns
+     * into something is cut up, so that what is swept lies no further off the true way, in at most 16 pieces; 0: off,
+     * straight until the next slice. Asks a sweep or two more in such slices, and in no others */
     double path_tolerance;
     /* m [0.001] PULL_BACK: least distance taken back, 0.004 of it the shortest motion; SINGLE: 1.25 of it is added to
      * every push, where a shape larger by it fits */

@@ -309,6 +309,42 @@ static void who_is_too_fast_leaves_along_the_free_path(void **unused)
     }
 }
 
+/* From a velocity across the wish: q e^(-f t) across it and a t along it, while that is below the speed asked for. Where
+ * it meets the wall is told by the event. */
+static void a_walk_that_turns_meets_a_wall_where_its_curve_does(void **unused)
+{
+    static const thing wall = {"wall", TAHR_BODY_BOX, 0};
+    const double tolerances[] = {0, 8e-3, 1e-3}, gap = 0.15, across = 3;
+    double off[3];
+    (void)unused;
+    for (int i = 0; i < 3; i++) {
+        stage s;
+        tahr_event events[4];
+        tahr_config c = config_of();
+        c.path_tolerance = tolerances[i];
+        open_stage(&s, &wall, &c, TAHR_MODE_WALKING);
+        const tahr_vec3 at = {1, s.radius + gap, 0}; /* the block's face looks to +y */
+        assert_int_equal(tahr_state_init(&s.state, &s.config, &at), TAHR_OK);
+        s.state.mode = TAHR_MODE_WALKING;
+        s.state.velocity.x = across;
+        s.input.move.y = -1;
+        s.report.events = events;
+        s.report.event_capacity = 4;
+        step(&s, 0.2);
+        long double time = sqrtl(2 * (long double)gap / c.acceleration);
+        long double due = at.x - across * expm1l(-c.turn_friction * time) / c.turn_friction;
+        assert_true(c.acceleration * time < c.max_speed - across);
+        assert_true(s.report.event_count > 0 && events[0].type == TAHR_EVENT_HIT);
+        off[i] = fabs(events[0].position.x - (double)due);
+        print_message("    tolerance %g: meets the wall %.3g m off, %u sweeps\n", tolerances[i], off[i], s.sweeps);
+        assert_int_equal(s.report.arcs, tolerances[i] > 0);
+        close_stage(&s);
+    }
+    /* Off the way by the tolerance at most, which a wall met at 65 degrees makes half as much along it. */
+    assert_true(off[1] <= tolerances[1] && off[2] <= tolerances[2]);
+    assert_true(off[0] > 0.05);
+}
+
 /* On the floor and along a wall that is longer than the way: the same bits, and not one query more. */
 static void where_nothing_is_round_nothing_changes(void **unused)
 {
@@ -345,6 +381,7 @@ int main(void)
         cmocka_unit_test(with_inertia_the_error_falls_with_the_tolerance),
         cmocka_unit_test(off_it_goes_straight_on),
         cmocka_unit_test(who_is_too_fast_leaves_along_the_free_path),
+        cmocka_unit_test(a_walk_that_turns_meets_a_wall_where_its_curve_does),
         cmocka_unit_test(where_nothing_is_round_nothing_changes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
