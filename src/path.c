@@ -416,14 +416,18 @@ static void open_late(tahr__step *step, tahr__path *w)
     w->scope->velocity = w->given;
 }
 
+/* Cosine of a floor's slope. */
+static const double LEVEL = 1 - 1e-9;
+
 /* A way that turns toward the wish was stopped on its chord, off where it is itself: once more, in chords that lie off it
  * by no more than path_tolerance. A chord that nothing stops ends where the way does, and is as good. Returns 0 if it is
- * near enough. */
+ * near enough, and between slopes, where a slice needs its slides to get on. */
 static int cut_up(tahr__step *step, tahr__path *w)
 {
     double tolerance = step->config->path_tolerance;
     int whole = w->wall_count == 0 && w->left_before == 1 && w->rest == 0 && w->chord == 0;
-    if (!whole || tolerance == 0 || step->input->flags & TAHR_INPUT_DRIVE) {
+    int level = w->ramp_count == 0 || (w->ramp_count == 1 && dot(w->ramps[0], step->state.up) > LEVEL);
+    if (!whole || !level || tolerance == 0 || step->input->flags & TAHR_INPUT_DRIVE) {
         return 0;
     }
     double sagitta = tahr__law_bending(&w->law, w->velocity) * w->duration * w->duration / 8;
@@ -485,15 +489,12 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         if (w->turns++ == 0 && !w->careful && w->scope) {
             open_late(step, w);
         }
-        if (!pushed && cut_up(step, w)) {
-            continue;
-        }
         if (w->careful && !stands_here(step)) {
             return;
         }
         double used = tahr__path_look_ahead(step, w);
         tahr__planes_forget(step, w->walls, &w->wall_count);
-        if (take_ramp(step, w, &hit)) {
+        if (take_ramp(step, w, &hit) || (!pushed && cut_up(step, w))) {
             continue;
         }
         level = tahr__slide(w->walls, w->wall_count, scale(w->wish, w->left));
