@@ -242,12 +242,13 @@ void tahr__around_drive(const tahr__step *step, tahr__around *a, vec3 wish, vec3
 
 vec3 tahr__around_way(const tahr__around *a, vec3 along, double time)
 {
+    vec3 straight = scale(along, time);
+    if (!a->turns || a->reach == 0) {
+        return straight;
+    }
     vec3 level = across(a, along);
     double size = length(level);
-    if (!a->turns || a->reach == 0 || size == 0) {
-        return scale(along, time);
-    }
-    return add_scaled(scale(along, time), level, (a->reach / (a->next * size) - 1) * time);
+    return size > 0 ? add_scaled(straight, level, (a->reach / (a->next * size) - 1) * time) : straight;
 }
 
 /* Slower before the circle is touched than after it. */
