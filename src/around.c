@@ -12,12 +12,13 @@
  *   are as long as config.path_tolerance lets them be by that: l = sqrt(8 R tolerance).
  * - its velocity is that of its middle: the midpoint rule, whose error is l^3 / 24 R^2 at most for a constant wish
  *   (phi''' <= (|u| / R)^3), so the end falls in proportion to the tolerance, not to its root.
+ * At a constant wish tan(phi / 2) grows as exp(|u| t / R), which says by how much the plane turns in a piece, and each
+ * half of its way is R times the tangent of half of that: then the end is exact, and only the way between lies off.
  * Turned is by reflection: the two tangents from a point to a circle mirror each other in the line to its centre. */
 #include "around.h"
 
 #include "elementary.h"
 #include "plane.h"
-#include "shape.h"
 
 /* Sine of the angle between contact and face below which the contact is that face's: 1e-4 of a radius is less than a
  * hundredth of a skin. */
