@@ -51,6 +51,7 @@ static void precise(tahr_config *c)
     c->air_control = 0.25;
     c->air_boost = 1;
     c->arc_tolerance = 0.001;
+    c->path_tolerance = 0.002;
     c->apex_substep = 1;
     c->impart = TAHR_IMPART_LEVEL | TAHR_IMPART_UP | TAHR_IMPART_TURN;
     c->turn_with_base = 1;
@@ -191,6 +192,7 @@ tahr_status tahr_config_scale(tahr_config *config, double factor)
                          &c.perch_threshold,
                          &c.perch_extra,
                          &c.edge_tolerance,
+                         &c.path_tolerance,
                          &c.arc_tolerance,
                          &c.max_speed,
                          &c.acceleration,
@@ -284,6 +286,7 @@ static const char *bad_contact_field(const tahr_config *c)
     const range ranges[] = {{"max_slides", c->max_slides, 1, 16},
                             {"skin", c->skin, 1e-5 * size, 0.5 * size},
                             {"pull_back", c->pull_back, 1e-6 * size, 0.1 * size},
+                            {"path_tolerance", c->path_tolerance, 0, size},
                             {"max_depenetration", c->max_depenetration, 0, 1e4},
                             {"max_depenetration_character", c->max_depenetration_character, 0, 1e4},
                             {"plane", plane, plane == 0 ? 0 : 1 - 1e-9, 1 + 1e-9},

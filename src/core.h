@@ -27,6 +27,8 @@ typedef struct tahr__body_note {
     tahr_pose pose, before;     /* before: where the motion of the last placement began */
     double dt;                  /* s of that motion; 0: at rest */
     double mass;
+    double round;    /* m, radius of a sphere, a capsule or a cylinder; 0 of other bodies */
+    double straight; /* m, half of its axis; 0 of a sphere */
     tahr_vec3 half;  /* of a TAHR_BODY_TEMPLATE: half its extents, local; 0: not known */
     uint32_t flags;  /* TAHR_BODY_* */
     uint32_t jumped; /* world->moves at the time it was put where it is without a motion; 0: never */

@@ -3,6 +3,7 @@
 #include "flying.h"
 
 #include "glide.h"
+#include "launch.h"
 #include "move.h"
 #include "report.h"
 #include "stepped.h"
@@ -10,13 +11,22 @@
 /* m/s: a drag alone never ends. A deceleration of the drag at this speed does, at the same time at every frame rate. */
 static const double HOVERS = 1e-3;
 
-/* Along walls what they leave of the wish is asked for, as in walking. */
+/* Is the drive the velocity all the time? Every wall then takes its part of the drive itself, as in walking: of what the
+ * wall before left, a gutter whose walls lean to each other would leave less and less. path_tolerance 0 is a flight
+ * whose bends are the coarse ones. */
+static int holds_drive(const tahr__step *step)
+{
+    return step->config->path_tolerance > 0 && is_driven(step) && !(step->input->flags & TAHR_INPUT_DRIVE_LEVEL) &&
+           step->config->integrator == TAHR_INTEGRATOR_EXACT;
+}
+
+/* Along walls what they leave of the wish is asked for, as in walking. g: NULL: there are none. */
 static tahr__law law_of(const tahr__step *step, const tahr__glide *g)
 {
     const tahr_config *c = step->config;
     vec3 wish = step->input->move;
     double size = length(wish), stick = min_of(size, 1), kept = 1;
-    if (size > 0 && g->plane_count > 0) {
+    if (size > 0 && g && g->plane_count > 0) {
         wish = tahr__glide_bend(g, wish);
         kept = length(wish) / size;
     }
@@ -27,14 +37,6 @@ static tahr__law law_of(const tahr__step *step, const tahr__glide *g)
                      .braking = c->fly_drag * HOVERS,
                      .drag = c->fly_drag};
     return law;
-}
-
-/* m/s2 that bend the path: nothing does while it flies straight along the wish, or brakes. */
-static double bending(const tahr__law *law, vec3 v)
-{
-    vec3 across = reject(v, law->wish);
-    int straight = length_squared(across) <= 1e-12 * length_squared(v);
-    return law->speed > 0 && !straight ? law->acceleration + law->turn_friction * length(across) : 0;
 }
 
 /* Of a piece, when a part of it was covered. */
@@ -60,16 +62,36 @@ static tahr__motion stepped(const tahr__step *step, const tahr__law *law, vec3 v
     return m;
 }
 
+/* An edge or something round that was met: whether it is gone around. Returns the velocity that is left. */
+static vec3 look_around(const tahr__step *step, tahr__glide *g, const tahr__law *law, vec3 v)
+{
+    double glimpse = TAHR__GLIMPSE * g->left;
+    if (holds_drive(step)) {
+        tahr__around_drive(step, &g->around, step->input->drive, v, g->left);
+        return v;
+    }
+    const tahr__law open = law_of(step, NULL);
+    vec3 freely = tahr__law_advance(&open, v, glimpse).displacement;
+    vec3 along = tahr__glide_bend(g, tahr__law_advance(law, v, g->left).displacement);
+    double longest = tahr__around_longest(&open, length(v), g->left);
+    tahr__around_start(step, &g->around, &(tahr__ahead){v, along, freely, longest, g->left});
+    return tahr__around_hold(&g->around, g->around.normal, v);
+}
+
 /* One piece of the slice. Returns 0 if nothing can go on from where it ended. */
 static int fly_piece(tahr__step *step, tahr__glide *g)
 {
     int steps = step->config->integrator == TAHR_INTEGRATOR_STEPPED;
     tahr_hit hit;
-    vec3 v = tahr__glide_bend(g, step->state.velocity);
-    tahr__law law = law_of(step, g);
-    double piece = tahr__glide_piece(step, g, bending(&law, v)), used = piece;
+    int driven = holds_drive(step);
+    vec3 v = tahr__glide_bend(g, driven ? step->input->drive : step->state.velocity);
+    tahr__law law = driven ? drive_law(v) : law_of(step, g);
+    if (g->around.is_round || g->around.turns) {
+        v = look_around(step, g, &law, v);
+    }
+    double piece = tahr__glide_piece(step, g, tahr__law_bending(&law, v)), used = piece;
     tahr__motion m = steps ? stepped(step, &law, v, piece) : tahr__law_advance(&law, v, piece);
-    vec3 way = tahr__glide_bend(g, m.displacement);
+    vec3 way = tahr__glide_bend(g, driven ? tahr__around_way(&g->around, v, piece) : m.displacement);
     step->state.velocity = m.velocity;
     if (length_squared(way) == 0) {
         tahr__glide_use(step, g, piece);
@@ -84,16 +106,22 @@ static int fly_piece(tahr__step *step, tahr__glide *g)
     }
     step->just_teleported |= (uint32_t)tahr__move(step, way, &hit);
     if (hit.blocking) {
-        used = steps ? piece * hit.fraction : time_of_part(&law, v, piece, way, hit.fraction);
+        used = driven  ? tahr__around_time(&g->around, piece, hit.fraction)
+               : steps ? piece * hit.fraction
+                       : time_of_part(&law, v, piece, way, hit.fraction);
         step->state.velocity = steps ? m.velocity : tahr__law_advance(&law, v, used).velocity;
     } else if (m.stop_time >= 0) {
         step->ahead = m.stop_time;
         tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);
         step->ahead = 0;
     }
+    if (!hit.blocking) {
+        tahr__glide_pass(step, g, used);
+        return 1;
+    }
     tahr__glide_use(step, g, used);
-    if (!hit.blocking || hit.start_overlap || hit.unknown) {
-        return !hit.blocking;
+    if (hit.start_overlap || hit.unknown) {
+        return 0;
     }
     if (tahr__glide_step_up(step, g, &hit, scale(way, 1 - hit.fraction), NULL)) {
         tahr__glide_forget_floor(step);

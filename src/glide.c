@@ -25,6 +25,7 @@ void tahr__glide_begin(tahr__step *step, tahr__glide *g, double time)
     g->start = step->state.position;
     g->time = g->left = time;
     g->hits = g->pieces = g->plane_count = 0;
+    tahr__around_begin(&g->around);
 }
 
 int tahr__glide_goes_on(const tahr__step *step, tahr__glide *g)
@@ -42,10 +43,11 @@ int tahr__glide_goes_on(const tahr__step *step, tahr__glide *g)
 double tahr__glide_piece(const tahr__step *step, const tahr__glide *g, double acceleration)
 {
     if (step->config->integrator == TAHR_INTEGRATOR_STEPPED || acceleration <= 0) {
-        return g->left;
+        return tahr__around_piece(&g->around, g->left);
     }
     double longest = max_of(sqrt(8 * step->config->skin / acceleration), g->time * SHORTEST_PIECE);
-    return g->left <= longest ? g->left : g->left / (double)(int)(g->left / longest + 1);
+    double time = g->left <= longest ? g->left : g->left / (double)(int)(g->left / longest + 1);
+    return tahr__around_piece(&g->around, time);
 }
 
 void tahr__glide_use(tahr__step *step, tahr__glide *g, double time)
@@ -59,6 +61,16 @@ void tahr__glide_use(tahr__step *step, tahr__glide *g, double time)
     if (g->left < 1e-12) { /* rounding */
         step->time += g->left;
         g->left = 0;
+    }
+}
+
+void tahr__glide_pass(tahr__step *step, tahr__glide *g, double time)
+{
+    tahr__plane plane;
+    tahr__glide_use(step, g, time);
+    if (tahr__around_use(&g->around, time) && g->left > 0 &&
+        tahr__around_turn(step, &g->around, &plane, &step->state.velocity)) {
+        tahr__planes_add(g->planes, &g->plane_count, &plane);
     }
 }
 
@@ -127,7 +139,9 @@ int tahr__glide_meet(tahr__step *step, tahr__glide *g, const tahr_hit *hit)
     g->hits++;
     tahr__plane plane = tahr__plane_of(step, hit);
     tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(step->state.velocity, hit->normal), 0));
+    tahr__around_hit(&g->around, g->planes, &g->plane_count);
     tahr__planes_add(g->planes, &g->plane_count, &plane);
+    tahr__around_meet(step, hit, 0, &g->around);
     step->state.velocity = tahr__glide_bend(g, step->state.velocity);
     step->report.slides++;
     return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(hit->normal, step->state.up), 0, "slides along");

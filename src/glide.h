@@ -4,7 +4,7 @@
 #ifndef TAHR_GLIDE_H
 #define TAHR_GLIDE_H
 
-#include "core.h"
+#include "around.h"
 #include "slide.h"
 
 /* A slice of it. */
@@ -15,6 +15,7 @@ typedef struct tahr__glide {
     uint32_t hits, pieces;
     tahr__plane planes[TAHR__MAX_PLANES]; /* only what is counted is read */
     uint32_t plane_count;
+    tahr__around around; /* what the last one belongs to */
 } tahr__glide;
 
 /* A slice swept in more pieces than this has lost its way. */
@@ -25,7 +26,8 @@ void tahr__glide_begin(tahr__step *step, tahr__glide *glide, double time);
 /* Is there time left, and may it still be used? Forgets what was left behind. */
 int tahr__glide_goes_on(const tahr__step *step, tahr__glide *glide);
 
-/* s of the next piece: straight within a skin of a path that bends with this acceleration (m/s2). */
+/* s of the next piece: straight within a skin of a path that bends with this acceleration (m/s2), and no longer than
+ * until it is turned. */
 double tahr__glide_piece(const tahr__step *step, const tahr__glide *glide, double acceleration);
 
 /* What the planes leave of a velocity or a motion. */
@@ -33,6 +35,9 @@ static inline vec3 tahr__glide_bend(const tahr__glide *glide, vec3 v)
 {
     return tahr__slide(glide->planes, glide->plane_count, v);
 }
+
+/* Nothing was met for the time of a piece, which is counted: what it slides along is turned, if it is time. No query. */
+void tahr__glide_pass(tahr__step *step, tahr__glide *glide, double time);
 
 /* Counts the time of a piece. */
 void tahr__glide_use(tahr__step *step, tahr__glide *glide, double time);

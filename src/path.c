@@ -18,23 +18,22 @@
 
 /* The velocity asked for, and how it is approached. Along walls what they leave of it is asked for: pushing slantwise
  * into a wall is walking along it at the wish's part along it, at every rate. */
-static inline void set_law(tahr__path *w, const tahr__step *step)
+static inline tahr__law law_along(const tahr__step *step, const tahr__plane *walls, uint32_t count)
 {
     const tahr_config *c = step->config;
     if (c->integrator == TAHR_INTEGRATOR_STEPPED) { /* the slice began with its velocity */
-        w->law = tahr__constant_law();
-        return;
+        return tahr__constant_law();
     }
     vec3 wish = step_level(step, step->input->move);
     double size = length(wish);
     double asked = step->limits->speed * min_of(size, 1);
     double kept = 1; /* cosine to the wall: of the speed and of the acceleration */
-    if (w->wall_count > 0 && size > 0) {
-        wish = tahr__bend(w->walls, w->wall_count, wish);
+    if (count > 0 && size > 0) {
+        wish = tahr__bend(walls, count, wish);
         kept = length(wish) / size;
         size *= kept;
     }
-    w->law = tahr__law_of_wish(c, wish, size, asked, kept);
+    return tahr__law_of_wish(c, wish, size, asked, kept);
 }
 
 /* Ramps are not merged as walls are: two faces that differ by a hair both carry, and the steeper one decides. */
@@ -60,9 +59,10 @@ void tahr__path_carry_floor(tahr__path *w, const tahr__step *step)
 /* Begins a piece with the velocity that the walls leave. */
 static inline void begin_piece(tahr__step *step, tahr__path *w, vec3 velocity, double duration)
 {
-    set_law(w, step);
+    w->law = law_along(step, w->walls, w->wall_count);
     w->velocity = tahr__slide(w->walls, w->wall_count, velocity);
     w->duration = duration;
+    w->rest = 0;
     tahr__motion m = tahr__law_advance(&w->law, w->velocity, duration);
     w->wish = m.displacement;
     w->left = w->left_before = 1;
@@ -84,6 +84,9 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     w->ease = 0;
     w->drifts = 0;
     w->start = step->state.position;
+    w->chord = 0;
+    w->chords = 0;
+    tahr__around_begin(&w->around);
     tahr__path_carry_floor(w, step);
     w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
     begin_piece(step, w, step_level(step, step->state.velocity), duration);
@@ -96,6 +99,9 @@ static double time_of_part(const tahr__path *w, double part)
     double size2 = length_squared(w->wish);
     if (part <= 0 || part >= 1 || size2 == 0) {
         return part <= 0 ? 0 : w->duration;
+    }
+    if (w->around.turns && w->around.reach > 0) {
+        return tahr__around_time(&w->around, w->duration, part);
     }
     if (w->drifts) {
         return tahr__drift_time(&w->law, w->velocity, w->drift, w->duration, w->wish, part);
@@ -115,12 +121,102 @@ double tahr__path_used(const tahr__path *w)
 static void end_piece(tahr__step *step, tahr__path *w, double used, vec3 velocity)
 {
     w->began += used;
-    begin_piece(step, w, velocity, w->duration - used);
+    begin_piece(step, w, velocity, w->duration + w->rest - used);
+}
+
+/* The piece, just begun, is only the first of the slice: so many seconds of it. */
+static void cut_piece(tahr__step *step, tahr__path *w, double time)
+{
+    tahr__motion m = tahr__law_advance(&w->law, w->velocity, time);
+    w->rest += w->duration - time;
+    w->duration = time;
+    w->wish = m.displacement;
+    step->state.velocity = m.velocity;
+    w->stop_time = m.stop_time >= 0 ? w->began + m.stop_time : -1;
+}
+
+/* Who is too fast to be held by what it pushes with leaves an edge along the curve of its law, and the curve leaves the
+ * edge, but not its chord, which would meet it again. The two tangents at its ends do: half of the way along the plane,
+ * then to where the curve ends; no further off it than path_tolerance. */
+static void fly_off(tahr__step *step, tahr__path *w, const tahr__law *open)
+{
+    tahr__around *a = &w->around;
+    vec3 d = tahr__law_advance(open, w->velocity, w->duration).displacement;
+    double off = -dot(a->normal, d), sagitta = 0.25 * off / step->config->path_tolerance;
+    if (w->wall_count != 1 || off <= 0) {
+        return;
+    }
+    double time = w->duration / (1 + (int)sqrt(min_of(sagitta, 1e4)));
+    d = tahr__law_advance(open, w->velocity, time).displacement;
+    vec3 along = scale(tahr__slide(w->walls, 1, d), 0.5);
+    w->wall_count = 0;
+    w->law = *open;
+    cut_piece(step, w, 0.5 * time);
+    w->wish = along;
+    a->aside = sub(d, along);
+    a->leaves = a->is_over = 1;
+    a->done++;
+    step->report.arcs++;
+}
+
+/* Around something that was met the piece, just begun, ends where the wall is turned. */
+static void go_around(tahr__step *step, tahr__path *w)
+{
+    tahr__around *a = &w->around;
+    double time = w->duration;
+    int held = a->is_round || a->turns;
+    if (w->drifts || !held) {
+        tahr__around_leave(a);
+    } else if (is_driven(step)) {
+        tahr__around_drive(step, a, step_level(step, step->input->drive), w->velocity, time);
+        w->duration = tahr__around_piece(a, time);
+        w->rest = time - w->duration;
+        w->wish = tahr__around_way(a, w->velocity, w->duration);
+    } else {
+        const tahr__law open = law_along(step, NULL, 0);
+        vec3 freely = tahr__law_advance(&open, w->velocity, TAHR__GLIMPSE * time).displacement;
+        double longest = tahr__around_longest(&open, length(w->velocity), time);
+        if (tahr__around_start(step, a, &(tahr__ahead){w->velocity, w->wish, freely, longest, time})) {
+            w->velocity = tahr__around_hold(a, unit(step_level(step, a->normal)), w->velocity);
+            cut_piece(step, w, tahr__around_piece(a, time));
+        } else {
+            fly_off(step, w, &open);
+        }
+    }
+}
+
+/* The piece is gone along; another one follows. */
+static void turn(tahr__step *step, tahr__path *w)
+{
+    tahr__plane wall;
+    tahr__around *a = &w->around;
+    vec3 velocity = step->state.velocity;
+    if (a->leaves) {
+        double time = w->duration;
+        end_piece(step, w, time, velocity);
+        cut_piece(step, w, min_of(time, w->duration));
+        w->wish = a->aside;
+        tahr__around_leave(a);
+        return;
+    }
+    if (w->chord > 0) {
+        end_piece(step, w, w->duration, velocity);
+        cut_piece(step, w, min_of(w->chord, w->duration));
+        return;
+    }
+    if (tahr__around_use(a, w->duration) && tahr__around_turn(step, a, &wall, &velocity)) {
+        wall.normal = unit(step_level(step, wall.normal));
+        velocity = scale(unit(step_level(step, velocity)), length(step->state.velocity));
+        tahr__planes_add(w->walls, &w->wall_count, &wall);
+    }
+    end_piece(step, w, w->duration, velocity);
+    go_around(step, w);
 }
 
 void tahr__path_bend(tahr__step *step, tahr__path *w)
 {
     double used = tahr__path_used(w);
+    tahr__around_leave(&w->around);
     end_piece(step, w, used, tahr__law_advance(&w->law, w->velocity, used).velocity);
 }
 
@@ -221,6 +317,8 @@ static int take_step(tahr__step *step, tahr__path *w, vec3 level, const tahr_hit
         return 0;
     }
     w->left *= 1 - covered * stride;
+    tahr__around_leave(&w->around);
+    w->around.is_over = 1;
     w->wall_count = 0; /* what stood beside the foot below need not stand here */
     tahr__path_carry_floor(w, step);
     w->from = step->state.position;
@@ -254,10 +352,16 @@ static int take_wall(tahr__step *step, tahr__path *w, const tahr_hit *hit, doubl
     vec3 whole = w->drifts ? add(velocity, w->drift) : velocity;
     tahr__event(step, TAHR_EVENT_HIT, hit, max_of(-dot(whole, hit->normal), 0));
     step->report.slides++;
+    w->chord = 0;
+    tahr__around_hit(&w->around, w->walls, &w->wall_count);
     if (!add_wall(step, w, hit)) {
         return tahr__decide(step, TAHR_RULE_SLIDE, 0, hit, 0, 0, "squeezed between floor and ceiling");
     }
+    tahr__around_meet(step, hit, 1, &w->around);
     end_piece(step, w, used, velocity);
+    if (w->around.is_round) {
+        go_around(step, w);
+    }
     return tahr__decide(step, TAHR_RULE_SLIDE, 1, hit, dot(hit->normal, step->state.up), 0, "slides along");
 }
 
@@ -307,11 +411,54 @@ static void open_late(tahr__step *step, tahr__path *w)
     w->scope->velocity = w->given;
 }
 
+/* Cosine of a floor's slope. */
+static const double LEVEL = 1 - 1e-9;
+
+/* A way that turns toward the wish was stopped on its chord, off where it is itself: once more, in chords that lie off it
+ * by no more than path_tolerance. A chord that nothing stops ends where the way does, and is as good. Returns 0 if it is
+ * near enough; and on slopes: between two of them a long slice needs all its slides to get along. */
+static int cut_up(tahr__step *step, tahr__path *w)
+{
+    double tolerance = step->config->path_tolerance;
+    int whole = w->wall_count == 0 && w->left_before == 1 && w->rest == 0 && w->chord == 0;
+    int level = w->ramp_count == 0 || (w->ramp_count == 1 && dot(w->ramps[0], step->state.up) > LEVEL);
+    if (!whole || !level || tolerance == 0 || step->input->flags & TAHR_INPUT_DRIVE) {
+        return 0;
+    }
+    double sagitta = tahr__law_bending(&w->law, w->velocity) * w->duration * w->duration / 8;
+    if (sagitta <= tolerance) {
+        return 0;
+    }
+    step->state.position = w->from;
+    w->left = 1;
+    if (step->trail) {
+        tahr__trail_cut(step, w->from, 0);
+    }
+    w->chords = 1 + (uint32_t)min_of(sqrt(sagitta / tolerance), TAHR__MOST_TURNS - 1);
+    w->chord = w->duration / w->chords;
+    cut_piece(step, w, w->chord);
+    step->report.arcs++;
+    return 1;
+}
+
+/* Each turn goes along two more lines. */
+static int is_under_way(const tahr__step *step, const tahr__path *w, uint32_t sweeps)
+{
+    return sweeps < step->config->max_slides + 2 * w->around.done + w->chords && (w->left > 0 || w->rest > 0) &&
+           step->error >= 0;
+}
+
 void tahr__path_walk(tahr__step *step, tahr__path *w)
 {
     tahr_hit hit;
     w->lost = 0;
-    for (uint32_t i = 0; i < step->config->max_slides && w->left > 0 && step->error >= 0; i++) {
+    for (uint32_t i = 0; is_under_way(step, w, i); i++) {
+        if (w->left <= 0) {
+            if (w->careful && !stands_here(step)) {
+                return;
+            }
+            turn(step, w);
+        }
         vec3 level = tahr__slide(w->walls, w->wall_count, scale(w->wish, w->left));
         if (length_squared(level) == 0) {
             return;
@@ -319,13 +466,17 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         vec3 motion = along_floor(w, step, level);
         w->from = step->state.position;
         w->left_before = w->left;
-        w->careful |= (uint32_t)tahr__move(step, motion, &hit); /* pushed out of an overlap: there is no way back */
+        uint32_t pushed = (uint32_t)tahr__move(step, motion, &hit);
+        w->careful |= pushed; /* out of an overlap: there is no way back */
         w->left *= hit.blocking ? 1 - hit.fraction : 0;
         if (step->trail) {
             leave_trail(step, w);
         }
-        if (!hit.blocking) {
+        if (!hit.blocking && w->rest <= 0) {
             return;
+        }
+        if (!hit.blocking) {
+            continue;
         }
         if (hit.unknown || hit.start_overlap) {
             break;
@@ -341,7 +492,7 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
             tahr__announce_near(step, step->state.position, scale(unit(level), step->limits->width));
         }
         tahr__planes_forget(step, w->walls, &w->wall_count);
-        if (take_ramp(step, w, &hit)) {
+        if (take_ramp(step, w, &hit) || (!pushed && cut_up(step, w))) {
             continue;
         }
         level = tahr__slide(w->walls, w->wall_count, scale(w->wish, w->left));
@@ -353,5 +504,5 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
             return;
         }
     }
-    w->lost = w->duration - tahr__path_used(w);
+    w->lost = w->duration + w->rest - tahr__path_used(w);
 }

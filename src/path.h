@@ -3,6 +3,7 @@
 #ifndef TAHR_PATH_H
 #define TAHR_PATH_H
 
+#include "around.h"
 #include "trail.h"
 
 /* Where a slice is: the piece of it that is under way, and what has been met. A piece is one closed-form motion; a wall
@@ -12,6 +13,7 @@ typedef struct tahr__path {
     vec3 velocity;    /* at the begin of the piece */
     double began;     /* s from the begin of the slice */
     double duration;  /* s of the piece, if nothing ends it */
+    double rest;      /* s of the slice after it: 0 unless it goes around something */
     vec3 wish;        /* level displacement of the whole piece */
     double left;      /* part of it not yet covered */
     double stop_time; /* s from the begin of the slice at which the character stops; < 0: it does not */
@@ -31,6 +33,9 @@ typedef struct tahr__path {
     vec3 given;                /* the state's velocity then */
     uint32_t drifts;           /* 1: a drive comes on top of the velocity */
     vec3 drift;                /* m/s, with drifts: its level part */
+    tahr__around around;       /* what the last wall belongs to */
+    double chord;              /* s of each piece of a way that bends; 0: it is not cut up */
+    uint32_t chords;           /* of them */
 } tahr__path;
 
 /* Starts a path of `duration` seconds at the state's position and velocity. No query. */
@@ -40,7 +45,7 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration);
 void tahr__path_find_slope(tahr__path *w, tahr__step *step);
 
 /* Goes along the path until its end, or until nothing of it is left. At most max_slides sweeps, and what the steps in
- * the way ask. */
+ * the way ask; two more for each turn around something (report.arcs). */
 void tahr__path_walk(tahr__step *step, tahr__path *w);
 
 /* The last straight piece of the way went only a part of it, to where the character is now. No query. */

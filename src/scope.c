@@ -20,6 +20,7 @@ void tahr__scope_revert(tahr__step *step, const tahr__scope *scope)
     r->event_count = scope->event_count;
     r->events_lost = scope->events_lost;
     r->slides = scope->slides;
+    r->arcs = scope->arcs;
     r->step_offset = scope->step_offset;
     r->residual = scope->residual;
     step->just_teleported = scope->just_teleported;

@@ -13,7 +13,7 @@ typedef struct tahr__scope {
     uint64_t floor_revision;
     tahr_floor floor;
     uint32_t state_flags, report_flags;
-    uint32_t event_count, events_lost, slides, legs;
+    uint32_t event_count, events_lost, slides, arcs, legs;
     uint32_t just_teleported;
     double step_offset, residual, ahead;
 } tahr__scope;
@@ -32,6 +32,7 @@ static inline void tahr__scope_open(tahr__step *step, tahr__scope *scope)
     scope->event_count = r->event_count;
     scope->events_lost = r->events_lost;
     scope->slides = r->slides;
+    scope->arcs = r->arcs;
     scope->step_offset = r->step_offset;
     scope->residual = r->residual;
     scope->just_teleported = step->just_teleported;

@@ -92,6 +92,7 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
                               .event_count = r->event_count,
                               .events_lost = r->events_lost,
                               .slides = r->slides,
+                              .arcs = r->arcs,
                               .slices = r->slices,
                               .step_offset = r->step_offset,
                               .residual = r->residual,

@@ -218,6 +218,14 @@ tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t)
     return rest;
 }
 
+/* Across the wish it decays; along it the cap takes no more than the acceleration is, or it would not stay on it. */
+double tahr__law_bending(const tahr__law *law, vec3 v)
+{
+    vec3 across = reject(v, law->wish);
+    int straight = length_squared(across) <= 1e-12 * length_squared(v);
+    return law->speed > 0 && !straight ? law->acceleration + law->turn_friction * length(across) : 0;
+}
+
 /* Straight at the wish, not backward: when a way is covered. */
 static double straight_time(const tahr__law *law, double p, double way)
 {

@@ -29,6 +29,10 @@ tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t);
  * the way. */
 double tahr__law_time(const tahr__law *law, vec3 v, double duration, vec3 whole, double part);
 
+/* m/s2: no acceleration across the way is more; 0 while it goes straight along the wish, or brakes. A chord of t seconds
+ * lies off the way by an eighth of it times t^2. */
+double tahr__law_bending(const tahr__law *law, vec3 v);
+
 /* One round of a Newton that is held within [low, high], for a function that rises through zero: over is its value at
  * t, rate its slope there. Narrows the bracket and returns where to look next. */
 static inline double newton_next(double t, double over, double rate, double *low, double *high)

@@ -50,7 +50,7 @@ static tahr__next fall_off(tahr__step *step, tahr__path *w, vec3 to, double part
     tahr__keep_floor(step, &none);
     step->state.floor_revision = 0;
     tahr__event(step, TAHR_EVENT_LEFT_GROUND, NULL, TAHR_LEFT_LEDGE);
-    tahr__next next = {TAHR_MODE_FALLING, w->duration - used};
+    tahr__next next = {TAHR_MODE_FALLING, w->duration + w->rest - used};
     return next;
 }
 
@@ -152,7 +152,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
         }
         tahr__path_carry_floor(w, step);
     }
-    w->lost = w->duration - tahr__path_used(w);
+    w->lost = w->duration + w->rest - tahr__path_used(w);
     return FLOOR;
 }
 

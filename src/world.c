@@ -184,6 +184,15 @@ static vec3 half_of(const tahr_body_desc *b)
     return scale(sub(high, low), 0.5);
 }
 
+/* Radius of what is round about an axis. [out] straight: half the length of that. */
+static double round_of(const tahr_body_desc *b, double *straight)
+{
+    *straight = b->type == TAHR_BODY_CAPSULE    ? b->half_height - b->radius
+                : b->type == TAHR_BODY_CYLINDER ? b->half_height
+                                                : 0;
+    return b->type == TAHR_BODY_SPHERE || *straight > 0 ? b->radius : 0;
+}
+
 static tahr__body_note note_of(uint32_t i, const tahr_body_desc *b)
 {
     tahr_pose pose = b->pose;
@@ -199,6 +208,7 @@ static tahr__body_note note_of(uint32_t i, const tahr_body_desc *b)
                             .mass = b->mass,
                             .half = half_of(b),
                             .flags = b->flags};
+    note.round = round_of(b, &note.straight);
     return note;
 }
 

@@ -51,9 +51,10 @@ enum { TAHR_IMPART_LEVEL = 1 << 0, TAHR_IMPART_UP = 1 << 1, TAHR_IMPART_TURN = 1
 /* Defaults in brackets are those of TAHR_PRESET_PRECISE, after a bar those of TAHR_PRESET_UNREAL, and after a double
  * bar those of TAHR_PRESET_PLATFORMER, where they differ.
  * Ranges, inclusive, h = shape.half_height (tahr_config_check names what is outside): skin 1e-5 h..0.5 h; pull_back
- * 1e-6 h..0.1 h; max_depenetration, max_depenetration_character and perch_threshold 0..1e4 m; plane unit or zero; mass
- * 1e-3..1e6 kg; push_force 0..1e9 N; walkable_angle 0..90 degrees and no more with its hysteresis; 1 <= floor_target <=
- * floor_max <= 10; step_height 0..2 h; snap_distance and perch_extra 0..1e3 m; edge_tolerance 0..0.5 h; speeds 0..1e4
+ * 1e-6 h..0.1 h; path_tolerance 0..h; max_depenetration, max_depenetration_character and perch_threshold 0..1e4 m;
+ * plane unit or zero; mass 1e-3..1e6 kg; push_force 0..1e9 N; walkable_angle 0..90 degrees and no more with its
+ * hysteresis; 1 <= floor_target <= floor_max <= 10; step_height 0..2 h; snap_distance and perch_extra 0..1e3 m;
+ * edge_tolerance 0..0.5 h; speeds 0..1e4
  * m/s, terminal_speed from 1e-3; accelerations 0..1e6 m/s2; gravity -1e4..1e4 m/s2 per axis; frictions, drags and
  * turn_rate 0..1e4 1/s; times 0..1e3 s; air_control and air_boost 0..100; buoyancy 0..10; swim_immersion 0.01..1;
  * jump_release_gravity and fall_gravity 0.1..100; crouched_half_height and the lengths of shape 1e-6..1e4 m;
@@ -83,6 +84,10 @@ typedef struct tahr_config {
     uint32_t mask;       /* [all bits] bodies this character meets; 0: none */
     uint32_t max_slides; /* [8] sweeps of one slice of walking or falling, then the rest of the motion is dropped */
     double skin;         /* m [0.01 | 0.019] distance kept from everything that blocks (PULL_BACK: from floors) */
+    /* m [0.002] EXACT, JOINT: a slide around an edge or a round body is bent on within a slice, and a walk that turns
+     * into something is cut up, so that what is swept lies no further off the true way, in at most 16 pieces; 0: off,
+     * straight until the next slice. Asks a sweep or two more in such slices, and in no others */
+    double path_tolerance;
     /* m [0.001] PULL_BACK: least distance taken back, 0.004 of it the shortest motion; SINGLE: 1.25 of it is added to
      * every push, where a shape larger by it fits */
     double pull_back;

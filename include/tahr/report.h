@@ -163,9 +163,9 @@ typedef struct tahr_report {
     uint32_t contact_queries;
     uint32_t rays;
     uint32_t fluid_queries;
-    uint32_t slides; /* times a motion was bent */
-    uint32_t slices; /* pieces of time */
-    uint32_t reserved;
+    uint32_t slides;         /* times a motion was bent */
+    uint32_t slices;         /* pieces of time */
+    uint32_t arcs;           /* times one was bent on within a slice: config.path_tolerance */
     uint64_t triangle_tests; /* shape against feature, in the narrow phase */
     uint64_t narrow_iterations;
     uint64_t gathers;

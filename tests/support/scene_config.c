@@ -45,6 +45,7 @@ static const struct {
     FIELD(REAL, air_boost),
     FIELD(REAL, air_boost_speed),
     FIELD(REAL, air_turn_friction),
+    FIELD(REAL, path_tolerance),
     FIELD(REAL, arc_tolerance),
     FIELD(REAL, imparted_half_life),
     FIELD(REAL, crouched_half_height),

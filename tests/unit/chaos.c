@@ -83,6 +83,7 @@ static void draw_numbers(tahr_config *c, oracle_random *dice)
         {FIELD(air_boost), 0, 3, 0, 100},
         {FIELD(air_boost_speed), 0, 1, 0, 1e4},
         {FIELD(air_turn_friction), 0, 8, 0, 1e4},
+        {FIELD(path_tolerance), 0, 0.1 * h, 0, h},
         {FIELD(arc_tolerance), 1e-4 * h, 0.1 * h, 1e-6 * h, h},
         {FIELD(imparted_half_life), 0, 2, 0, 1e3},
         {FIELD(crouched_half_height), 0.3 * h, h, 1e-6, 1e4},
@@ -129,8 +130,9 @@ tahr_config chaos_config(oracle_random *dice)
         tahr_shape own = c.shape;
         c.shape = draw_shape(dice);
         double scale = c.shape.half_height / own.half_height;
-        c.skin *= scale, c.pull_back *= scale, c.step_height *= scale, c.edge_tolerance *= scale,
-            c.arc_tolerance *= scale;
+        c.skin *= scale, c.pull_back *= scale, c.step_height *= scale, c.edge_tolerance *= scale;
+        c.path_tolerance *= scale;
+        c.arc_tolerance *= scale;
     }
     draw_methods(&c, dice);
     draw_numbers(&c, dice);

@@ -55,7 +55,7 @@ TOPICS = (
     Topic(
         "methods",
         "one method or number changed, 60 Hz",
-        ("methods", "skin", "max_slides"),
+        ("methods", "skin", "max_slides", "path_tolerance"),
         NS_STEP,
         QUERIES,
         ("precise; 60 Hz",),

@@ -52,6 +52,15 @@ static const knob KNOBS[] = {
      60,
      TAHR_INTEGRATOR_EXACT,
      {1, 2, 3, 4, 6, 8}},
+    {"path_tolerance",
+     "path_tolerance %g mm",
+     CHART_KNOB,
+     FIELD(path_tolerance),
+     A_DOUBLE,
+     1e-3,
+     60,
+     TAHR_INTEGRATOR_EXACT,
+     {0.01, 0.1, 0.5, 2, 8}},
     {"arc_tolerance; 20 Hz",
      "arc_tolerance %g mm; 20 Hz",
      CHART_KNOB,
@@ -155,6 +164,7 @@ static void add_switches(const chart_setting *base)
     tahr_native_desc native = {.struct_size = sizeof native, .no_cache = 1};
     add(base, "switches", "cached_floor 0", CHART_OFF)->config.cached_floor = 0;
     add(base, "switches", "sleep 0", CHART_OFF)->config.sleep = 0;
+    add(base, "path_tolerance", "path_tolerance 0", CHART_OFF)->config.path_tolerance = 0;
     set_options(add(base, "switches", "no_cache", CHART_OFF), &native, sizeof native);
     native = (tahr_native_desc){.struct_size = sizeof native, .no_simd = 1};
     set_options(add(base, "switches", "no_simd", CHART_OFF), &native, sizeof native);
@@ -225,8 +235,8 @@ void chart_setting_reference(const chart_setting *setting, chart_setting *refere
     c->step_rule = TAHR_STEP_BY_TREAD;
     c->flat_base = 0;
     c->max_slides = 16;
-    c->arc_tolerance = 1e-6 * c->shape.half_height; /* the least */
-    c->max_substeps = 8;                            /* what follows cannot matter to these methods: one reference */
+    c->path_tolerance = c->arc_tolerance = 1e-6 * c->shape.half_height; /* the least */
+    c->max_substeps = 8; /* what follows cannot matter to these methods: one reference */
     c->max_substep = 0.05;
     c->cached_floor = 1;
     c->sleep = 1;

@@ -25,7 +25,8 @@ typedef struct trial {
 
 int chart_slides_concern(const chart_setting *s)
 {
-    static const char *const curves[] = {"precise", "max_slides", "skin", "native", "ccd advance", "fcl descend"};
+    static const char *const curves[] = {"precise", "max_slides", "path_tolerance", "skin", "native", "ccd advance",
+                                         "fcl descend"};
     for (size_t i = 0; i < sizeof curves / sizeof curves[0]; i++) {
         if (strcmp(s->curve, curves[i]) == 0) return 1;
     }

@@ -88,6 +88,7 @@ static const place places[] = {PLACE(shape.radius, 1e-7, 0.95),
                                PLACE(terminal_speed, 0, 1.1e4),
                                PLACE(air_control, -1e-9, 101),
                                PLACE(air_turn_friction, -1e-9, 1.1e4),
+                               PLACE(path_tolerance, -1e-9, 1),
                                PLACE(arc_tolerance, 0, 1),
                                PLACE(max_dt, 0, 10.1),
                                PLACE(turn_rate, -1e-9, 1.1e4)};
@@ -190,7 +191,8 @@ static void scale_multiplies_lengths_and_leaves_times_and_angles(void **unused)
     assert_true(c.jump_speed == 4 * was.jump_speed && c.terminal_speed == 4 * was.terminal_speed);
     assert_true(c.braking_deceleration == 4 * was.braking_deceleration &&
                 c.max_depenetration == 4 * was.max_depenetration);
-    assert_true(c.edge_tolerance == 4 * was.edge_tolerance && c.arc_tolerance == 4 * was.arc_tolerance);
+    assert_true(c.edge_tolerance == 4 * was.edge_tolerance && c.arc_tolerance == 4 * was.arc_tolerance &&
+                c.path_tolerance == 4 * was.path_tolerance);
     assert_true(c.braking_drag == was.braking_drag && c.turn_friction == was.turn_friction && c.max_dt == was.max_dt);
     assert_true(c.walkable_angle == was.walkable_angle && c.floor_target == was.floor_target &&
                 c.turn_rate == was.turn_rate);

@@ -93,7 +93,7 @@ static void unused_report_words_are_written_not_added_to(void **unused)
     report.decisions = NULL;
     report.queries = NULL;
     assert_int_equal(tahr_mover_step(r.mover, &r.input, 1.0 / 60, &r.state, &report), TAHR_OK);
-    assert_true(report.sweeps == 1 && report.slices == 1 && report.flags == 0 && report.reserved == 0 &&
+    assert_true(report.sweeps == 1 && report.slices == 1 && report.flags == 0 && report.arcs == 0 &&
                 report.step_offset == 0);
     rig_close(&r);
 }

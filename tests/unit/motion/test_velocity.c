@@ -169,6 +169,31 @@ static void speed_never_exceeds_the_larger_of_start_and_wish(void **unused)
     }
 }
 
+/* |a| t^2 / 8, the largest distance of a curve from its chord at the same time, where no acceleration is more than a. */
+static void a_way_lies_off_its_chord_by_an_eighth_of_its_bending(void **unused)
+{
+    oracle_random seed = {88};
+    double most = 0;
+    (void)unused;
+    for (int i = 0; i < 4000; i++) {
+        tahr__law law = {.wish = unit(vec(oracle_uniform(&seed, -1, 1), oracle_uniform(&seed, -1, 1), 0)),
+                         .speed = oracle_uniform(&seed, 1, 8),
+                         .acceleration = i % 5 ? oracle_uniform(&seed, 0, 40) : 0,
+                         .turn_friction = i % 7 ? oracle_uniform(&seed, 0, 20) : 0};
+        double slow = oracle_uniform(&seed, 0, 0.7) * law.speed, t = oracle_uniform(&seed, 0.01, 0.3);
+        vec3 v = vec(oracle_uniform(&seed, -slow, slow), oracle_uniform(&seed, -slow, slow), 0); /* does not brake */
+        vec3 whole = tahr__law_advance(&law, v, t).displacement;
+        double bound = tahr__law_bending(&law, v) * t * t / 8;
+        for (int k = 1; k < 16; k++) {
+            vec3 at = tahr__law_advance(&law, v, t * k / 16).displacement;
+            double off = length(reject(sub(at, scale(whole, k / 16.0)), unit(whole)));
+            assert_true(off <= bound * (1 + 1e-9) + 1e-12);
+            most = fmax(most, bound > 0 ? off / bound : 0);
+        }
+    }
+    assert_true(most > 0.5); /* and is no empty bound */
+}
+
 static void zero_time_and_zero_velocity_change_nothing(void **unused)
 {
     tahr__law law = preset_law(6);
@@ -226,6 +251,7 @@ int main(void)
                                        cmocka_unit_test(over_speed_brakes_to_the_asked_speed_and_keeps_it),
                                        cmocka_unit_test(halves_compose_to_the_whole),
                                        cmocka_unit_test(speed_never_exceeds_the_larger_of_start_and_wish),
+                                       cmocka_unit_test(a_way_lies_off_its_chord_by_an_eighth_of_its_bending),
                                        cmocka_unit_test(zero_time_and_zero_velocity_change_nothing),
                                        cmocka_unit_test(fall_is_the_parabola_up_to_terminal_speed),
                                        cmocka_unit_test(held_jump_coasts_before_it_falls),
