@@ -173,7 +173,7 @@ typedef struct tahr__vicinity {
     double alone;
     tahr_vec3 face; /* the exact normal of that, toward the character */
     uint32_t under; /* index */
-    uint32_t reserved;
+    uint32_t stood; /* index of what had stopped the last foot when the place was measured */
     uint32_t count, near[TAHR__VICINITY_MOST]; /* indices of the nearest, */
     double far[TAHR__VICINITY_MOST];           /* and m to them */
 } tahr__vicinity;

@@ -207,6 +207,7 @@ static void look_around(const tahr__query *query)
     v->clear = d_max(d_min(border(query), reach_of(query) + LOOK), outside_of_all(query));
     v->alone = 0;
     v->under = TAHR__NONE;
+    v->stood = query->cache->recent[1];
     find_floor(query);
     v->over = (uint32_t)is_above(query);
     if (v->clear <= 0) return;
@@ -263,12 +264,19 @@ static int way_of(const tahr__query *query)
     return need(query, 1) <= v->clear ? CLEAR : UNKNOWN;
 }
 
-/* May another place be of more help? Who has stood on nothing so far may have landed. */
+/* Has a foot found a floor that was not known at the place? */
+static int has_landed(const tahr__query *query)
+{
+    const tahr__vicinity *v = &query->cache->vicinity;
+    return !v->over && query->cache->recent[1] < query->cache->count && query->cache->recent[1] != v->stood;
+}
+
+/* May a look around here be of more help? */
 static int is_stale(const tahr__query *query)
 {
     const tahr__vicinity *v = &query->cache->vicinity;
-    return v->clear <= 0 || away2(v, query, query->start) > DRIFT * DRIFT ||
-           (!v->over && query->cache->recent[1] < query->cache->count);
+    if (query->motion_length > LONGEST && outside_of_all(query) <= query->motion_length) return 0;
+    return v->clear <= 0 || has_landed(query) || away2(v, query, query->start) > DRIFT * DRIFT;
 }
 
 /* Where the lower end of the query's segment comes down on the floor. */
@@ -370,8 +378,8 @@ int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *cou
 {
     tahr__vicinity *v = &query->cache->vicinity;
     if (!serves(query)) return 0;
-    int way = way_of(query);
-    if (way == UNKNOWN && query->motion_length <= LONGEST && is_stale(query)) {
+    int way = way_of(query), looks = (way == UNKNOWN || has_landed(query)) && is_stale(query);
+    if (looks) {
         look_around(query);
         way = way_of(query);
     }
@@ -379,6 +387,7 @@ int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *cou
         v->needed = CALM;
         return 1;
     }
+    if (way == UNKNOWN && !looks) return 0;
     v->calm = 0;
     v->needed = v->needed < CALM ? CALM : v->needed < CALM_MOST ? 2 * v->needed : CALM_MOST;
     return 0;
