@@ -19,11 +19,11 @@ int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, c
 int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
 int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
 
-/* Near walls and on rough ground the short way is tried less and less often: after one, three, at most fifteen steps;
+/* Near walls and on rough ground the short way is tried less and less often: after one, three, at most seven steps;
  * in the air, where it is seldom barred, at most three. */
 static inline int tahr__tries_short_way(tahr_mover *mover, uint32_t mode)
 {
-    const uint32_t most = mode == TAHR_MODE_FALLING ? 2 : 4;
+    const uint32_t most = mode == TAHR_MODE_FALLING ? 2 : 3;
     if (mover->rest > 0 && mover->failed <= most) {
         mover->rest--;
         return 0;

@@ -179,6 +179,12 @@ static int inside(const tahr_bounds *a, const tahr_bounds *b)
     return low & (a->max.x <= b->max.x) & (a->max.y <= b->max.y) & (a->max.z <= b->max.z);
 }
 
+static double volume(const tahr_bounds *b)
+{
+    const tahr_vec3 side = v_sub(b->max, b->min);
+    return side.x * side.y * side.z;
+}
+
 static void gather_now(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
 {
     tahr__cache *cache = context->cache;
@@ -200,6 +206,7 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     cache->bounds.min = v_sub(p->bounds.min, m);
     cache->bounds.max = v_add(p->bounds.max, m);
     cache->local = tahr__frame_box_to_local(&cache->frame, &cache->bounds);
+    cache->volume = volume(&p->bounds);
     cache->mask = p->mask;
     cache->gathered = 1;
     cache->overflow = cache->count = 0;
@@ -227,13 +234,6 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     context->gathers++;
 }
 
-/* What was too much for the cache is gathered again where a part of it is announced by itself, a quarter or less. */
-static int is_small_part(const tahr_bounds *part, const tahr_bounds *all)
-{
-    const tahr_vec3 a = v_sub(part->max, part->min), b = v_sub(all->max, all->min);
-    return a.x * a.y * a.z <= 0.25 * (b.x * b.y * b.z);
-}
-
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
 {
     tahr__cache *cache = context ? context->cache : NULL;
@@ -247,7 +247,8 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     if (world->no_cache) return TAHR_OK;
     keep = keep && cache->gathered && cache->revision == world->revision;
     keep = keep && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds);
-    if (keep && !(cache->overflow && is_small_part(&p->bounds, &cache->bounds))) return TAHR_OK;
+    /* What was too much is gathered again where a part of it is announced by itself, a quarter or less. */
+    if (keep && !(cache->overflow && volume(&p->bounds) <= 0.25 * cache->volume)) return TAHR_OK;
     gather_now(world, context, p);
     return TAHR_OK;
 }

@@ -171,9 +171,9 @@ typedef struct tahr__vicinity {
     uint32_t needed;   /* and how many there must be */
     tahr_vec3 spot;    /* on the floor: within `alone` m (<= 0: none) nothing of it is but the triangle `under` */
     double alone;
-    tahr_vec3 face; /* the exact normal of that, toward the character */
-    uint32_t under; /* index */
-    uint32_t stood; /* index of what had stopped the last foot when the place was measured */
+    tahr_vec3 face;                            /* the exact normal of that, toward the character */
+    uint32_t under;                            /* index */
+    uint32_t stood;                            /* index of what had stopped the last foot when the place was measured */
     uint32_t count, near[TAHR__VICINITY_MOST]; /* indices of the nearest, */
     double far[TAHR__VICINITY_MOST];           /* and m to them */
 } tahr__vicinity;
@@ -183,6 +183,7 @@ typedef struct tahr__cache {
     tahr__frame frame;
     tahr_bounds bounds; /* world: what was announced, grown by the margin */
     tahr_bounds local;  /* everything static in it has been gathered */
+    double volume;      /* m3, of what was announced */
     uint32_t announced, gathered, overflow, mask, count;
     uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
     uint64_t revision;  /* of the user's triangles in it */

@@ -15,7 +15,7 @@
 #define LOOK 1.2
 /* Who has come less far (m) from the place is not helped by another one; and longer motions are spanned by none. */
 #define DRIFT 0.04
-#define LONGEST 0.25
+#define LONGEST 0.5
 /* Taken off what is known, against rounding and arrival (TAHR__ARRIVED) (m). */
 #define SPARE 1e-6
 /* Heights (m) that are rounding: of the product of two places within 8 m, eight units in the last place. A triangle
