@@ -102,6 +102,7 @@ static int open_twin(twin *t, const scene *s, const tahr_config *config, const t
     for (int i = 0; i < 2; i++) {
         tahr_config c = *config;
         c.sleep = i == 0 ? config->sleep : 0;
+        c.short_ways = i == 0;
         t->world[i] = scene_open(s, tahr_backend_v1_native(), i ? &plain : &fast);
         if (!t->world[i] || tahr_mover_create(t->world[i], &c, &t->mover[i]) < 0 ||
             tahr_state_init(&t->state[i], &c, position) < 0)

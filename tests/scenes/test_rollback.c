@@ -246,6 +246,7 @@ static void caches_and_simd_change_nothing(void **state)
     } VARIANTS[] = {
         {"no cache", {.no_cache = 1}},
         {"no simd", {.no_simd = 1}},
+        {"no vicinity", {.no_vicinity = 1}},
         {"neither", {.no_cache = 1, .no_simd = 1}},
         {"a cache of 8 triangles", {.cache_triangles = 8}},
         {"a margin of 3 m", {.cache_margin = 3}},

@@ -308,7 +308,7 @@ void twin_pieces(const trial *t, oracle_random *dice, twin *w)
 void twin_shortcuts(const trial *t, oracle_random *dice, twin *w)
 {
     twin_begin(w, t);
-    w->without = 1 + oracle_below(dice, 15);
+    w->without = 1 + oracle_below(dice, 31);
 }
 
 void twin_again(const trial *t, oracle_random *dice, twin *w)

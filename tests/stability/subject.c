@@ -201,6 +201,7 @@ static tahr_status open_world(const subject_request *r, opened *o)
     const tahr_native_desc native = {.struct_size = sizeof native,
                                      .no_cache = (r->without & WITHOUT_CACHE) != 0,
                                      .no_simd = (r->without & WITHOUT_LANES) != 0,
+                                     .no_vicinity = (r->without & WITHOUT_SHORT_WAYS) != 0,
                                      .gather = r->without & GATHERED ? gather : NULL,
                                      .gather_user = &o->gathered};
     const liar_desc liar = {sizeof liar, s->lie, r->seed};
@@ -258,6 +259,7 @@ tahr_status subject_open(const subject_request *r, opened *o)
     tahr_status status = open_world(r, o);
     if (r->without & WITHOUT_CACHED_FLOOR) config.cached_floor = 0;
     if (r->without & WITHOUT_SLEEP) config.sleep = 0;
+    if (r->without & WITHOUT_SHORT_WAYS) config.short_ways = 0;
     if (status >= 0) {
         tahr_world *inside = engine_inside(o->world);
         o->bodies = inside ? inside : o->world;

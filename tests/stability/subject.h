@@ -19,10 +19,10 @@ typedef struct subject {
 } subject;
 
 /* What may be switched off without changing a bit. */
-enum { WITHOUT_CACHE = 1, WITHOUT_LANES = 2, WITHOUT_CACHED_FLOOR = 4, WITHOUT_SLEEP = 8 };
+enum { WITHOUT_CACHE = 1, WITHOUT_LANES = 2, WITHOUT_CACHED_FLOOR = 4, WITHOUT_SLEEP = 8, WITHOUT_SHORT_WAYS = 16 };
 
 /* Native: triangles come from a gather callback; times ORDERED_BY: in an order drawn from that number. */
-enum { GATHERED = 16, ORDERED_BY = 32 };
+enum { GATHERED = 32, ORDERED_BY = 64 };
 
 /* Behind a gather callback. */
 typedef struct gathered {

@@ -47,6 +47,18 @@ static void awake(chart_setting *s, tahr_native_desc *native)
     s->config.sleep = 0;
 }
 
+static void no_short_ways(chart_setting *s, tahr_native_desc *native)
+{
+    (void)native;
+    s->config.short_ways = 0;
+}
+
+static void no_vicinity(chart_setting *s, tahr_native_desc *native)
+{
+    (void)s;
+    native->no_vicinity = 1;
+}
+
 /* with: what is set on both sides, NULL: the defaults. exact: promises the same bits. */
 typedef struct shortcut {
     const char *name;
@@ -59,6 +71,8 @@ static const shortcut SHORTCUTS[] = {
     {"cache (no_cache)", NULL, no_cache, 0, 1},
     {"margin of the cache (cache_margin)", NULL, no_margin, 0, 1},
     {"SIMD (no_simd)", NULL, no_simd, 0, 1},
+    {"short ways (short_ways)", NULL, no_short_ways, 0, 1},
+    {"what is near (no_vicinity)", NULL, no_vicinity, 0, 1},
     {"sleep", NULL, no_sleep, 0, 1},
     {"cached_floor", awake, no_cached_floor, 0, 1},
     {"sleep", NULL, no_sleep, 1, 1},
