@@ -8,9 +8,9 @@
 #include "selftest.h"
 #include "sized.h"
 
-static const tahr__lab_theme *const themes[] = {&tahr__lab_sweeps, &tahr__lab_edges,   &tahr__lab_places,
-                                                &tahr__lab_shapes, &tahr__lab_bodies,  &tahr__lab_answers,
-                                                &tahr__lab_random, &tahr__lab_filters, &tahr__lab_one_way};
+static const tahr__lab_theme *const themes[] = {
+    &tahr__lab_sweeps,  &tahr__lab_edges,  &tahr__lab_places, &tahr__lab_shapes,  &tahr__lab_bodies,
+    &tahr__lab_answers, &tahr__lab_random, &tahr__lab_walks,  &tahr__lab_filters, &tahr__lab_one_way};
 enum { THEMES = sizeof themes / sizeof themes[0] };
 
 static int is_chosen(const tahr_selftest_desc *desc, const char *name)

@@ -61,7 +61,7 @@ typedef struct tahr__lab_theme {
 } tahr__lab_theme;
 
 extern const tahr__lab_theme tahr__lab_sweeps, tahr__lab_edges, tahr__lab_places, tahr__lab_shapes, tahr__lab_answers,
-    tahr__lab_filters, tahr__lab_random, tahr__lab_one_way, tahr__lab_bodies;
+    tahr__lab_filters, tahr__lab_random, tahr__lab_walks, tahr__lab_one_way, tahr__lab_bodies;
 
 /* Scenes (selftest_scene.c). All lengths are scaled; a body is the caller's to change until the world is opened. */
 /* Closes the world, forgets scene, scale, origin and margin; shape and material stay. */

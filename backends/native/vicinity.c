@@ -10,9 +10,11 @@
 #include "form.h"
 #include "plane.h"
 
-/* Farther off (m) than the reach of the shape nothing is listed: six steps of a runner, about as far as a gathered box
- * leaves room for. */
+/* Farther off (m) than the reach of the shape nothing is listed: a dozen steps of a runner, about as far as a gathered box
+ * leaves room for; and what all of the world is farther from than this is not told, for the distances of lanes are right
+ * within TAHR__LANE_SLACK only near by. */
 #define LOOK 1.2
+#define FARTHEST 16.0
 /* Who has come less far (m) from the place is not helped by another one; and longer motions are spanned by none. */
 #define DRIFT 0.04
 #define LONGEST 0.5
@@ -42,7 +44,7 @@ static double reach_of(const tahr__query *query)
     return query->radius + query->margin;
 }
 
-/* Of the lower end of the query's segment over the floor, times the length. */
+/* How high the lower end of the query's segment is over the floor, times the length of its normal. */
 static double height_over(const tahr__level *l, const tahr__query *query)
 {
     return v_dot(l->normal, v_sub(query->start, l->at)) - query->half * l->normal.z;
@@ -144,12 +146,12 @@ static double border(const tahr__query *query)
     return d_min(least.x, d_min(least.y, least.z));
 }
 
-/* m from the query's segment to everything that is static, at most: 0 within the bounds of all of it. */
+/* m from the query's segment to everything that is static, and FARTHEST at most: 0 within the bounds of all of it. */
 static double outside_of_all(const tahr__query *query)
 {
     const tahr__bvh *tree = &query->world->fixed.tree;
     if (query->world->gather) return 0;
-    if (query->world->fixed.count == 0) return 1e30;
+    if (query->world->fixed.count == 0) return FARTHEST;
     const tahr__bvh_node *root = &tree->nodes[0];
     const tahr_vec3 at = v_add(query->frame->origin, tahr__frame_to_world(query->frame, query->start)),
                     o = tree->centre;
@@ -158,7 +160,7 @@ static double outside_of_all(const tahr__query *query)
         double x = v_get(at, axis) - v_get(o, axis), gap = d_max(root->lo[axis] - x, x - root->hi[axis]);
         gap2 += gap > 0 ? gap * gap : 0;
     }
-    return d_max(sqrt(gap2) * (1 - 1e-9) - query->half - SPARE, 0);
+    return d_min(d_max(sqrt(gap2) * (1 - 1e-9) - query->half - SPARE, 0), FARTHEST);
 }
 
 /* All within reach of an upright segment at p, with a distance that is not more than theirs. */
@@ -330,7 +332,7 @@ static void find_spot(const tahr__query *query, tahr_vec3 place)
     if (first > 0 || second <= APART) return;
     if (under != v->under) {
         tahr__prim *prim = &prims[under];
-        if (under != query->cache->recent[1] && side_of(query, &v->floor, prim) != IN_IT) return;
+        if (under != v->stood && side_of(query, &v->floor, prim) != IN_IT) return;
         if (prim->kind & TAHR__UNFORMED) tahr__form_rest(query->world, query->frame, prim);
         tahr_vec3 face = prim->kind & TAHR__FACELESS ? tahr__heights_face(query, prim) : prim->face;
         v->face = v_dot(face, v->floor.normal) < 0 ? v_scale(face, -1) : face;

@@ -451,6 +451,31 @@ static tahr_status fluid(void *self, tahr_query_context *context, const tahr_flu
     return status;
 }
 
+/* The floor under the end of a walk, whatever is in its way. */
+static uint32_t floor_behind(mutant *m, tahr_query_context *context, const tahr_walk *w, tahr_hit *hit)
+{
+    uint32_t count = 0;
+    const tahr_sweep down = {.shape = *w->foot,
+                             .position = w->foot_position,
+                             .up = w->up,
+                             .orientation = {0, 0, 0, 1},
+                             .motion = w->foot_motion,
+                             .margin = w->margin,
+                             .mask = w->mask,
+                             .ignore_body = TAHR_NO_BODY};
+    native()->sweep(m->inner, context, &down, hit, 1, &count);
+    return count == 1 && hit->blocking && !hit->start_overlap;
+}
+
+static tahr_status walk(void *self, tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit, uint32_t *known)
+{
+    mutant *m = self;
+    tahr_status status = native()->walk(m->inner, context, walk, hit, known);
+    if (m->which == WALKS_OFF_BY_ROUNDING && *known && walk->foot) hit->distance += 1e-15;
+    if (m->which == WALKS_THROUGH_WALLS && !*known && walk->foot) *known = floor_behind(m, context, walk, hit);
+    return status;
+}
+
 static const tahr_backend backend = {
     .struct_size = sizeof backend,
     .abi_major = TAHR_ABI_MAJOR,
@@ -469,6 +494,7 @@ static const tahr_backend backend = {
     .prepare = prepare,
     .place = place,
     .fluid = fluid,
+    .walk = walk,
 };
 
 const tahr_backend *mutant_backend(void)

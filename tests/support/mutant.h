@@ -88,6 +88,8 @@
     X(ALWAYS_UNKNOWN, "stops_at_margin")                             \
     X(SEVENTH_BODY_IS_MISSED, "random_sweeps_among_blocks")          \
     X(SEVENTH_BODY_HAS_NO_CONTACTS, "random_contacts_among_blocks")  \
+    X(WALKS_THROUGH_WALLS, "a_walk_in_one_look_is_its_sweeps")       \
+    X(WALKS_OFF_BY_ROUNDING, "a_walk_in_one_look_is_its_sweeps")     \
     X(MASK_IGNORED, "mask")                                          \
     X(IGNORE_BODY_IGNORED, "ignore_body")                            \
     X(ONLY_BODY_IGNORED, "only_body")                                \
