@@ -425,7 +425,7 @@ static int cut_up(tahr__step *step, tahr__path *w)
     if (!whole || !level || tolerance == 0 || step->input->flags & TAHR_INPUT_DRIVE) {
         return 0;
     }
-    double sagitta = tahr__law_bending(&w->law, w->velocity) * w->duration * w->duration / 8;
+    double sagitta = tahr__law_sagitta(&w->law, w->velocity, w->duration);
     if (sagitta <= tolerance) {
         return 0;
     }

@@ -48,8 +48,8 @@ int tahr__sleep_again(const tahr__sleep *sleep, tahr_report *report, tahr_status
 /* What a step with a report of these flags returns. */
 tahr_status tahr__step_status(uint32_t flags);
 
-/* Notes a step that changed no bit of the state; forgets the last one after any other. state: as it is now; changed: is
- * it another one than before the step? */
+/* Notes a step that changed no bit of the state; the last one has been forgotten when this one began. state: as it is
+ * now; changed: is it another one than before the step? */
 void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, const tahr_state *state, int changed);
 
 #endif

@@ -226,6 +226,19 @@ double tahr__law_bending(const tahr__law *law, vec3 v)
     return law->speed > 0 && !straight ? law->acceleration + law->turn_friction * length(across) : 0;
 }
 
+/* Two bounds. |a| t^2 / 8 of any curve. And while it turns, of the way to its side: that decays, to no more than q / f
+ * in all, and way and chord lie on the same side of it; going back at first is over after p^2 / (2 A). */
+double tahr__law_sagitta(const tahr__law *law, vec3 v, double t)
+{
+    double bent = tahr__law_bending(law, v) * t * t / 8, p = dot(v, law->wish);
+    if (bent == 0 || brakes(law, v) || !(law->turn_friction > 0)) {
+        return bent;
+    }
+    double across = length(reject(v, law->wish)), aside = across * min_of(t, 1 / law->turn_friction);
+    double back = p >= 0 ? 0 : law->acceleration > 0 ? p * p / (2 * law->acceleration) : INFINITY;
+    return min_of(bent, aside + back);
+}
+
 /* Straight at the wish, not backward: when a way is covered. */
 static double straight_time(const tahr__law *law, double p, double way)
 {

@@ -33,6 +33,9 @@ double tahr__law_time(const tahr__law *law, vec3 v, double duration, vec3 whole,
  * lies off the way by an eighth of it times t^2. */
 double tahr__law_bending(const tahr__law *law, vec3 v);
 
+/* m: the way of t seconds lies off its chord by no more. */
+double tahr__law_sagitta(const tahr__law *law, vec3 v, double t);
+
 /* One round of a Newton that is held within [low, high], for a function that rises through zero: over is its value at
  * t, rate its slope there. Narrows the bracket and returns where to look next. */
 static inline double newton_next(double t, double over, double rate, double *low, double *high)

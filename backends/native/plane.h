@@ -50,7 +50,7 @@ static inline double plane_earliest(const tahr__query *query, const tahr__prim *
     /* Half of what counts as arrived is left, so that rounding never makes it late. */
     double gap = beyond - (reach + 0.5 * TAHR__ARRIVED) * length;
     /* Touching the margin from outside and not coming nearer: a walker at rest on its clearance. */
-    if (rate <= 0) return gap >= -TAHR__ARRIVED * length ? NEVER : 0;
+    if (rate <= TAHR__PARALLEL * query->motion_length * length) return gap >= -TAHR__ARRIVED * length ? NEVER : 0;
     /* A target of nothing needs the way there to know its normal. */
     return gap <= 0 || reach < 1e-6 ? 0 : closing_time(gap, rate, limit);
 }

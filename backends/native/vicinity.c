@@ -24,16 +24,18 @@
  * at least FLAT wide between such corners leans by less than half of TAHR__PARALLEL, so that a motion along the floor
  * does not approach it. */
 #define LEVEL 4e-15
-#define FLAT 0.01
+#define FLAT 0.02
 /* So much lower than the floor (m) is not met before it, nor at the same time but for rounding (HAIR of sweep.c). */
 #define LOWER 1e-6
 /* More than what counts as the same time (m, HAIR of sweep.c). */
 #define TIED 2e-9
-/* Shapes with less reach (m) are left to the cache: it has to be much more than any of the lengths here. */
-#define SMALL 1e-3
-/* A triangle of the floor that is farther than this from a contact (m) is nearer to a foot of 1 mm and more by less
- * than rounding: 2e-8 m later, where 1e-9 m counts as the same time. */
+/* A triangle of the floor that is farther than this (m) from the contact of a foot of reach r is met later, by the square
+ * of it over 2 r: 2.5e-9 m at least, where 1e-9 m counts as the same time. */
 #define APART 2e-4
+/* Shapes of less reach (m) are left to the cache, for it has to be much more than the lengths here; and of more, for
+ * APART. */
+#define SMALL 1e-3
+#define LARGE 8.0
 /* Around a place on the floor other triangles are looked for as far as this (m). */
 #define SPOT 0.5
 /* Queries in a row that must have asked little before it is tried, and each time it was of no use twice as many. */
@@ -133,7 +135,7 @@ static void find_floor(const tahr__query *query)
 static int is_above(const tahr__query *query)
 {
     const tahr__level *l = &query->cache->vicinity.floor;
-    return l->normal.z > 0 && height_over(l, query) >= (reach_of(query) - TAHR__ARRIVED) * l->length;
+    return l->normal.z > 0 && height_over(l, query) >= (reach_of(query) - 0.5 * TAHR__ARRIVED) * l->length;
 }
 
 /* m from the query's segment to where nothing has been gathered. */
@@ -230,7 +232,7 @@ static int serves(const tahr__query *query)
     int whole = (c->overflow == 0) & (c->plain == 1) & (c->revision == world->revision) & (world->movable.count == 0);
     int plain = (query->mask == c->mask) & (query->ignore_body == TAHR_NO_BODY) & (query->core.axis_count < 2) &
                 (query->sensors != TAHR__SENSORS_ONLY) & !(query->flags & TAHR_SWEEP_ONLY_BODY);
-    return whole & plain & (reach_of(query) > SMALL);
+    return whole & plain & (reach_of(query) > SMALL) & (reach_of(query) < LARGE);
 }
 
 /* Is there nothing that need be measured up to this fraction of the motion? */
@@ -259,7 +261,7 @@ static int way_of(const tahr__query *query)
     if (v->clear <= 0) return UNKNOWN;
     if (!v->over) return need(query, 1) <= v->clear ? CLEAR : UNKNOWN;
     double height = height_over(l, query), change = v_dot(l->normal, query->motion), reach = reach_of(query);
-    if (height < (reach - TAHR__ARRIVED) * l->length) return UNKNOWN;
+    if (height < (reach - 0.5 * TAHR__ARRIVED) * l->length) return UNKNOWN;
     int down = change < -0.5 * TAHR__PARALLEL * query->motion_length * l->length &&
                height + change < (reach + SPARE) * l->length;
     if (down) return DOWN;
@@ -332,10 +334,12 @@ static void find_spot(const tahr__query *query, tahr_vec3 place)
     if (first > 0 || second <= APART) return;
     if (under != v->under) {
         tahr__prim *prim = &prims[under];
-        if (under != v->stood && side_of(query, &v->floor, prim) != IN_IT) return;
+        if (side_of(query, &v->floor, prim) != IN_IT) return;
         if (prim->kind & TAHR__UNFORMED) tahr__form_rest(query->world, query->frame, prim);
         tahr_vec3 face = prim->kind & TAHR__FACELESS ? tahr__heights_face(query, prim) : prim->face;
-        v->face = v_dot(face, v->floor.normal) < 0 ? v_scale(face, -1) : face;
+        const int behind = v_dot(face, v->floor.normal) < 0;
+        if (behind && !(prim->kind & TAHR__TWO_SIDED)) return;
+        v->face = behind ? v_scale(face, -1) : face;
         v->under = under;
     }
     v->spot = place;

@@ -81,12 +81,15 @@ typedef struct tahr_config {
     uint32_t keep_level_speed;
 
     /* Collision */
-    uint32_t mask;       /* [all bits] bodies this character meets; 0: none */
-    uint32_t max_slides; /* [8] sweeps of one slice of walking or falling, then the rest of the motion is dropped */
-    double skin;         /* m [0.01 | 0.019] distance kept from everything that blocks (PULL_BACK: from floors) */
+    uint32_t mask; /* [all bits] bodies this character meets; 0: none */
+    uint32_t
+        max_slides; /* [8] sweeps of one slice of walking or falling, besides those of path_tolerance; then the rest
+                          * of the motion is dropped */
+    double skin;    /* m [0.01 | 0.019] distance kept from everything that blocks (PULL_BACK: from floors) */
     /* m [0.002] EXACT, JOINT: a slide around an edge or a round body is bent on within a slice, and a walk that turns
      * into something is cut up, so that what is swept lies no further off the true way, in at most 16 pieces; 0: off,
-     * straight until the next slice. Asks a sweep or two more in such slices, and in no others */
+     * straight until the next slice. Asks two sweeps more for every turn and one for every piece of such slices, mostly
+     * one or two in all, and none in others */
     double path_tolerance;
     /* m [0.001] PULL_BACK: least distance taken back, 0.004 of it the shortest motion; SINGLE: 1.25 of it is added to
      * every push, where a shape larger by it fits */

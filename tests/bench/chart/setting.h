@@ -27,7 +27,7 @@ uint32_t chart_settings_make(const bench_world *level, const chart_setting **set
 /* The default of a level: its preset on native, 60 Hz. */
 void chart_setting_default(const bench_world *level, chart_setting *setting);
 
-/* The same numbers by the exact methods on native in double, at a high rate: what the methods are judged by. The
+/* The same numbers by the exact methods on native, at a high rate: what the methods are judged by. The
  * integrator stays: who pushes along a wall ends at another speed with STEPPED than with EXACT, however short a step is;
  * that is a definition and no error. */
 void chart_setting_reference(const chart_setting *setting, chart_setting *reference);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * window.h: how far whole movement is off its path. From many places of a level a character sets off, one way for one
  * second, some with a jump; where it is every 0.1 s is compared with a reference from the very same start: the same
- * numbers by the exact methods on native in double at a high rate (chart_setting_reference). Short pieces, because two
+ * numbers by the exact methods on native at a high rate (chart_setting_reference). Short pieces, because two
  * runs that differ by a micrometre at a ledge are metres apart soon afterwards, and that would say nothing about
  * either. A start from which the reference disagrees with itself at half its rate by more than a millimetre decides
  * nothing, and is left out. */

@@ -194,6 +194,32 @@ static void a_way_lies_off_its_chord_by_an_eighth_of_its_bending(void **unused)
     assert_true(most > 0.5); /* and is no empty bound */
 }
 
+/* Also where the turn is over in a hair's breadth of the step, and then by little. */
+static void a_way_lies_off_its_chord_by_its_sagitta(void **unused)
+{
+    oracle_random seed = {21};
+    int sharp = 0;
+    (void)unused;
+    for (int i = 0; i < 6000; i++) {
+        tahr__law law = {.wish = unit(vec(oracle_uniform(&seed, -1, 1), oracle_uniform(&seed, -1, 1), 0)),
+                         .speed = oracle_uniform(&seed, 1, 8),
+                         .acceleration = pow(10, oracle_uniform(&seed, -1, 6)),
+                         .turn_friction = pow(10, oracle_uniform(&seed, -1, 4)),
+                         .braking = 10};
+        double most = oracle_uniform(&seed, 0, 1.2) * law.speed, t = oracle_uniform(&seed, 0.005, 0.3);
+        vec3 v = vec(oracle_uniform(&seed, -most, most), oracle_uniform(&seed, -most, most), 0);
+        vec3 whole = tahr__law_advance(&law, v, t).displacement;
+        double bound = tahr__law_sagitta(&law, v, t);
+        sharp += bound < 1e-3 && bound < 0.1 * tahr__law_bending(&law, v) * t * t / 8;
+        for (int k = 1; k < 32; k++) {
+            vec3 at = tahr__law_advance(&law, v, t * pow(k / 32.0, 4)).displacement;
+            assert_true(length(reject(at, unit(whole))) <= bound * (1 + 1e-9) + 1e-12 ||
+                        tahr__law_bending(&law, v) == 0);
+        }
+    }
+    assert_true(sharp > 300);
+}
+
 static void zero_time_and_zero_velocity_change_nothing(void **unused)
 {
     tahr__law law = preset_law(6);
@@ -252,6 +278,7 @@ int main(void)
                                        cmocka_unit_test(halves_compose_to_the_whole),
                                        cmocka_unit_test(speed_never_exceeds_the_larger_of_start_and_wish),
                                        cmocka_unit_test(a_way_lies_off_its_chord_by_an_eighth_of_its_bending),
+                                       cmocka_unit_test(a_way_lies_off_its_chord_by_its_sagitta),
                                        cmocka_unit_test(zero_time_and_zero_velocity_change_nothing),
                                        cmocka_unit_test(fall_is_the_parabola_up_to_terminal_speed),
                                        cmocka_unit_test(held_jump_coasts_before_it_falls),

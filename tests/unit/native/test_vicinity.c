@@ -175,6 +175,40 @@ static void what_lies_in_one_plane_is_met_by_its_lowest_name(void **state)
     assert_true(compare(&bodies[2], 1, &(tahr_bounds){{6, 6, -1}, {10, 10, 1}}) > 0.1);
 }
 
+/* One-sided, and every seventh triangle the wrong way round: a hole. */
+static void a_triangle_that_faces_down_holds_nobody(void **state)
+{
+    static native_grid grid;
+    const tahr_bounds spawn = {{2, 2, -1}, {22, 22, 2}};
+    tahr_body_desc body = native_grid_body(&grid, 24, 1, NULL);
+    (void)state;
+    for (uint32_t t = 3; t < 24 * 24 * 2; t += 7) {
+        const uint32_t a = grid.indices[3 * t];
+        grid.indices[3 * t] = grid.indices[3 * t + 1];
+        grid.indices[3 * t + 1] = a;
+    }
+    compare(&body, 1, &spawn);
+}
+
+/* Two floors that overlap, one a little lower, level and tilted: from one to the other and back. */
+static void the_floor_is_that_of_the_higher_sheet(void **state)
+{
+    static native_grid low, high;
+    const double heights[] = {1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 2e-3, 5e-3};
+    const tahr_bounds spawn = {{-1, -1, -4}, {25, 13, 6}};
+    (void)state;
+    for (int i = 0; i < 16; i++) {
+        tahr_body_desc bodies[2] = {native_grid_body(&low, 12, 1, NULL), native_grid_body(&high, 10, 1.3, NULL)};
+        bodies[1].pose.position = v_make(9, 0.25, heights[i / 2]);
+        if (i % 2) {
+            const tahr_quat tilt = {0.06, 0.04, 0, sqrt(1 - 0.0052)};
+            for (int k = 0; k < 2; k++)
+                bodies[k].pose.orientation = tilt, bodies[k].flags = TAHR_BODY_TWO_SIDED;
+        }
+        compare(bodies, 2, &spawn);
+    }
+}
+
 static void levels_are_walked_alike(void **state)
 {
     const char *const names[] = {"playground", "dungeon", "nav_test"};
@@ -199,6 +233,8 @@ int main(void)
         cmocka_unit_test(open_ground_is_walked_the_short_way),
         cmocka_unit_test(planes_that_meet_or_nearly_meet_are_told_apart),
         cmocka_unit_test(what_lies_in_one_plane_is_met_by_its_lowest_name),
+        cmocka_unit_test(a_triangle_that_faces_down_holds_nobody),
+        cmocka_unit_test(the_floor_is_that_of_the_higher_sheet),
         cmocka_unit_test(levels_are_walked_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
