@@ -91,6 +91,8 @@ static void walks(tahr__lab *lab)
             return;
         }
         if (!lab->world->backend->walk) {
+            tahr__lab_clear(lab);
+            lab->checks = 0;
             tahr__lab_lacks(lab, "the slot walk");
             return;
         }

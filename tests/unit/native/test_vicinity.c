@@ -209,6 +209,68 @@ static void the_floor_is_that_of_the_higher_sheet(void **state)
     }
 }
 
+/* To and fro over the border of two great triangles, the second a little lower, so that the foot that has stood on it is
+ * asked for in the plane of the first. */
+static void steps(double lower, uint64_t dice)
+{
+    const double high[] = {-30, -30, 0, 2, -30, 0, 2, 40, 0};
+    const double low[] = {2, -30, -lower, 30, -30, -lower, 2, 40, -lower};
+    const uint32_t corners[] = {0, 1, 2};
+    tahr_body_desc bodies[2];
+    tahr_world *worlds[2];
+    tahr_mover *movers[2];
+    tahr_state states[2];
+    tahr_input input = {.struct_size = sizeof input};
+    oracle_random random = {dice};
+    double way = 1;
+    for (int i = 0; i < 2; i++) {
+        tahr_body_desc_init(&bodies[i], sizeof bodies[i], TAHR_BODY_MESH);
+        bodies[i].vertices = i ? low : high;
+        bodies[i].indices = corners;
+        bodies[i].vertex_count = 3;
+        bodies[i].triangle_count = 1;
+        bodies[i].flags = TAHR_BODY_TWO_SIDED;
+    }
+    for (uint32_t i = 0; i < 2; i++) {
+        const tahr_native_desc native = {.struct_size = sizeof native, .no_vicinity = i};
+        tahr_world_desc desc;
+        tahr_config config;
+        tahr_world_desc_init(&desc, sizeof desc);
+        desc.bodies = bodies;
+        desc.body_count = 2;
+        desc.options = &native;
+        assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &worlds[i]), TAHR_OK);
+        tahr_config_init(&config, sizeof config, TAHR_PRESET_PRECISE);
+        config.max_speed = 1;
+        config.perch_threshold = 0;
+        config.short_ways = !i;
+        assert_int_equal(tahr_mover_create(worlds[i], &config, &movers[i]), TAHR_OK);
+        assert_int_equal(tahr_state_init(&states[i], &config, &(tahr_vec3){1.7, -10, 0.93}), TAHR_OK);
+    }
+    for (int n = 0; n < 1500; n++) {
+        const double x = states[0].position.x - 2;
+        way = x < -0.2 ? 1 : x > 0.25 ? -1 : oracle_below(&random, 12) == 0 ? -way : way;
+        input.move.x = n < 30 ? 0 : way;
+        for (int i = 0; i < 2; i++)
+            assert_true(tahr_mover_step(movers[i], &input, 1.0 / 120, &states[i], NULL) >= 0);
+        assert_memory_equal(&states[0], &states[1], sizeof states[0]);
+    }
+    for (int i = 0; i < 2; i++) {
+        tahr_mover_destroy(movers[i]);
+        tahr_world_close(worlds[i]);
+    }
+}
+
+static void who_stood_lower_is_told_from_who_stands_in_the_plane(void **state)
+{
+    const double heights[] = {1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 2e-3};
+    (void)state;
+    for (size_t i = 0; i < sizeof heights / sizeof heights[0]; i++) {
+        for (uint64_t dice = 1; dice < 6; dice++)
+            steps(heights[i], dice);
+    }
+}
+
 static void levels_are_walked_alike(void **state)
 {
     const char *const names[] = {"playground", "dungeon", "nav_test"};
@@ -235,6 +297,7 @@ int main(void)
         cmocka_unit_test(what_lies_in_one_plane_is_met_by_its_lowest_name),
         cmocka_unit_test(a_triangle_that_faces_down_holds_nobody),
         cmocka_unit_test(the_floor_is_that_of_the_higher_sheet),
+        cmocka_unit_test(who_stood_lower_is_told_from_who_stands_in_the_plane),
         cmocka_unit_test(levels_are_walked_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
