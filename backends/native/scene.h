@@ -310,6 +310,9 @@ static inline void tahr__vicinity_learn(const tahr__query *query, uint64_t tests
     v->calm = tests > (query->core.axis_count == 0 ? of_floor : of_way) ? 0 : v->calm + 1;
 }
 
+/* m from a place (world) to everything that is static: 0 within the bounds of all of it, and no more than 16. */
+double tahr__outside_of_all(const tahr__native *world, tahr_vec3 position);
+
 /* The cache holds something else now. */
 void tahr__vicinity_forget(tahr__vicinity *vicinity);
 

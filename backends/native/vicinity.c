@@ -148,21 +148,26 @@ static double border(const tahr__query *query)
     return d_min(least.x, d_min(least.y, least.z));
 }
 
-/* m from the query's segment to everything that is static, and FARTHEST at most: 0 within the bounds of all of it. */
-static double outside_of_all(const tahr__query *query)
+double tahr__outside_of_all(const tahr__native *world, tahr_vec3 position)
 {
-    const tahr__bvh *tree = &query->world->fixed.tree;
-    if (query->world->gather) return 0;
-    if (query->world->fixed.count == 0) return FARTHEST;
+    const tahr__bvh *tree = &world->fixed.tree;
+    if (world->gather || world->no_vicinity) return 0;
+    if (world->fixed.count == 0) return FARTHEST;
     const tahr__bvh_node *root = &tree->nodes[0];
-    const tahr_vec3 at = v_add(query->frame->origin, tahr__frame_to_world(query->frame, query->start)),
-                    o = tree->centre;
     double gap2 = 0;
     for (int axis = 0; axis < 3; axis++) {
-        double x = v_get(at, axis) - v_get(o, axis), gap = d_max(root->lo[axis] - x, x - root->hi[axis]);
+        double x = v_get(position, axis) - v_get(tree->centre, axis),
+               gap = d_max(root->lo[axis] - x, x - root->hi[axis]);
         gap2 += gap > 0 ? gap * gap : 0;
     }
-    return d_min(d_max(sqrt(gap2) * (1 - 1e-9) - query->half - SPARE, 0), FARTHEST);
+    return d_min(sqrt(gap2) * (1 - 1e-9), FARTHEST);
+}
+
+/* m from the query's segment to everything that is static, at most. */
+static double outside_of_all(const tahr__query *query)
+{
+    const tahr_vec3 at = v_add(query->frame->origin, tahr__frame_to_world(query->frame, query->start));
+    return d_max(tahr__outside_of_all(query->world, at) - query->half - SPARE, 0);
 }
 
 /* All within reach of an upright segment at p, with a distance that is not more than theirs. */
