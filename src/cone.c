@@ -9,6 +9,13 @@ static const double FEASIBLE = 1e-12;
 /* Two planes meet in a usable line if |n x n'|^2 exceeds this (0.06 degrees): below they are one plane for rounding. */
 static const double CREASE = 1e-6;
 
+/* Of two that face each other and go through the origin the line is as good as their cross product, whose rounding is
+ * 1e-16: the edges of a gap that is exactly as wide as who falls through it. */
+static const double FACING = 1e-14;
+
+/* And below this (6 degrees) it is better: what pushes against each other cancels out but for rounding. */
+static const double NARROW = 1e-2;
+
 static int feasible(const tahr__plane *planes, uint32_t count, vec3 x, double slack)
 {
     for (uint32_t i = 0; i < count; i++) {
@@ -29,7 +36,8 @@ static int on_two(const tahr__plane *a, const tahr__plane *b, vec3 u, vec3 *x)
 {
     double g = dot(a->normal, b->normal);
     double det = length_squared(cross(a->normal, b->normal));
-    if (det < CREASE) {
+    const int through = g < 0 && a->offset == 0 && b->offset == 0;
+    if (det < (through ? FACING : CREASE)) {
         return 0;
     }
     double ra = a->offset - dot(a->normal, u);
@@ -37,6 +45,10 @@ static int on_two(const tahr__plane *a, const tahr__plane *b, vec3 u, vec3 *x)
     double la = (ra - g * rb) / det;
     double lb = (rb - g * ra) / det;
     *x = add_scaled(add_scaled(u, a->normal, la), b->normal, lb);
+    if (through && det < NARROW) {
+        const vec3 line = cross(a->normal, b->normal);
+        *x = scale(line, dot(line, u) / det);
+    }
     return la >= 0 && lb >= 0; /* Kuhn-Tucker: planes only push */
 }
 

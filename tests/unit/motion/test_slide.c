@@ -107,10 +107,29 @@ static void on_the_line_that_planes_leave_nothing_is_lifted(void **unused)
     assert_near(x.z, 0, 1e-12);
 }
 
+/* The edges of a gap, a hair narrower ahead: who pushes in falls along the line that both leave, and no farther in. */
+static void between_edges_that_face_each_other_there_is_the_way_down(void **unused)
+{
+    (void)unused;
+    for (double lean = 1e-3; lean > 3e-7; lean *= 0.37) {
+        const double across = sqrt(1 - lean * lean);
+        const tahr__plane edges[2] = {{.normal = {-lean, -across, 0}, .feature = 1},
+                                      {.normal = {-lean, across, 0}, .feature = 2}};
+        for (int i = -3; i <= 3; i++) {
+            const vec3 push = vec(0.1, 0.02 * i, -0.05), way = tahr__bend(edges, 2, push);
+            assert_true(fabs(way.z - push.z) < 1e-9);
+            assert_true(way.x < 1e-9 && fabs(way.y) < 1e-9);
+            for (int k = 0; k < 2; k++)
+                assert_true(dot(way, edges[k].normal) > -1e-13);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(on_the_line_that_planes_leave_nothing_is_lifted),
                                        cmocka_unit_test(slide_leaves_every_plane_and_never_lengthens),
+                                       cmocka_unit_test(between_edges_that_face_each_other_there_is_the_way_down),
                                        cmocka_unit_test(both_sides_of_a_gutter_are_left_down_to_a_degree),
                                        cmocka_unit_test(no_plane_keeps_the_motion_and_a_dead_end_stops_it),
                                        cmocka_unit_test(planes_are_forgotten_beyond_a_skin),
