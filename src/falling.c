@@ -92,13 +92,8 @@ static arc arc_of(const tahr__step *step, const fall *f)
     if (vec_equal(a.axis, step->state.up) || dot(a.axis, step->state.up) > 1 - 1e-15) {
         a.axis = step->state.up;
     }
-    vec3 wish = reject(step->input->move, a.axis);
-    double size = length(wish);
-    a.law.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0);
-    a.law.speed = c->max_speed * min_of(size, 1);
-    a.law.acceleration = c->acceleration * c->air_control;
+    a.law = tahr__arc_law(c, reject(step->input->move, a.axis));
     limit_control(f, a.axis, &a.law);
-    a.law.turn_friction = c->air_turn_friction;
     if (c->integrator == TAHR_INTEGRATOR_STEPPED) { /* the slice began with its velocity across up */
         a.law = tahr__constant_law();
     }

@@ -60,23 +60,11 @@ static inline double inside_rim(const tahr__step *step, const tahr_hit *hit)
     return shape_is_round(s) ? s->radius + skin - length(offset) : skin + inside_outline(step, offset);
 }
 
-/* Nearly the same face as a moment ago: within 0.8 degrees, less than the hysteresis. */
-static int is_same_face(const tahr_floor *old, const tahr_hit *hit)
-{
-    return old->body == hit->body && dot(old->surface_normal, hit->surface_normal) > 0.9999;
-}
-
-uint32_t tahr__still_slope(const tahr__step *step, const tahr_hit *hit)
-{
-    const tahr_floor *old = &step->state.floor;
-    return old->flags & TAHR_FLOOR_SLOPE && is_same_face(old, hit) ? TAHR_FLOOR_SLOPE : 0;
-}
-
 int tahr__was_walkable(const tahr__step *step, const tahr_hit *hit)
 {
     const tahr_floor *old = &step->state.floor;
     return step->state.mode == TAHR_MODE_WALKING && floor_is_walkable(old) && (old->flags & TAHR_FLOOR_FACE) &&
-           is_same_face(old, hit);
+           floor_is_same_face(old, hit);
 }
 
 static void fill(tahr_floor *floor, const tahr_hit *hit, double distance, uint32_t flags)
@@ -112,7 +100,7 @@ static int comes_to_rest(const tahr__step *step)
 static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor)
 {
     const tahr_config *c = step->config;
-    double range = reach + (c->floor_max - 1) * c->skin;
+    double range = foot_range(c, reach);
     tahr_hit hit;
     uint32_t flags = TAHR_FLOOR_BLOCKING;
     if (supplied) {
@@ -137,11 +125,11 @@ static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied,
     /* Out of no floor by more than its own height: what says deeper is wrong, or a push is called for. */
     double deep = max_of(-hit.depth, -2 * step->limits->shape.half_height);
     fill(floor, &hit, hit.start_overlap ? deep : foot_clearance(step, &hit, range),
-         flags | tahr__still_slope(step, &hit));
+         flags | floor_still_slope(&step->state.floor, &hit));
     int surface = tahr__is_walkable(step, &hit, tahr__was_walkable(step, &hit));
     floor->flags |= surface ? TAHR_FLOOR_FACE : 0u;
     /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
-    int on_face = dot(hit.normal, hit.surface_normal) > 1 - 1e-6;
+    int on_face = dot(hit.normal, hit.surface_normal) > TAHR__ON_FACE;
     int rim = inside < c->perch_threshold + c->skin;
     int ok = surface && (on_face || !rim);
     if (!ok && rim && !hit.start_overlap) {

@@ -25,10 +25,24 @@ int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable);
 /* Cosine of the steepest slope that this face may have to be walkable. No query. */
 double tahr__walkable_limit(const tahr__step *step, const tahr_hit *hit, int was_walkable);
 
+/* Nearly the same face as a moment ago: within 0.8 degrees, less than the hysteresis. */
+static inline int floor_is_same_face(const tahr_floor *old, const tahr_hit *hit)
+{
+    return old->body == hit->body && dot(old->surface_normal, hit->surface_normal) > 0.9999;
+}
+
+/* TAHR_FLOOR_SLOPE if it is, and has been found to be one. */
+static inline uint32_t floor_still_slope(const tahr_floor *old, const tahr_hit *hit)
+{
+    return old->flags & TAHR_FLOOR_SLOPE && floor_is_same_face(old, hit) ? TAHR_FLOOR_SLOPE : 0;
+}
+
 /* Is it nearly the same face as the state's floor? Then, if that was walkable by itself, it keeps the benefit of the
- * hysteresis; and TAHR_FLOOR_SLOPE if it has been found to be one. No query. */
+ * hysteresis. No query. */
 int tahr__was_walkable(const tahr__step *step, const tahr_hit *hit);
-uint32_t tahr__still_slope(const tahr__step *step, const tahr_hit *hit);
+
+/* Cosine: contact normals that lean less from that of the face lie on it. */
+#define TAHR__ON_FACE (1 - 1e-6)
 
 /* FindFloor: under the character's position, looked for down to `reach` metres (plus the clearance band; with SHRUNK
  * less it, unless walking). A hit of a sweep that ended here may be supplied instead of the first sweep. With WHOLE 1

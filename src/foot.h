@@ -25,6 +25,12 @@ static inline void foot_sweep(tahr__step *step, const tahr__foot *foot, double r
     tahr__sweep(step, &foot->shape, from, scale(up, -range), step->config->skin, flags, hit);
 }
 
+/* How far down the foot looks for a floor within reach. */
+static inline double foot_range(const tahr_config *c, double reach)
+{
+    return reach + (c->floor_max - 1) * c->skin;
+}
+
 /* Clearance below in the direction of up, from such a sweep over `range`. */
 static inline double foot_clearance(const tahr__step *step, const tahr_hit *hit, double range)
 {

@@ -226,11 +226,10 @@ void tahr__path_bend(tahr__step *step, tahr__path *w)
  * long as it holds the character it stays one. */
 void tahr__path_find_slope(tahr__path *w, tahr__step *step)
 {
-    const double steep = 0.966;
     tahr_floor *floor = &step->state.floor;
     vec3 up = step->state.up;
     tahr_hit hit;
-    if (dot(w->slope, up) > steep || (floor->flags & TAHR_FLOOR_SLOPE)) {
+    if (dot(w->slope, up) > TAHR__GENTLE || (floor->flags & TAHR_FLOOR_SLOPE)) {
         return;
     }
     vec3 half_way = add_scaled(step->state.position, step_level(step, sub(floor->point, step->state.position)), 0.5);

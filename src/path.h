@@ -61,6 +61,9 @@ double tahr__path_look_ahead(tahr__step *step, const tahr__path *w);
 /* A wall was added to the set: the rest of the slice is a piece of its own. No query. */
 void tahr__path_bend(tahr__step *step, tahr__path *w);
 
+/* Cosine: floors that are steeper may be the bevel of a step; see tahr__path_find_slope. */
+#define TAHR__GENTLE 0.966
+
 /* How a wish (m/s, across up, of `size`) is approached, of which walls leave the part `kept`: `asked` m/s. No query. */
 static inline tahr__law tahr__law_of_wish(const tahr_config *c, vec3 wish, double size, double asked, double kept)
 {

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * plummet.c: a fall in free air. See short_way.h. */
-#include "answer.h"
+#include "falling.h"
 #include "short_way.h"
+#include "turning.h"
 
 /* m/s, squared: faster than this a fall is capped (mover.c). */
 static const double FASTEST2 = 1e10;
@@ -20,12 +21,7 @@ int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_st
     if (dt <= TAHR__SHORTEST || !is_one_chord(c, gravity, rise, dt) || !is_against_gravity(&mover->limits.pull, axis)) {
         return 0;
     }
-    const vec3 wish = reject(input->move, axis);
-    const double size = length(wish);
-    const tahr__law law = {.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0),
-                           .speed = c->max_speed * min_of(size, 1),
-                           .acceleration = c->acceleration * c->air_control,
-                           .turn_friction = c->air_turn_friction};
+    const tahr__law law = tahr__arc_law(c, reject(input->move, axis));
     double fall;
     const double drop = tahr__fall_advance(rise, gravity, c->terminal_speed, 0, dt, &fall);
     const tahr__motion m = tahr__law_advance(&law, add_scaled(state->velocity, axis, -rise), dt);

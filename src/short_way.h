@@ -58,12 +58,6 @@ static inline int goes_astray(const tahr_mover *mover, vec3 position)
     return mover->company && company_strays(mover->company, position);
 }
 
-/* Does the shape stand against gravity? */
-static inline int is_against_gravity(const tahr__pull *pull, vec3 up)
-{
-    return pull->size < 1e-6 || dot(pull->up, up) > 1 - 1e-15;
-}
-
 /* Of a step that asked for so many sweeps, and nothing came of them. */
 static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, const tahr_query_context *context)
 {

@@ -5,12 +5,7 @@
 #include "foot.h"
 #include "path.h"
 #include "short_way.h"
-
-/* Steeper floors may be the bevel of a step (tahr__path_find_slope). */
-static const double GENTLE = 0.966;
-
-/* Contacts that lean less from the face are on it (find_whole of floor.c). */
-static const double ON_FACE = 1 - 1e-6;
+#include "turning.h"
 
 int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits)
 {
@@ -25,8 +20,8 @@ static int begins_on_face(const tahr_mover *mover, const tahr_state *s)
     const tahr_floor *f = &s->floor;
     const uint32_t face = TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE;
     return s->floor_revision == mover->world->revision && vec_equal(s->floor_position, s->position) &&
-           (f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) == face && dot(f->normal, f->surface_normal) >= ON_FACE &&
-           (dot(f->surface_normal, s->up) > GENTLE || (f->flags & TAHR_FLOOR_SLOPE)) &&
+           (f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) == face && dot(f->normal, f->surface_normal) >= TAHR__ON_FACE &&
+           (dot(f->surface_normal, s->up) > TAHR__GENTLE || (f->flags & TAHR_FLOOR_SLOPE)) &&
            is_against_gravity(&mover->limits.pull, s->up);
 }
 
@@ -55,7 +50,7 @@ static int ends_on_face(const tahr_mover *mover, const tahr_state *s, vec3 posit
     const double up = dot(hit->surface_normal, s->up);
     const double limit = max_of(max_of(limits->walkable, limits->walkable_hysteresis), 1e-4);
     return hit->blocking && hit->walkable_rule == TAHR_WALKABLE_DEFAULT && up >= limit &&
-           dot(hit->normal, hit->surface_normal) > ON_FACE &&
+           dot(hit->normal, hit->surface_normal) > TAHR__ON_FACE &&
            limits->shape.radius + c->skin - length(offset) >= c->edge_tolerance &&
            (hit->fraction > 0 || hit->distance >= c->skin) && clearance >= c->skin - 1e-6 &&
            clearance <= c->floor_max * c->skin;
@@ -63,8 +58,7 @@ static int ends_on_face(const tahr_mover *mover, const tahr_state *s, vec3 posit
 
 static void write_floor(tahr_floor *f, const tahr_hit *hit, double clearance)
 {
-    const int same = f->body == hit->body && dot(f->surface_normal, hit->surface_normal) > 0.9999;
-    const uint32_t slope = same ? f->flags & TAHR_FLOOR_SLOPE : 0;
+    const uint32_t slope = floor_still_slope(f, hit);
     *f = (tahr_floor){.normal = hit->normal,
                       .surface_normal = hit->surface_normal,
                       .point = hit->point,
@@ -87,7 +81,7 @@ int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_sta
         return 0;
     }
     const vec3 position = add_scaled(state->position, motion, 1);
-    const double range = c->snap_distance + (c->floor_max - 1) * c->skin;
+    const double range = foot_range(c, c->snap_distance);
     const tahr_walk walk = {.shape = &mover->limits.shape,
                             .foot = &foot->shape,
                             .position = state->position,

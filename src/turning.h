@@ -6,9 +6,14 @@
 #include "core.h"
 
 /* Does the shape stand against gravity? Weightless up stays what it was. */
+static inline int is_against_gravity(const tahr__pull *pull, vec3 up)
+{
+    return pull->size < 1e-6 || dot(pull->up, up) > 1 - 1e-15;
+}
+
 static inline int is_upright(const tahr__step *step)
 {
-    return step->pull->size < 1e-6 || dot(step->pull->up, step->state.up) > 1 - 1e-15;
+    return is_against_gravity(step->pull, step->state.up);
 }
 
 /* Rights the shape against gravity, pivoting about its foot, or where that overlaps something about its centre; refused

@@ -7,12 +7,7 @@
 
 #if defined(__GNUC__) && defined(__x86_64__)
 
-#if defined(__clang__)
-#pragma STDC FP_CONTRACT OFF
-#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
-#else
-#pragma GCC target("avx2")
-#endif
+#include "avx2_begin.h"
 
 #include "lane_8.h"
 
@@ -31,9 +26,7 @@ uint32_t tahr__wide_test_8(const tahr__wide_node *node, const tahr__wide_box *bo
     return wide_test(node, box, point, away);
 }
 
-#if defined(__clang__)
-#pragma clang attribute pop
-#endif
+#include "avx2_end.h"
 
 #else
 

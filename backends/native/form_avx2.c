@@ -7,12 +7,7 @@
 
 #if defined(__GNUC__) && defined(__x86_64__)
 
-#if defined(__clang__)
-#pragma STDC FP_CONTRACT OFF
-#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
-#else
-#pragma GCC target("avx2")
-#endif
+#include "../common/avx2_begin.h"
 
 #include <immintrin.h>
 
@@ -53,9 +48,7 @@ void tahr__form_4(const tahr__map *map, const tahr__raw *raw, float *lanes)
     form(map, raw, lanes);
 }
 
-#if defined(__clang__)
-#pragma clang attribute pop
-#endif
+#include "../common/avx2_end.h"
 
 #else
 

@@ -5,12 +5,7 @@
 
 #if defined(__GNUC__) && defined(__x86_64__)
 
-#if defined(__clang__)
-#pragma STDC FP_CONTRACT OFF
-#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
-#else
-#pragma GCC target("avx2")
-#endif
+#include "../common/avx2_begin.h"
 
 #include "../common/lane_8.h"
 
@@ -26,9 +21,7 @@ uint32_t tahr__lanes_near_8(const tahr__lanes *lanes, const tahr__lanes_query *q
     return lanes_near(lanes, query, found);
 }
 
-#if defined(__clang__)
-#pragma clang attribute pop
-#endif
+#include "../common/avx2_end.h"
 
 #else
 

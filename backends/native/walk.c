@@ -8,15 +8,15 @@ static tahr_vec3 turned(const tahr__frame *frame, tahr_vec3 v)
     return frame->turned ? m_apply(&frame->turn, v) : v;
 }
 
-static void aim(tahr__query *query, const tahr_shape *shape, tahr_vec3 position, tahr_vec3 motion)
+static void aim(tahr__query *query, tahr_query_context *context, const tahr_walk *walk, int foot)
 {
-    query->start = turned(query->frame, v_sub(position, query->frame->origin));
-    query->motion = turned(query->frame, motion);
+    tahr__query_begin(query, query->world, context, foot ? walk->foot_position : walk->position, walk->up);
+    tahr__query_shape(query, foot ? walk->foot : walk->shape, (tahr_quat){0, 0, 0, 1});
+    query->motion = turned(query->frame, foot ? walk->foot_motion : walk->motion);
     query->motion_length = v_length(query->motion);
-    query->core.axis_count = 0;
-    query->extent = v_make(0, 0, 0);
-    query->half = 0;
-    tahr__query_shape(query, shape, (tahr_quat){0, 0, 0, 1});
+    query->margin = walk->margin;
+    query->mask = walk->mask;
+    query->ignore_body = TAHR_NO_BODY;
 }
 
 /* Beyond all that there is, by more than the shape and its way. A metre is more than any rounding. */
@@ -41,18 +41,15 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
         return TAHR_OK;
     }
     if (!cache || !cache->announced || !tahr__frame_holds(&cache->frame, walk->position, walk->up)) return TAHR_OK;
-    tahr__query_begin(&query, world, context, walk->position, walk->up);
-    query.margin = walk->margin;
-    query.mask = walk->mask;
-    query.ignore_body = TAHR_NO_BODY;
-    aim(&query, walk->shape, walk->position, walk->motion);
+    query.world = world;
+    aim(&query, context, walk, 0);
     if (!tahr__vicinity_knows(&query, hit, &count) || count > 0) return TAHR_OK;
     if (!walk->foot) {
         *known = 1;
         context->spared++;
         return TAHR_OK;
     }
-    aim(&query, walk->foot, walk->foot_position, walk->foot_motion);
+    aim(&query, context, walk, 1);
     *known = tahr__vicinity_knows(&query, hit, &count) && count > 0;
     context->spared += *known ? 2 : 0;
     return TAHR_OK;

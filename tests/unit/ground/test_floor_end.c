@@ -15,6 +15,7 @@
 #include "floor_end.h"
 #include "native_world.h"
 #include "rig.h"
+#include "step_in_progress.h"
 
 static const double HOLDS = 0.21;
 
@@ -30,26 +31,9 @@ typedef struct search {
     uint32_t looks; /* besides the one at the end of the way */
 } search;
 
-/* On native, in doubles. */
-static void open_on(rig *r, const tahr_body_desc *bodies, uint32_t count, tahr_vec3 at)
-{
-    tahr_native_desc native;
-    memset(&native, 0, sizeof native);
-    native.struct_size = sizeof native;
-    rig_open_native(r, &native, bodies, count, NULL, at);
-}
-
 static tahr__step begin(rig *r)
 {
-    tahr__step step;
-    memset(&step, 0, sizeof step);
-    step.config = &r->mover->config;
-    step.limits = &r->mover->limits;
-    step.world = r->world;
-    step.ignore_body = TAHR_NO_BODY;
-    step.input = &r->input;
-    step.pull = &r->mover->limits.pull;
-    step.state = r->state;
+    tahr__step step = step_in_progress(r);
     step.state.mode = TAHR_MODE_WALKING;
     return step;
 }
@@ -135,7 +119,7 @@ static void a_straight_edge_is_found_to_a_nanometre_however_it_is_met(void **unu
     tahr_body_desc box = native_box(fake_vec(-3, 0, -1), fake_vec(5, 5, 1));
     rig r;
     (void)unused;
-    open_on(&r, &box, 1, fake_vec(0, 0, HEIGHT));
+    rig_open_bodies(&r, &box, 1, NULL, fake_vec(0, 0, HEIGHT));
     for (int i = 0; i < 4; i++) {
         for (double turn = -1.2; turn < 1.3; turn += 0.3) {
             tahr_vec3 from = fake_vec(2 + HOLDS - 0.04, 0.1 * turn, HEIGHT);
@@ -154,7 +138,7 @@ static void a_corner_holds_as_far_as_an_edge_in_every_direction(void **unused)
     tahr_body_desc box = native_box(fake_vec(-3, 0, -1), fake_vec(5, 5, 1)); /* its corner: (2, 5) */
     rig r;
     (void)unused;
-    open_on(&r, &box, 1, fake_vec(0, 0, HEIGHT));
+    rig_open_bodies(&r, &box, 1, NULL, fake_vec(0, 0, HEIGHT));
     for (double beside = -0.15; beside < 0.16; beside += 0.03) { /* past the corner along its bisector */
         const double s = sqrt(0.5);
         tahr_vec3 from = fake_vec(2 + s * (0.16 + beside), 5 + s * (0.16 - beside), HEIGHT);
@@ -187,7 +171,7 @@ static void a_floor_that_breaks_off_into_a_slope_ends_where_the_perch_slides_ont
         roof f;
         tahr_body_desc body = roof_body(&f, 0, angles[i] * degree);
         rig r;
-        open_on(&r, &body, 1, fake_vec(0, 0, HEIGHT));
+        rig_open_bodies(&r, &body, 1, NULL, fake_vec(0, 0, HEIGHT));
         for (double turn = -0.9; turn < 1; turn += 0.45) {
             tahr_vec3 from = fake_vec(2 + ends[i] - 0.03, 0, HEIGHT);
             tahr_vec3 to = add(from, fake_vec(0.06, 0.06 * tan(turn), 0));
@@ -207,7 +191,7 @@ static void an_edge_that_slopes_holds_as_far_as_a_level_one(void **unused)
     tahr_body_desc body = roof_body(&f, 0.5, acos(-1) / 2);
     rig r;
     (void)unused;
-    open_on(&r, &body, 1, fake_vec(0, 0, HEIGHT));
+    rig_open_bodies(&r, &body, 1, NULL, fake_vec(0, 0, HEIGHT));
     for (double y = -1; y < 1.1; y += 0.25) {
         tahr_floor floor;
         tahr_vec3 from = fake_vec(2 + HOLDS - 0.05, y, 0.5 * y + 1.1);
@@ -228,7 +212,7 @@ static void a_perch_over_a_lower_floor_ends_at_the_rim(void **unused)
                                native_box(fake_vec(0, 0, -2.6), fake_vec(20, 20, 2))};
     rig r;
     (void)unused;
-    open_on(&r, boxes, 2, fake_vec(0, 0, HEIGHT));
+    rig_open_bodies(&r, boxes, 2, NULL, fake_vec(0, 0, HEIGHT));
     for (double turn = -1; turn < 1.1; turn += 0.5) {
         tahr_vec3 from = fake_vec(2.3, 0, HEIGHT), to = add(from, fake_vec(0.08, 0.08 * tan(turn), 0));
         search s = find(&r, from, to);
@@ -250,7 +234,7 @@ static void what_60_halvings_find_lies_between_inside_and_outside(void **unused)
     rig r;
     (void)unused;
     native_hills(&grid, bodies);
-    open_on(&r, bodies, NATIVE_HILLS, fake_vec(6, 6, 10));
+    rig_open_bodies(&r, bodies, NATIVE_HILLS, NULL, fake_vec(6, 6, 10));
     for (int i = 0; i < 20000; i++) {
         tahr_floor floor;
         tahr_vec3 from = dice_vec(&random, 0, 12), way = dice_vec(&random, -0.3, 0.3);

@@ -11,19 +11,12 @@
 #include "floor.h"
 #include "ledge.h"
 #include "rig.h"
+#include "step_in_progress.h"
 
 /* A step in progress of the rig's mover, as mover.c would make it, without a time. */
 static tahr__step begin(rig *r)
 {
-    tahr__step step;
-    memset(&step, 0, sizeof step);
-    step.config = &r->mover->config;
-    step.limits = &r->mover->limits;
-    step.world = r->world;
-    step.ignore_body = TAHR_NO_BODY;
-    step.input = &r->input;
-    step.pull = &r->mover->limits.pull;
-    step.state = r->state;
+    tahr__step step = step_in_progress(r);
     step.report.decisions = r->decisions;
     step.report.decision_capacity = RIG_DECISIONS;
     return step;

@@ -14,6 +14,7 @@
 #include "native_world.h"
 #include "query.h"
 #include "rig.h"
+#include "step_in_progress.h"
 #include "step_up.h"
 
 enum { BODIES = 40 };
@@ -22,15 +23,7 @@ static const double HEIGHT = 0.9125; /* of the middle over a floor: half a heigh
 
 static tahr__step begin(rig *r)
 {
-    tahr__step step;
-    memset(&step, 0, sizeof step);
-    step.config = &r->mover->config;
-    step.limits = &r->mover->limits;
-    step.world = r->world;
-    step.ignore_body = TAHR_NO_BODY;
-    step.input = &r->input;
-    step.pull = &r->mover->limits.pull;
-    step.state = r->state;
+    tahr__step step = step_in_progress(r);
     step.state.mode = TAHR_MODE_WALKING;
     return step;
 }
