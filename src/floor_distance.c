@@ -143,8 +143,8 @@ static int take_sweep(tahr__step *step, const tahr_hit *hit, uint32_t flags, tah
 {
     set_hit(floor, hit);
     int walkable = tahr__is_walkable(step, hit, tahr__was_walkable(step, hit));
-    floor->flags = flags | floor_still_slope(&step->state.floor, hit) | (hit->start_overlap ? 0u : TAHR_FLOOR_BLOCKING) |
-                   (walkable ? TAHR_FLOOR_FACE : 0u);
+    floor->flags = flags | floor_still_slope(&step->state.floor, hit) |
+                   (hit->start_overlap ? 0u : TAHR_FLOOR_BLOCKING) | (walkable ? TAHR_FLOOR_FACE : 0u);
     floor->flags |= walkable ? TAHR_FLOOR_WALKABLE : 0u;
     return walkable;
 }
