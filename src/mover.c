@@ -329,6 +329,7 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
         }
     }
     finish_report(&step);
+    tahr__note_long_way(mover, &step.report, step.state.mode);
     if (report) {
         *report = step.report;
     }

@@ -19,34 +19,43 @@ int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, c
 int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
 int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
 
-/* Near walls and on rough ground the short way is tried less and less often: after one, three, at most seven steps;
- * in the air, where it is seldom barred, at most three. */
-static inline int tahr__tries_short_way(tahr_mover *mover, uint32_t mode)
+/* Along walls and on rough ground steps are like the ones before: who went the long way and asked for more than a short
+ * one knows is likely to do so again. And where the short way was tried in vain it is not for a while. */
+static inline int tahr__tries_short_way(tahr_mover *mover)
 {
-    const uint32_t most = mode == TAHR_MODE_FALLING ? 2 : 3;
-    if (mover->rest > 0 && mover->failed <= most) {
-        mover->rest--;
+    if (mover->long_way || mover->rest > 0) {
+        mover->rest -= mover->rest > 0;
         return 0;
     }
-    mover->failed = mover->failed < most ? mover->failed : most;
-    mover->rest = (1u << mover->failed) - 1;
-    mover->failed += mover->failed < most;
     return 1;
+}
+
+static inline void tahr__note_short_way(tahr_mover *mover, int done)
+{
+    const uint32_t most = 5;
+    mover->failed = done ? 0 : mover->failed < most ? mover->failed + 1 : most;
+    mover->rest = (1u << mover->failed) / 2 - (mover->failed > 0);
+}
+
+/* Of a step that went the long way. */
+static inline void tahr__note_long_way(tahr_mover *mover, const tahr_report *r, uint32_t mode)
+{
+    const uint32_t of_short = mode == TAHR_MODE_FALLING ? 1 : 2;
+    mover->long_way = r->sweeps > of_short || r->contact_queries > 0 || r->rays > 0;
 }
 
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report)
 {
     const int traced = report && (report->decisions || report->queries), knows = mover->world->backend->walk != NULL;
-    if (!mover->may_go_short_way || !knows || traced || input->jump || state->flags ||
-        !tahr__tries_short_way(mover, state->mode)) {
+    if (!mover->may_go_short_way || !knows || traced || input->jump || state->flags || !tahr__tries_short_way(mover)) {
         return 0;
     }
     const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)
                      : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report)
                                                         : 0;
+    tahr__note_short_way(mover, done);
     if (done) {
-        mover->failed = mover->rest = 0;
         mover->sleep.noted = 0;
     }
     return done;

@@ -51,6 +51,17 @@ int tahr__box_touches(const tahr__core *box, tahr_vec3 centre, const tahr__facet
 
 /* The pieces of it. A point sets everything but reserved. */
 void tahr__point_facet(tahr_vec3 q, const tahr__facet *f, tahr__witness *out);
+
+/* The same of a point that is known to lie straight over the face. */
+static inline void tahr__point_face(tahr_vec3 q, const tahr__facet *f, tahr__witness *out)
+{
+    double inverse = 1.0 / f->length, height = v_dot(f->cross, v_sub(q, f->v[0])) * inverse;
+    tahr_vec3 unit = v_scale(f->cross, inverse);
+    out->feature = TAHR__FACE;
+    out->distance = fabs(height);
+    out->normal = height < 0 ? v_scale(unit, -1) : unit;
+    out->point = v_mad(q, unit, -height);
+}
 /* Squared distance of the segments p0 p1 and q0 q1; *s, *t in [0,1] say where. Segments may be points. */
 double tahr__segment_segment(tahr_vec3 p0, tahr_vec3 p1, tahr_vec3 q0, tahr_vec3 q1, double *s, double *t);
 

@@ -68,12 +68,7 @@ void tahr__point_facet(tahr_vec3 q, const tahr__facet *f, tahr__witness *out)
         beside_face(q, v, side, n2 > 0, out);
         return;
     }
-    double inverse = 1.0 / f->length, height = v_dot(n, d) * inverse;
-    tahr_vec3 unit = v_scale(n, inverse);
-    out->feature = TAHR__FACE;
-    out->distance = fabs(height);
-    out->normal = height < 0 ? v_scale(unit, -1) : unit;
-    out->point = v_mad(q, unit, -height);
+    tahr__point_face(q, f, out);
 }
 
 double tahr__segment_segment(tahr_vec3 p0, tahr_vec3 p1, tahr_vec3 q0, tahr_vec3 q1, double *s, double *t)

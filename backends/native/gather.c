@@ -5,21 +5,6 @@
 
 #include <string.h>
 
-static size_t whole_lines(size_t bytes)
-{
-    return (bytes + 63) / 64 * 64;
-}
-
-static size_t header_bytes(void)
-{
-    return whole_lines(sizeof(tahr__cache));
-}
-
-static size_t lanes_bytes(const tahr__native *world)
-{
-    return whole_lines(world->capacity * TAHR__LANE_ROWS * sizeof(float));
-}
-
 static uint32_t buckets_of(const tahr__native *world)
 {
     uint32_t size = 16;
@@ -34,42 +19,17 @@ static size_t corners_bytes(const tahr__native *world)
     return world->gather ? exact + next + (size_t)buckets_of(world) * 4 : 0;
 }
 
-static size_t prims_bytes(const tahr__native *world)
-{
-    return world->capacity * sizeof(tahr__prim);
-}
-
 size_t tahr__cache_bytes(const tahr__native *world)
 {
-    return header_bytes() +
-           (world->no_cache ? 0 : lanes_bytes(world) + prims_bytes(world) + whole_lines(corners_bytes(world)));
-}
-
-static float *blocks_of(tahr__cache *cache)
-{
-    return (float *)(void *)((unsigned char *)cache + header_bytes());
-}
-
-static tahr__prim *prims_of(const tahr__native *world, tahr__cache *cache)
-{
-    return (tahr__prim *)(void *)((unsigned char *)cache + header_bytes() + lanes_bytes(world));
-}
-
-tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cache)
-{
-    return prims_of(world, cache);
-}
-
-tahr__lanes tahr__cache_lanes(tahr__cache *cache)
-{
-    return (tahr__lanes){blocks_of(cache), cache->count};
+    const size_t each = (2 + TAHR__LANE_ROWS) * sizeof(float) + sizeof(tahr__prim);
+    return TAHR__HEADER + (world->no_cache ? 0 : world->capacity * each + corners_bytes(world));
 }
 
 tahr__corners tahr__cache_corners(const tahr__native *world, tahr__cache *cache)
 {
     tahr__corners c;
     c.buckets = buckets_of(world);
-    c.exact = (tahr_vec3 *)(void *)((unsigned char *)prims_of(world, cache) + prims_bytes(world));
+    c.exact = (tahr_vec3 *)(void *)(tahr__cache_prims(world, cache) + world->capacity);
     c.next = (uint32_t *)(void *)(c.exact + 3 * (size_t)world->capacity);
     c.first = c.next + 3 * (size_t)world->capacity;
     return c;
@@ -212,7 +172,6 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     cache->overflow = cache->count = 0;
     cache->plain = 1;
     cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
-    tahr__vicinity_forget(&cache->vicinity);
     g.search.query = &query;
     g.search.box = cache->local;
     g.search.reach = 0;
@@ -220,8 +179,8 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     g.search.order = TAHR__IN_BULK;
     g.search.visit = store;
     g.search.take = take;
-    g.blocks = blocks_of(cache);
-    g.prims = prims_of(world, cache);
+    g.blocks = tahr__cache_blocks(world, cache);
+    g.prims = tahr__cache_prims(world, cache);
     g.cache = cache;
     if (fits)
         tahr__tree_search(&g.search, &world->fixed);
@@ -231,6 +190,7 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     cache->revision = world->revision;
     if (!cache->overflow) tahr__form_lanes(world, &cache->frame, g.prims, g.blocks, cache->count);
     tahr__lanes_end(g.blocks, cache->count);
+    tahr__vicinity_forget(world, cache);
     context->gathers++;
 }
 
@@ -295,8 +255,8 @@ static void form_found(const tahr__query *query, tahr__prim *all, const tahr__la
 uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr__lanes_found *found)
 {
     const tahr__query *query = s->query;
-    tahr__lanes lanes = tahr__cache_lanes(query->cache);
-    tahr__prim *all = prims_of(query->world, query->cache);
+    tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
+    tahr__prim *all = tahr__cache_prims(query->world, query->cache);
     *prims = all;
     tahr__lanes_query q;
     lanes_query(s, &q);
@@ -314,16 +274,21 @@ uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr_
     return kept;
 }
 
+int tahr__cache_spans(const tahr__cache *cache, const tahr_bounds *box, double reach)
+{
+    const double more = reach + 10 * TAHR__SLACK;
+    const tahr_vec3 grow = v_make(more, more, more);
+    const tahr_bounds grown = {v_sub(box->min, grow), v_add(box->max, grow)};
+    return inside(&grown, &cache->local);
+}
+
 int tahr__cache_holds(const tahr__search *s)
 {
     const tahr__query *query = s->query;
     const tahr__cache *cache = query->cache;
     if (!cache || !cache->gathered || cache->overflow || (query->mask & ~cache->mask)) return 0;
     if (cache->revision != query->world->revision) return 0;
-    double reach = s->reach + 10 * TAHR__SLACK;
-    tahr_vec3 grow = v_make(reach, reach, reach);
-    tahr_bounds box = {v_sub(s->box.min, grow), v_add(s->box.max, grow)};
-    if (inside(&box, &cache->local)) return 1;
+    if (tahr__cache_spans(cache, &s->box, s->reach)) return 1;
     query->context->escapes++;
     return 0;
 }

@@ -140,6 +140,28 @@ uint32_t tahr__lanes_near_1(const tahr__lanes *lanes, const tahr__lanes_query *q
     return kept;
 }
 
+void tahr__lanes_measure_1(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
+{
+    for (uint32_t i = 0; i < (lanes->count + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES; i++) {
+        float away2 = box_distance(lanes, i, query->lo, query->hi);
+        if (away2 <= query->limit) {
+            const beside b = beside_of(lanes, i, query);
+            away2 = larger_1(b.h * b.h + b.o * b.o, away2);
+        }
+        far[i] = sqrtf(away2);
+    }
+}
+
+uint32_t tahr__lanes_pick_1(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const float away = lift ? far[i] + lift[i] : far[i];
+        if (away <= most) found[kept++] = (tahr__lanes_found){away, i};
+    }
+    return kept;
+}
+
 #if defined(__GNUC__)
 
 #include "../common/lane_4.h"
@@ -156,6 +178,16 @@ uint32_t tahr__lanes_near_4(const tahr__lanes *lanes, const tahr__lanes_query *q
     return lanes_near(lanes, query, found);
 }
 
+void tahr__lanes_measure_4(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
+{
+    lanes_measure(lanes, query, far);
+}
+
+uint32_t tahr__lanes_pick_4(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
+{
+    return lanes_pick(far, lift, count, most, found);
+}
+
 #else
 
 uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
@@ -168,13 +200,24 @@ uint32_t tahr__lanes_near_4(const tahr__lanes *lanes, const tahr__lanes_query *q
     return tahr__lanes_near_1(lanes, query, found);
 }
 
+void tahr__lanes_measure_4(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
+{
+    tahr__lanes_measure_1(lanes, query, far);
+}
+
+uint32_t tahr__lanes_pick_4(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
+{
+    return tahr__lanes_pick_1(far, lift, count, most, found);
+}
+
 #endif
 
 const tahr__lanes_way *tahr__lanes_best(uint32_t no_simd)
 {
-    static const tahr__lanes_way ways[] = {{tahr__lanes_cull_1, tahr__lanes_near_1},
-                                           {tahr__lanes_cull_4, tahr__lanes_near_4},
-                                           {tahr__lanes_cull_8, tahr__lanes_near_8}};
+    static const tahr__lanes_way ways[] = {
+        {tahr__lanes_cull_1, tahr__lanes_near_1, tahr__lanes_measure_1, tahr__lanes_pick_1},
+        {tahr__lanes_cull_4, tahr__lanes_near_4, tahr__lanes_measure_4, tahr__lanes_pick_4},
+        {tahr__lanes_cull_8, tahr__lanes_near_8, tahr__lanes_measure_8, tahr__lanes_pick_8}};
     if (no_simd) return &ways[0];
 #if defined(__GNUC__) && defined(__x86_64__)
     if (__builtin_cpu_supports("avx2")) return &ways[2];

@@ -55,16 +55,26 @@ typedef struct tahr__lanes_found {
 /* Writes all of them, in order, and returns how many. */
 typedef uint32_t tahr__lanes_fn(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found);
 
+/* Distances (m), one a primitive, whole blocks of them. */
+typedef void tahr__lanes_measure_fn(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far);
+typedef uint32_t tahr__lanes_pick_fn(const float *far, const float *lift, uint32_t count, float most,
+                                     tahr__lanes_found *found);
+
 /* cull, as above. near: of a segment at rest, whatever motion says; time: the distance (m) that box, plane and edges
- * keep the primitive off it, within TAHR__LANE_SLACK. */
+ * keep the primitive off it, within TAHR__LANE_SLACK. measure: that distance of all, by the box alone where that is
+ * beyond the limit. pick: those of no more than most, after lift has been added, if it is not NULL. */
 typedef struct tahr__lanes_way {
     tahr__lanes_fn *cull, *near;
+    tahr__lanes_measure_fn *measure;
+    tahr__lanes_pick_fn *pick;
 } tahr__lanes_way;
 
 /* The scalar twin; four lanes, which every machine has by its compiler's vectors; eight, where the processor has
  * AVX2. */
 tahr__lanes_fn tahr__lanes_cull_1, tahr__lanes_cull_4, tahr__lanes_cull_8;
 tahr__lanes_fn tahr__lanes_near_1, tahr__lanes_near_4, tahr__lanes_near_8;
+tahr__lanes_measure_fn tahr__lanes_measure_1, tahr__lanes_measure_4, tahr__lanes_measure_8;
+tahr__lanes_pick_fn tahr__lanes_pick_1, tahr__lanes_pick_4, tahr__lanes_pick_8;
 
 /* The fastest that this machine can run; or the scalar twin. */
 const tahr__lanes_way *tahr__lanes_best(uint32_t no_simd);

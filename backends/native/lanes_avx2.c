@@ -21,6 +21,16 @@ uint32_t tahr__lanes_near_8(const tahr__lanes *lanes, const tahr__lanes_query *q
     return lanes_near(lanes, query, found);
 }
 
+void tahr__lanes_measure_8(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
+{
+    lanes_measure(lanes, query, far);
+}
+
+uint32_t tahr__lanes_pick_8(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
+{
+    return lanes_pick(far, lift, count, most, found);
+}
+
 #include "../common/avx2_end.h"
 
 #else
@@ -33,6 +43,16 @@ uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *q
 uint32_t tahr__lanes_near_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
     return tahr__lanes_near_4(lanes, query, found);
+}
+
+void tahr__lanes_measure_8(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
+{
+    tahr__lanes_measure_4(lanes, query, far);
+}
+
+uint32_t tahr__lanes_pick_8(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
+{
+    return tahr__lanes_pick_4(far, lift, count, most, found);
 }
 
 #endif

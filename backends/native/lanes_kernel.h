@@ -108,6 +108,34 @@ static inline uint32_t lanes_cull(const tahr__lanes *lanes, const tahr__lanes_qu
     return kept;
 }
 
+static inline void lanes_measure(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
+{
+    const box_lanes box = box_lanes_of(query);
+    const uint32_t whole = (lanes->count + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
+    for (uint32_t i = 0; i < whole; i += WIDTH) {
+        const float *block = lanes->blocks + tahr__lane(i, 0);
+        lane away2 = square_gaps(block, &box);
+        mask near = away2 <= box.most;
+        if (bits(near)) {
+            const besides b = besides_of(block, query);
+            away2 = choose(near, larger(b.h * b.h + b.o * b.o, away2), away2);
+        }
+        const lane away = root(away2);
+        memcpy(far + i, &away, sizeof away);
+    }
+}
+
+static inline uint32_t lanes_pick(const float *far, const float *lift, uint32_t count, float most,
+                                  tahr__lanes_found *found)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i += WIDTH) {
+        const lane away = lift ? at(far + i) + at(lift + i) : at(far + i);
+        kept += keep(away <= splat(most), away, i, found + kept);
+    }
+    return kept;
+}
+
 static inline uint32_t lanes_near(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
     const box_lanes box = box_lanes_of(query);

@@ -385,9 +385,10 @@ int tahr__probe_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3
 {
     tahr__witness w;
     if (query->core.axis_count != 0 || (prim->kind & (TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR))) return 0;
-    tahr__point_facet(v_mad(query->start, query->motion, t), &prim->facet, &w);
+    w.reserved = 0;
+    tahr__point_face(v_mad(query->start, query->motion, t), &prim->facet, &w);
     double rest = w.distance - (query->radius + query->margin), rate = v_dot(query->motion, w.normal);
-    if (w.feature != TAHR__FACE || rest > TAHR__ARRIVED || w.distance < query->radius || w.distance < BLURRED) return 0;
+    if (rest > TAHR__ARRIVED || w.distance < query->radius || w.distance < BLURRED) return 0;
     if (!(v_dot(face, w.normal) > 0.999) || rate >= -TAHR__PARALLEL * query->motion_length) return 0;
     if (hardly_approaching(query, face)) return 0;
     tahr__probe probe = {w, w.distance - query->radius};

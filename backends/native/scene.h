@@ -159,26 +159,26 @@ typedef struct tahr__level {
     double length;
 } tahr__level;
 
-/* What was measured at a place where the character was (vicinity.c). */
-enum { TAHR__VICINITY_MOST = 8 };
+/* What was measured at a place where the character was (vicinity.c): the distances are behind the header of the
+ * cache. */
 typedef struct tahr__vicinity {
     tahr_vec3 at;      /* local, the middle of an upright segment */
     double half;       /* of it */
-    double clear;      /* m to whatever is neither listed nor, with over, in or below the floor; <= 0: not known */
-    tahr__level floor; /* of this frame */
-    uint32_t over;     /* 1: what is in the plane of the floor or below it has been left out */
-    uint32_t calm;     /* queries in a row that asked little, */
-    uint32_t needed;   /* and how many there must be */
-    tahr_vec3 spot;    /* on the floor: within `alone` m (<= 0: none) nothing of it is but the triangle `under` */
+    tahr__level floor; /* of this frame: what stopped the last foot */
+    tahr_vec3
+        spot; /* on the floor: within `alone` m (<= 0: none) no triangle of it reaches over the edges of `under` */
     double alone;
-    tahr_vec3 face;                            /* the exact normal of that, toward the character */
-    uint32_t under;                            /* index */
-    uint32_t stood;                            /* index of what had stopped the last foot when the place was measured */
-    uint32_t count, near[TAHR__VICINITY_MOST]; /* indices of the nearest, */
-    double far[TAHR__VICINITY_MOST];           /* and m to them */
+    tahr_vec3 across[3];      /* outward of those edges, not unit; what is on one has this much along it, */
+    double border[3], hem[3]; /* and this much less is well inside */
+    tahr_vec3 face;           /* the exact normal of that, toward the character */
+    uint32_t under;           /* index */
+    uint32_t stood;           /* index of what had stopped the last foot when the floor was found */
+    uint32_t known;           /* 0: nothing has been measured */
+    uint32_t reserved;
+    uint32_t rest, rests; /* feet until a spot is looked for again, and after the next that was none */
 } tahr__vicinity;
 
-/* One character's memory: a header and, behind it, the lanes and the primitives (gather.c). */
+/* One character's memory (gather.c): */
 typedef struct tahr__cache {
     tahr__frame frame;
     tahr_bounds bounds; /* world: what was announced, grown by the margin */
@@ -191,6 +191,36 @@ typedef struct tahr__cache {
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
     tahr__vicinity vicinity;
 } tahr__cache;
+
+/* Bytes of the header, whole lines of memory. Behind it, for each primitive there is room for: how far it was from the
+ * place of the vicinity (m), and how much more to whom stays above the floor; then its lanes; then itself. All whole
+ * blocks of lanes. */
+enum { TAHR__HEADER = (sizeof(tahr__cache) + 63) / 64 * 64 };
+
+static inline float *tahr__cache_far(tahr__cache *cache)
+{
+    return (float *)(void *)((unsigned char *)cache + TAHR__HEADER);
+}
+
+static inline float *tahr__cache_lift(const tahr__native *world, tahr__cache *cache)
+{
+    return tahr__cache_far(cache) + world->capacity;
+}
+
+static inline float *tahr__cache_blocks(const tahr__native *world, tahr__cache *cache)
+{
+    return tahr__cache_lift(world, cache) + world->capacity;
+}
+
+static inline tahr__lanes tahr__cache_lanes(const tahr__native *world, tahr__cache *cache)
+{
+    return (tahr__lanes){tahr__cache_blocks(world, cache), cache->count};
+}
+
+static inline tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cache)
+{
+    return (tahr__prim *)(void *)(tahr__cache_blocks(world, cache) + (size_t)TAHR__LANE_ROWS * world->capacity);
+}
 
 /* Which bodies a query looks at: those that block, all, or sensors alone. */
 enum { TAHR__SENSORS_NONE = 0, TAHR__SENSORS_TOO = 1, TAHR__SENSORS_ONLY = 2 };
@@ -265,6 +295,8 @@ tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses,
 enum { TAHR__CACHE_MOST = 4096 };
 /* Does the cache hold everything static within reach of the search? */
 int tahr__cache_holds(const tahr__search *search);
+/* The same, of a cache that is known to serve. */
+int tahr__cache_spans(const tahr__cache *cache, const tahr_bounds *box, double reach);
 /* Which cached primitives (prims[found[i].index]) may be within reach, and when. Returns how many, at most
  * TAHR__CACHE_MOST. */
 uint32_t tahr__cache_cull(const tahr__search *search, const tahr__prim **prims, tahr__lanes_found *found);
@@ -278,8 +310,6 @@ typedef struct tahr__corners {
     uint32_t buckets; /* a power of two */
 } tahr__corners;
 tahr__corners tahr__cache_corners(const tahr__native *world, tahr__cache *cache);
-tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cache *cache);
-tahr__lanes tahr__cache_lanes(tahr__cache *cache);
 uint32_t tahr__corner_bucket(const tahr__corners *corners, tahr_vec3 corner);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
 
@@ -287,34 +317,30 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
  * counted: [in, out] where to begin counting, which was best last time; 0: anywhere. */
 int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *counted, double *margin);
 
-/* vicinity.c: what a sweep need not ask. */
-/* Is it worth trying? */
-static inline int tahr__vicinity_is_calm(const tahr__query *query)
-{
-    return query->cache && query->cache->vicinity.calm >= query->cache->vicinity.needed;
-}
-
-/* Most motions of a walker: nothing is near, or nothing but a face to come down on. Returns 1 and what a sweep would;
- * 0: there is more to it, and nothing was found out. Looks around anew where that may help. Of a query that is calm. */
-int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *count);
-/* The same from what is known already, of any query with a cache. */
-int tahr__vicinity_knows(const tahr__query *query, tahr_hit *hit, uint32_t *count);
-
-/* So many narrow tests did a sweep take that was not answered so: where that is more than a floor or a way takes it is
- * not soon tried. */
-static inline void tahr__vicinity_learn(const tahr__query *query, uint64_t tests)
-{
-    const uint64_t of_floor = 2, of_way = 1;
-    if (!query->cache) return;
-    tahr__vicinity *v = &query->cache->vicinity;
-    v->calm = tests > (query->core.axis_count == 0 ? of_floor : of_way) ? 0 : v->calm + 1;
-}
+/* vicinity.c: what a sweep need not ask. Where a motion leads: UNKNOWN: the cache or more is to be asked; AROUND: all
+ * that is near; OVER: of that, what is above the floor; DOWN: the floor too. */
+enum { TAHR__UNKNOWN, TAHR__AROUND, TAHR__OVER, TAHR__DOWN };
+/* Looks around anew where that may help; and the same from what is known. */
+uint32_t tahr__vicinity_look(const tahr__query *query);
+uint32_t tahr__vicinity_known(const tahr__query *query);
+uint32_t tahr__vicinity_way(const tahr__query *query);
+/* Of a way that is known: what may be met up to this fraction of the motion, formed; or more than most. */
+uint32_t tahr__vicinity_pick(const tahr__query *query, uint32_t way, double until, uint32_t most,
+                             tahr__lanes_found *found);
+/* The same: is nothing met? 0: there may be something. */
+int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
+/* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */
+int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
+/* The same of a body that stays OVER the floor, and then its foot that goes DOWN; or something may be in their way, or it
+ * is not clear where the floor is. */
+enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
+int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit);
 
 /* m from a place (world) to everything that is static: 0 within the bounds of all of it, and no more than 16. */
 double tahr__outside_of_all(const tahr__native *world, tahr_vec3 position);
 
 /* The cache holds something else now. */
-void tahr__vicinity_forget(tahr__vicinity *vicinity);
+void tahr__vicinity_forget(const tahr__native *world, tahr__cache *cache);
 
 /* source.c: the triangles of the user. */
 /* Fills all but the walkable fields of a loose triangle; 0: it has no area. */
@@ -402,7 +428,7 @@ typedef struct tahr__ask {
     const double *beside;
 } tahr__ask;
 int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const tahr__ask *ask, tahr__found *out);
-/* The same of a point that comes down on the inside of a face (its exact unit normal), which is what most motions are
+/* The same of a point that comes down well inside of a face (its exact unit normal), which is what most motions are
  * stopped by, and asked at the time before which nothing happens: 1 if that is so, else nothing is said. */
 int tahr__probe_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3 face, double t, tahr__found *out);
 /* 1 if the primitive is within margin of the shape at its start. */
@@ -419,6 +445,8 @@ double tahr__box_extent(const tahr__query *query, tahr_vec3 n);
 void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query_context *context, tahr_vec3 position,
                        tahr_vec3 up);
 void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat orientation);
+/* Of a query that is complete, and of which the vicinity knows no more than its way. */
+tahr_status tahr__sweep_rest(tahr__query *query, uint32_t way, tahr_hit *hits, uint32_t capacity, uint32_t *count);
 void tahr__fill_hit(const tahr__query *query, const tahr__found *found, tahr_hit *hit);
 tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const tahr_sweep *sweep, tahr_hit *hits,
                                uint32_t capacity, uint32_t *count);

@@ -4,19 +4,19 @@
  * The distance to anything changes by no more than the way that is gone. So when all that the cache holds has been
  * measured at one place, what was farther from there than the reach of a shape and its way from there is not met: no
  * query in free air, and of a room its corners are asked only near them. A floor is always near, but what lies in its
- * plane or below it cannot be met by who stays above; it is left out of the measure, and a foot that comes down on it
- * meets the triangle under it. Nothing here decides anything but what is asked: every answer has the bits of one from
- * the whole cache (no_vicinity). */
+ * plane or below it cannot be met by who stays above; it is left out then, and a foot that comes down on it meets the
+ * triangle under it. Nothing here decides anything but what is asked: every answer has the bits of one from the whole
+ * cache (no_vicinity). */
 #include "form.h"
 #include "plane.h"
 
-/* Farther off (m) than the reach of the shape nothing is listed: a dozen steps of a runner, about as far as a gathered box
- * leaves room for; and what all of the world is farther from than this is not told, for the distances of lanes are right
- * within TAHR__LANE_SLACK only near by. */
-#define LOOK 1.2
+/* Farther off (m) than the reach of the shape boxes say enough; and what all of the world is farther from than FARTHEST
+ * is not told, for the distances of lanes are right within TAHR__LANE_SLACK only near by. */
+#define LOOK 0.4
 #define FARTHEST 16.0
-/* Who has come less far (m) from the place is not helped by another one; and longer motions are spanned by none. */
-#define DRIFT 0.04
+/* Who has come farther (m) from the place looks around anew: a runner after two steps or three. */
+#define DRIFT 0.12
+/* Longer motions (m) are spanned by no place. */
 #define LONGEST 0.5
 /* Taken off what is known, against rounding and arrival (TAHR__ARRIVED) (m). */
 #define SPARE 1e-6
@@ -36,10 +36,14 @@
  * APART. */
 #define SMALL 1e-3
 #define LARGE 8.0
+/* And by so much (m) one may reach over the edge of another: rounding. */
+#define HEM 1e-6
 /* Around a place on the floor other triangles are looked for as far as this (m). */
 #define SPOT 0.5
-/* Queries in a row that must have asked little before it is tried, and each time it was of no use twice as many. */
-enum { CALM = 2, CALM_MOST = 32 };
+/* A spot (m) that the next steps leave is not worth finding: so many feet are then left to what is near, twice as many
+ * each time. */
+#define NARROW 0.04
+enum { FEWEST = 1, MOST = 8 };
 
 static double reach_of(const tahr__query *query)
 {
@@ -59,12 +63,17 @@ static double away2(const tahr__vicinity *v, const tahr__query *query, tahr_vec3
     return (x * x + y * y) + z * z;
 }
 
-/* m: what is farther than this from the place is not met up to this fraction of the motion. */
-static double need(const tahr__query *query, double until)
+/* The same at this fraction of the motion, if that is farther than at its start. */
+static double farthest2(const tahr__query *query, double until)
 {
     const tahr__vicinity *v = &query->cache->vicinity;
-    double begin = away2(v, query, query->start), end = away2(v, query, v_mad(query->start, query->motion, until));
-    return sqrt(d_max(begin, end)) + reach_of(query) + SPARE;
+    return d_max(away2(v, query, query->start), away2(v, query, v_mad(query->start, query->motion, until)));
+}
+
+/* m: what is farther than this from the place is not met by who comes so far from it. */
+static double need(double far2, double reach)
+{
+    return sqrt(far2) + reach + SPARE;
 }
 
 /* Of a gathered triangle, local. */
@@ -93,7 +102,12 @@ static int is_flat(const tahr_vec3 v[3], double lowest)
     return lowest >= -LEVEL && v_dot(x, x) > FLAT * FLAT * longest2;
 }
 
-enum { ABOVE, IN_IT, BELOW };
+/* Where a triangle is to the floor, as what is added to its distance for who stays above: nothing while it has not been
+ * looked at; next to nothing for what is ABOVE, or where it cannot be told; and what is not met is far away. */
+#define UNSEEN 0.0f
+#define ABOVE 1e-30f
+#define BELOW 1e38f
+#define IN_IT 2e38f
 
 /* The inside of a box or hull concerns only who enters it with the core. */
 static int is_under(const tahr__query *query, const tahr__level *l, const tahr__prim *prim)
@@ -103,8 +117,7 @@ static int is_under(const tahr__query *query, const tahr__level *l, const tahr__
     return !(prim->kind & (TAHR__ONE_WAY | TAHR__SENSOR)) && v_dot(n, v_sub(top, l->at)) <= 2 * TAHR__SLACK * l->length;
 }
 
-/* Where a gathered triangle is to the floor. ABOVE: or what cannot be told. */
-static int side_of(const tahr__query *query, const tahr__level *l, const tahr__prim *prim)
+static float side_of(const tahr__query *query, const tahr__level *l, const tahr__prim *prim)
 {
     const uint32_t other = TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR;
     tahr_vec3 v[3];
@@ -119,33 +132,40 @@ static int side_of(const tahr__query *query, const tahr__level *l, const tahr__p
     return highest <= LEVEL && is_flat(v, d_min(h[0], d_min(h[1], h[2]))) ? IN_IT : ABOVE;
 }
 
-/* The plane of what stopped the last foot, toward the character. */
-static void find_floor(const tahr__query *query)
+static float see_side(const tahr__query *query, uint32_t index)
+{
+    float *side = &tahr__cache_lift(query->world, query->cache)[index];
+    const tahr__prim *prim = &tahr__cache_prims(query->world, query->cache)[index];
+    return *side = side_of(query, &query->cache->vicinity.floor, prim);
+}
+
+static inline float side_at(const tahr__query *query, uint32_t index)
+{
+    const float side = tahr__cache_lift(query->world, query->cache)[index];
+    return side != UNSEEN ? side : see_side(query, index);
+}
+
+/* All are to be looked at again. */
+static void forget_sides(const tahr__native *world, tahr__cache *cache)
+{
+    memset(tahr__cache_lift(world, cache), 0,
+           (cache->count + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES * sizeof(float));
+}
+
+/* The plane of what stopped the last foot, toward the character; as it is, if that lies in it. */
+static void know_floor(const tahr__query *query)
 {
     tahr__vicinity *v = &query->cache->vicinity;
-    uint32_t i = query->cache->recent[1];
-    if (i >= query->cache->count) return;
+    const uint32_t i = query->cache->recent[1];
+    v->stood = i;
+    if (i >= query->cache->count || (v->floor.length > 0 && side_at(query, i) == IN_IT)) return;
     const tahr__prim *p = &tahr__cache_prims(query->world, query->cache)[i];
     if (p->kind & (TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR | TAHR__UNFORMED)) return;
     const tahr__facet *f = &p->facet;
     v->floor = (tahr__level){f->cross.z < 0 ? v_scale(f->cross, -1) : f->cross, f->v[0], f->length};
-}
-
-/* Is a floor known, and the character above it? */
-static int is_above(const tahr__query *query)
-{
-    const tahr__level *l = &query->cache->vicinity.floor;
-    return l->normal.z > 0 && height_over(l, query) >= (reach_of(query) - 0.5 * TAHR__ARRIVED) * l->length;
-}
-
-/* m from the query's segment to where nothing has been gathered. */
-static double border(const tahr__query *query)
-{
-    const tahr_bounds *box = &query->cache->local;
-    tahr_vec3 a = v_sub(v_sub(query->start, query->extent), box->min);
-    tahr_vec3 b = v_sub(box->max, v_add(query->start, query->extent));
-    tahr_vec3 least = v_min(a, b);
-    return d_min(least.x, d_min(least.y, least.z));
+    v->alone = 0;
+    v->under = TAHR__NONE;
+    forget_sides(query->world, query->cache);
 }
 
 double tahr__outside_of_all(const tahr__native *world, tahr_vec3 position)
@@ -170,114 +190,44 @@ static double outside_of_all(const tahr__query *query)
     return d_max(tahr__outside_of_all(query->world, at) - query->half - SPARE, 0);
 }
 
-/* All within reach of an upright segment at p, with a distance that is not more than theirs. */
-static uint32_t near_to(const tahr__query *query, tahr_vec3 p, double half, double reach, tahr__lanes_found *found)
+/* Of an upright segment at p. */
+static tahr__lanes_query lanes_query(tahr_vec3 p, double half, double reach)
 {
     double more = reach + TAHR__LANE_SLACK;
-    tahr__lanes_query q = {.lo = {d_down(p.x), d_down(p.y), d_down(p.z - half)},
-                           .hi = {d_up(p.x), d_up(p.y), d_up(p.z + half)},
-                           .limit = d_up(more * more * (1 + 1e-5)),
-                           .start = {(float)p.x, (float)p.y, (float)p.z},
-                           .half = (float)half,
-                           .reach = (float)more,
-                           .lowest = d_down(p.z - half)};
-    tahr__lanes lanes = tahr__cache_lanes(query->cache);
-    return query->world->lanes->near(&lanes, &q, found);
+    return (tahr__lanes_query){.lo = {d_down(p.x), d_down(p.y), d_down(p.z - half)},
+                               .hi = {d_up(p.x), d_up(p.y), d_up(p.z + half)},
+                               .limit = d_up(more * more * (1 + 1e-5)),
+                               .start = {(float)p.x, (float)p.y, (float)p.z},
+                               .half = (float)half,
+                               .reach = (float)more,
+                               .lowest = d_down(p.z - half)};
 }
 
-/* Lists one more; of too many the farthest is what has to stay clear of. */
-static void list(tahr__vicinity *v, uint32_t index, double far)
-{
-    uint32_t at = v->count;
-    if (at == TAHR__VICINITY_MOST) {
-        double last = v->far[at - 1];
-        v->clear = d_min(v->clear, d_max(last, far));
-        if (far >= last) return;
-        at--;
-    } else {
-        v->count++;
-    }
-    for (; at > 0 && v->far[at - 1] > far; at--) {
-        v->far[at] = v->far[at - 1];
-        v->near[at] = v->near[at - 1];
-    }
-    v->far[at] = far;
-    v->near[at] = index;
-}
-
+/* Measures all that the cache holds. A foot alone looks as the whole that it is the foot of. */
 static void look_around(const tahr__query *query)
 {
     tahr__vicinity *v = &query->cache->vicinity;
-    tahr__prim *prims = tahr__cache_prims(query->world, query->cache);
-    tahr__lanes_found found[TAHR__CACHE_MOST];
     v->at = query->start;
-    v->half = query->half;
-    v->count = 0;
-    v->clear = d_max(d_min(border(query), reach_of(query) + LOOK), outside_of_all(query));
-    v->alone = 0;
-    v->under = TAHR__NONE;
-    v->stood = query->cache->recent[1];
-    find_floor(query);
-    v->over = (uint32_t)is_above(query);
-    if (v->clear <= 0) return;
-    uint32_t count = near_to(query, v->at, v->half, v->clear, found);
-    for (uint32_t i = 0; i < count; i++) {
-        double far = d_max(found[i].time - TAHR__LANE_SLACK, 0);
-        if (far >= v->clear || (v->over && side_of(query, &v->floor, &prims[found[i].index]) != ABOVE)) continue;
-        list(v, found[i].index, far);
-    }
+    if (query->half > 0)
+        v->half = query->half;
+    else
+        v->at.z += v->half;
+    v->known = 1;
+    const tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
+    const tahr__lanes_query q = lanes_query(v->at, v->half, reach_of(query) + LOOK);
+    query->world->lanes->measure(&lanes, &q, tahr__cache_far(query->cache));
 }
 
-/* Is everything that a query may meet in the cache, and all of that to be asked? */
+/* Is all that a query concerns in the cache, and does all of that concern it? */
 static int serves(const tahr__query *query)
 {
     const tahr__cache *c = query->cache;
     const tahr__native *world = query->world;
     if (!c || !c->gathered || world->no_vicinity) return 0;
-    int whole = (c->overflow == 0) & (c->plain == 1) & (c->revision == world->revision) & (world->movable.count == 0);
+    int whole = (c->overflow == 0) & (c->plain == 1) & (c->revision == world->revision);
     int plain = (query->mask == c->mask) & (query->ignore_body == TAHR_NO_BODY) & (query->core.axis_count < 2) &
                 (query->sensors != TAHR__SENSORS_ONLY) & !(query->flags & TAHR_SWEEP_ONLY_BODY);
     return whole & plain & (reach_of(query) > SMALL) & (reach_of(query) < LARGE);
-}
-
-/* Is there nothing that need be measured up to this fraction of the motion? */
-static int is_clear(const tahr__query *query, double until)
-{
-    const tahr__vicinity *v = &query->cache->vicinity;
-    double far = need(query, until);
-    if (far > v->clear) return 0;
-    for (uint32_t i = 0; i < v->count && v->far[i] < far; i++) {
-        const tahr__prim *prim = &tahr__cache_prims(query->world, query->cache)[v->near[i]];
-        if (prim->kind & TAHR__UNFORMED) return 0;
-        double t = plane_earliest(query, prim, until);
-        if (t <= until && edges_earliest(query, prim, until, t) <= until) return 0;
-    }
-    return 1;
-}
-
-/* Where a motion leads. UNKNOWN: all that the cache has is to be asked. CLEAR: only what is listed may be met. DOWN: the
- * floor too, and it is not known whether something else. */
-enum { UNKNOWN, CLEAR, DOWN };
-
-static int way_of(const tahr__query *query)
-{
-    const tahr__vicinity *v = &query->cache->vicinity;
-    const tahr__level *l = &v->floor;
-    if (v->clear <= 0) return UNKNOWN;
-    if (!v->over) return need(query, 1) <= v->clear ? CLEAR : UNKNOWN;
-    double height = height_over(l, query), change = v_dot(l->normal, query->motion), reach = reach_of(query);
-    if (height < (reach - 0.5 * TAHR__ARRIVED) * l->length) return UNKNOWN;
-    int down = change < -0.5 * TAHR__PARALLEL * query->motion_length * l->length &&
-               height + change < (reach + SPARE) * l->length;
-    if (down) return DOWN;
-    return need(query, 1) <= v->clear ? CLEAR : UNKNOWN;
-}
-
-/* Has a foot found a floor that was not known at the place? */
-static int has_landed(const tahr__query *query)
-{
-    const tahr__vicinity *v = &query->cache->vicinity;
-    return !v->over && query->cache->recent[1] < query->cache->count && query->cache->recent[1] != v->stood;
 }
 
 /* May a look around here be of more help? */
@@ -285,7 +235,104 @@ static int is_stale(const tahr__query *query)
 {
     const tahr__vicinity *v = &query->cache->vicinity;
     if (query->motion_length > LONGEST && outside_of_all(query) <= query->motion_length) return 0;
-    return v->clear <= 0 || has_landed(query) || away2(v, query, query->start) > DRIFT * DRIFT;
+    return !v->known || away2(v, query, query->start) > DRIFT * DRIFT;
+}
+
+static uint32_t way_of(const tahr__query *query)
+{
+    const tahr__level *l = &query->cache->vicinity.floor;
+    if (!(l->normal.z > 0)) return TAHR__AROUND;
+    double height = height_over(l, query), change = v_dot(l->normal, query->motion), reach = reach_of(query);
+    if (height < (reach - 0.5 * TAHR__ARRIVED) * l->length) return TAHR__AROUND;
+    int down = change < -0.5 * TAHR__PARALLEL * query->motion_length * l->length &&
+               height + change < (reach + SPARE) * l->length;
+    return down ? TAHR__DOWN : TAHR__OVER;
+}
+
+/* Does it stay clear of all that there is? */
+static int is_beyond_all(const tahr__query *query)
+{
+    return outside_of_all(query) > query->motion_length + reach_of(query) + SPARE;
+}
+
+static int spans(const tahr__query *query)
+{
+    const tahr_bounds box = tahr__query_box(query, 1);
+    return tahr__cache_spans(query->cache, &box, reach_of(query));
+}
+
+uint32_t tahr__vicinity_way(const tahr__query *query)
+{
+    const tahr__vicinity *v = &query->cache->vicinity;
+    if (!v->known || !(spans(query) || is_beyond_all(query))) return TAHR__UNKNOWN;
+    if (query->cache->recent[1] != v->stood) know_floor(query);
+    return way_of(query);
+}
+
+uint32_t tahr__vicinity_known(const tahr__query *query)
+{
+    if (!serves(query) || is_stale(query)) return TAHR__UNKNOWN;
+    return tahr__vicinity_way(query);
+}
+
+uint32_t tahr__vicinity_look(const tahr__query *query)
+{
+    if (!serves(query)) return TAHR__UNKNOWN;
+    if (is_stale(query)) look_around(query);
+    return tahr__vicinity_way(query);
+}
+
+/* With the rounding of lanes. */
+static float most_of(double need)
+{
+    return d_up((need + TAHR__LANE_SLACK) * (1 + 4e-6));
+}
+
+/* What is no farther; over: but for what is known not to be above the floor. */
+static uint32_t pick(const tahr__query *query, double most, int over, tahr__lanes_found *found)
+{
+    tahr__cache *c = query->cache;
+    const float *lift = over ? tahr__cache_lift(query->world, c) : NULL;
+    return query->world->lanes->pick(tahr__cache_far(c), lift, c->count, most_of(most), found);
+}
+
+static tahr__prim *formed(const tahr__query *query, uint32_t index)
+{
+    tahr__prim *prim = &tahr__cache_prims(query->world, query->cache)[index];
+    if (prim->kind & TAHR__UNFORMED) tahr__form_rest(query->world, query->frame, prim);
+    return prim;
+}
+
+uint32_t tahr__vicinity_pick(const tahr__query *query, uint32_t way, double until, uint32_t most,
+                             tahr__lanes_found *found)
+{
+    const uint32_t count = pick(query, need(farthest2(query, until), reach_of(query)), way == TAHR__OVER, found);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (way == TAHR__OVER && side_at(query, found[i].index) >= BELOW) continue;
+        if (kept == most) return most + 1;
+        formed(query, found[i].index);
+        found[kept++] = (tahr__lanes_found){0, found[i].index};
+    }
+    return kept;
+}
+
+/* Is this not met up to this fraction of the motion? */
+static int is_passed(const tahr__query *query, const tahr__prim *prim, double until)
+{
+    const double t = plane_earliest(query, prim, until);
+    return t > until || edges_earliest(query, prim, until, t) > until;
+}
+
+int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way)
+{
+    tahr__lanes_found found[TAHR__CACHE_MOST];
+    const uint32_t count = tahr__vicinity_pick(query, way, 1, TAHR__CACHE_MOST, found);
+    const tahr__prim *prims = tahr__cache_prims(query->world, query->cache);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!is_passed(query, &prims[found[i].index], 1)) return 0;
+    }
+    return 1;
 }
 
 /* Where the lower end of the query's segment comes down on the floor. */
@@ -297,116 +344,183 @@ static tahr_vec3 place_on(const tahr__level *l, const tahr__query *query)
     return v_mad(low, l->normal, -v_dot(l->normal, v_sub(low, l->at)) / (l->length * l->length));
 }
 
-static int is_listed(const tahr__vicinity *v, uint32_t index)
+/* Is this triangle of the floor the one at the place? Those too large for lanes seem to be at many places. */
+static int is_at(const tahr__query *query, uint32_t index, tahr_vec3 place)
 {
-    for (uint32_t i = 0; i < v->count; i++) {
-        if (v->near[i] == index) return 1;
+    const tahr__prim *prim = formed(query, index);
+    tahr__witness w;
+    if (prim->kind & TAHR__PLANELESS) return 0;
+    tahr__point_facet(place, &prim->facet, &w);
+    return w.feature == TAHR__FACE;
+}
+
+/* The planes through the edges of the triangle under the spot, across it, and how far inside (times their length) one
+ * has to be. */
+static void know_edges(tahr__vicinity *v, const tahr__facet *f)
+{
+    for (int i = 0; i < 3; i++) {
+        const tahr_vec3 e = v_sub(f->v[i < 2 ? i + 1 : 0], f->v[i]), out = v_cross(e, f->cross);
+        v->across[i] = out;
+        v->border[i] = v_dot(out, f->v[i]);
+        v->hem[i] = (APART + HEM) * v_length(e) * f->length;
+    }
+}
+
+/* Is all of a triangle beyond one of these, but for rounding? */
+static int is_beside(const tahr__query *query, uint32_t index)
+{
+    const tahr__vicinity *v = &query->cache->vicinity;
+    tahr_vec3 corner[3];
+    corners_of(query, &tahr__cache_prims(query->world, query->cache)[index], corner);
+    for (int i = 0; i < 3; i++) {
+        const double least = v->border[i] - v->hem[i] * (HEM / (APART + HEM));
+        int beyond = 1;
+        for (int k = 0; k < 3; k++)
+            beyond &= v_dot(v->across[i], corner[k]) >= least;
+        if (beyond) return 1;
     }
     return 0;
 }
 
-/* m from a place on the floor to a triangle that the lanes found `far` from it, at most: exactly, where that is next to
- * nothing, as it is of all that are too large for lanes. */
-static double distance_to(const tahr__query *query, tahr__prim *prim, tahr_vec3 place, double far)
+static int is_within_edges(const tahr__vicinity *v, tahr_vec3 place)
 {
-    tahr__witness w;
-    if (far > 10 * APART || (prim->kind & TAHR__PLANELESS)) return far;
-    if (prim->kind & TAHR__UNFORMED) tahr__form_rest(query->world, query->frame, prim);
-    tahr__point_facet(place, &prim->facet, &w);
-    return w.feature == TAHR__FACE ? 0 : w.distance;
+    int within = 1;
+    for (int i = 0; i < 3; i++)
+        within &= v_dot(v->across[i], place) <= v->border[i] - v->hem[i];
+    return within;
 }
 
-/* Finds the triangle at a place on the floor, if there is one alone, and how far around it there is no other. */
+/* Takes another triangle of the floor for the one under the spot. */
+static int stand_on(const tahr__query *query, uint32_t index)
+{
+    tahr__vicinity *v = &query->cache->vicinity;
+    const tahr__prim *prim = formed(query, index);
+    tahr_vec3 face = prim->kind & TAHR__FACELESS ? tahr__heights_face(query, prim) : prim->face;
+    const int behind = v_dot(face, v->floor.normal) < 0;
+    if (behind && !(prim->kind & TAHR__TWO_SIDED)) return 0;
+    v->face = behind ? v_scale(face, -1) : face;
+    v->under = index;
+    know_edges(v, &prim->facet);
+    return 1;
+}
+
+/* Finds the triangle at a place on the floor, if there is one alone, and how far around it there is none that reaches
+ * beyond its edges. */
 static void find_spot(const tahr__query *query, tahr_vec3 place)
 {
     tahr__vicinity *v = &query->cache->vicinity;
-    tahr__prim *prims = tahr__cache_prims(query->world, query->cache);
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    double first = SPOT, second = SPOT;
-    uint32_t count = near_to(query, place, 0, SPOT, found), under = TAHR__NONE;
+    const tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
+    const tahr__lanes_query q = lanes_query(place, 0, SPOT);
+    uint32_t near = query->world->lanes->near(&lanes, &q, found), count = 0, under = TAHR__NONE;
+    const tahr__prim *prims = tahr__cache_prims(query->world, query->cache);
+    double alone = SPOT;
     v->alone = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        double far = d_max(found[i].time - TAHR__LANE_SLACK, 0);
-        tahr__prim *prim = &prims[found[i].index];
-        if (far >= second || is_listed(v, found[i].index) || (prim->item & TAHR__ITEM_SOLID)) continue;
-        far = distance_to(query, prim, place, far);
-        second = d_min(second, d_max(first, far));
-        if (far < first) {
-            first = far;
-            under = found[i].index;
+    for (uint32_t i = 0; i < near; i++) {
+        const uint32_t index = found[i].index;
+        if ((prims[index].item & TAHR__ITEM_SOLID) || side_at(query, index) < BELOW) continue;
+        if (under == TAHR__NONE && found[i].time <= 2 * TAHR__LANE_SLACK && side_at(query, index) == IN_IT &&
+            is_at(query, index, place)) {
+            under = index;
+            continue;
         }
+        found[count++] = found[i];
     }
-    if (first > 0 || second <= APART) return;
-    if (under != v->under) {
-        tahr__prim *prim = &prims[under];
-        if (side_of(query, &v->floor, prim) != IN_IT) return;
-        if (prim->kind & TAHR__UNFORMED) tahr__form_rest(query->world, query->frame, prim);
-        tahr_vec3 face = prim->kind & TAHR__FACELESS ? tahr__heights_face(query, prim) : prim->face;
-        const int behind = v_dot(face, v->floor.normal) < 0;
-        if (behind && !(prim->kind & TAHR__TWO_SIDED)) return;
-        v->face = behind ? v_scale(face, -1) : face;
-        v->under = under;
+    if (under == TAHR__NONE || (under != v->under && !stand_on(query, under))) return;
+    for (uint32_t i = 0; i < count && alone > 0; i++) {
+        const double far = d_max(found[i].time - TAHR__LANE_SLACK, 0);
+        if (far < alone && !is_beside(query, found[i].index)) alone = far;
     }
     v->spot = place;
-    v->alone = second - APART;
+    v->alone = alone - APART;
+}
+
+/* Is it worth finding one again? */
+static int tries_spot(tahr__vicinity *v)
+{
+    if (v->rest > 0) {
+        v->rest--;
+        return 0;
+    }
+    return 1;
+}
+
+static int is_at_spot(const tahr__vicinity *v, tahr_vec3 place)
+{
+    const tahr_vec3 off = v_sub(place, v->spot);
+    return v->alone > 0 && v_dot(off, off) <= v->alone * v->alone && is_within_edges(v, place);
 }
 
 /* The one triangle of the floor that may be met; NULL: it is not known which. */
 static const tahr__prim *floor_under(const tahr__query *query)
 {
     tahr__vicinity *v = &query->cache->vicinity;
-    tahr_vec3 place = place_on(&v->floor, query), off = v_sub(place, v->spot);
-    if (v->alone <= 0 || v_dot(off, off) > v->alone * v->alone) find_spot(query, place);
-    return v->alone > 0 ? &tahr__cache_prims(query->world, query->cache)[v->under] : NULL;
+    const tahr_vec3 place = place_on(&v->floor, query);
+    if (!is_at_spot(v, place)) {
+        if (!tries_spot(v)) return NULL;
+        find_spot(query, place);
+        v->rests = v->alone >= NARROW ? FEWEST : v->rests < MOST ? 2 * v->rests : MOST;
+        v->rest = v->alone >= NARROW ? 0 : v->rests;
+        if (!is_at_spot(v, place)) return NULL;
+    }
+    return &tahr__cache_prims(query->world, query->cache)[v->under];
 }
 
-static int come_down(const tahr__query *query, tahr_hit *hit, uint32_t *count)
+/* A foot that comes down on the floor: when, where nothing but the floor is met before. */
+static int comes_down(const tahr__query *query, tahr__found *found)
 {
     const tahr__prim *floor = floor_under(query);
-    tahr__found found;
     if (!floor) return 0;
-    double t = plane_earliest(query, floor, 1);
-    if (t > 1 || !tahr__probe_face(query, floor, query->cache->vicinity.face, t, &found)) return 0;
-    if (!is_clear(query, d_min(t + TIED / query->motion_length, 1))) return 0;
+    const double t = plane_earliest(query, floor, 1);
+    return t <= 1 && tahr__probe_face(query, floor, query->cache->vicinity.face, t, found);
+}
+
+static double tied(const tahr__query *query, double t)
+{
+    return d_min(t + TIED / query->motion_length, 1);
+}
+
+static void tell(const tahr__query *query, const tahr__found *found, tahr_hit *hit)
+{
     query->cache->recent[1] = query->cache->vicinity.under;
-    tahr__fill_hit(query, &found, hit);
-    *count = 1;
+    tahr__fill_hit(query, found, hit);
+}
+
+int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit)
+{
+    tahr__lanes_found found[TAHR__CACHE_MOST];
+    tahr__found floor;
+    if (!comes_down(query, &floor)) return 0;
+    const double until = tied(query, floor.t);
+    const uint32_t count = pick(query, need(farthest2(query, until), reach_of(query)), 1, found);
+    for (uint32_t i = 0; i < count; i++) {
+        if (side_at(query, found[i].index) < BELOW && !is_passed(query, formed(query, found[i].index), until)) return 0;
+    }
+    tell(query, &floor, hit);
     return 1;
 }
 
-static int answer(const tahr__query *query, int way, tahr_hit *hit, uint32_t *count)
+int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit)
 {
-    *count = 0;
-    return way == CLEAR ? is_clear(query, 1) : way == DOWN && come_down(query, hit, count);
-}
-
-int tahr__vicinity_knows(const tahr__query *query, tahr_hit *hit, uint32_t *count)
-{
-    return tahr__vicinity_is_calm(query) && serves(query) && answer(query, way_of(query), hit, count);
-}
-
-int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *count)
-{
-    tahr__vicinity *v = &query->cache->vicinity;
-    if (!serves(query)) return 0;
-    int way = way_of(query), looks = (way == UNKNOWN || has_landed(query)) && is_stale(query);
-    if (looks) {
-        look_around(query);
-        way = way_of(query);
+    tahr__lanes_found found[TAHR__CACHE_MOST];
+    tahr__found floor;
+    if (!comes_down(foot, &floor)) return TAHR__UNCLEAR;
+    const double until = tied(foot, floor.t), far2 = d_max(farthest2(body, 1), farthest2(foot, until));
+    const uint32_t count = pick(body, need(far2, d_max(reach_of(body), reach_of(foot))), 1, found);
+    for (uint32_t i = 0; i < count; i++) {
+        if (side_at(body, found[i].index) >= BELOW) continue;
+        const tahr__prim *prim = formed(body, found[i].index);
+        if (!is_passed(body, prim, 1) || !is_passed(foot, prim, until)) return TAHR__BARRED;
     }
-    if (answer(query, way, hit, count)) {
-        v->needed = CALM;
-        return 1;
-    }
-    if (way == UNKNOWN && !looks) return 0;
-    v->calm = 0;
-    v->needed = v->needed < CALM ? CALM : v->needed < CALM_MOST ? 2 * v->needed : CALM_MOST;
-    return 0;
+    tell(foot, &floor, hit);
+    return TAHR__LANDED;
 }
 
-void tahr__vicinity_forget(tahr__vicinity *v)
+void tahr__vicinity_forget(const tahr__native *world, tahr__cache *cache)
 {
-    const uint32_t until_floor = v->floor.length > 0 ? 0 : 2; /* queries of a step: the second one finds it */
-    v->clear = -1;
-    if (v->needed >= until_floor && v->calm > v->needed - until_floor) v->calm = v->needed - until_floor;
+    tahr__vicinity *v = &cache->vicinity;
+    v->known = 0;
+    v->alone = 0;
+    v->under = v->stood = TAHR__NONE;
+    if (!world->no_cache) forget_sides(world, cache);
 }

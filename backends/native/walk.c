@@ -8,15 +8,23 @@ static tahr_vec3 turned(const tahr__frame *frame, tahr_vec3 v)
     return frame->turned ? m_apply(&frame->turn, v) : v;
 }
 
+/* A query of a cache that holds, of the body or its foot. */
 static void aim(tahr__query *query, tahr_query_context *context, const tahr_walk *walk, int foot)
 {
-    tahr__query_begin(query, query->world, context, foot ? walk->foot_position : walk->position, walk->up);
-    tahr__query_shape(query, foot ? walk->foot : walk->shape, (tahr_quat){0, 0, 0, 1});
-    query->motion = turned(query->frame, foot ? walk->foot_motion : walk->motion);
+    const tahr__frame *frame = query->frame;
+    query->context = context;
+    query->start = turned(frame, v_sub(foot ? walk->foot_position : walk->position, frame->origin));
+    query->motion = turned(frame, foot ? walk->foot_motion : walk->motion);
     query->motion_length = v_length(query->motion);
     query->margin = walk->margin;
     query->mask = walk->mask;
     query->ignore_body = TAHR_NO_BODY;
+    query->core.axis_count = 0;
+    query->extent = v_make(0, 0, 0);
+    query->surplus = query->half = 0;
+    query->flags = query->sinks = 0;
+    query->sensors = TAHR__SENSORS_NONE;
+    tahr__query_shape(query, foot ? walk->foot : walk->shape, (tahr_quat){0, 0, 0, 1});
 }
 
 /* Beyond all that there is, by more than the shape and its way. A metre is more than any rounding. */
@@ -27,30 +35,48 @@ static int is_in_the_open(const tahr__native *world, const tahr_walk *walk)
                1 + walk->shape->half_height + walk->shape->radius + walk->margin + v_length(walk->motion);
 }
 
+/* May a foot that did not simply come down have met something all the same? */
+static int finds_floor(tahr__query *foot, uint32_t way, tahr_hit *hit)
+{
+    uint32_t count = 0;
+    return tahr__sweep_rest(foot, way, hit, 1, &count) == TAHR_OK && count > 0;
+}
+
+static int goes_to(tahr__query *body, uint32_t way, const tahr_walk *walk, tahr_hit *hit)
+{
+    tahr__query foot;
+    foot.world = body->world;
+    foot.cache = body->cache;
+    foot.frame = body->frame;
+    aim(&foot, body->context, walk, 1);
+    const uint32_t down = tahr__vicinity_way(&foot);
+    if (down == TAHR__UNKNOWN) return 0;
+    const int both = way == TAHR__OVER && down == TAHR__DOWN ? tahr__vicinity_walks(body, &foot, hit) : TAHR__UNCLEAR;
+    if (both != TAHR__UNCLEAR) return both == TAHR__LANDED;
+    return tahr__vicinity_is_clear(body, way) && finds_floor(&foot, down, hit);
+}
+
 tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit,
                               uint32_t *known)
 {
     const tahr__native *world = self;
-    const tahr__cache *cache = context->cache;
-    tahr__query query;
-    uint32_t count = 0;
+    tahr__cache *cache = context->cache;
+    tahr__query body;
     *known = 0;
     if (!walk->foot && is_in_the_open(world, walk)) {
         *known = 1;
         context->spared++;
         return TAHR_OK;
     }
-    if (!cache || !cache->announced || !tahr__frame_holds(&cache->frame, walk->position, walk->up)) return TAHR_OK;
-    query.world = world;
-    aim(&query, context, walk, 0);
-    if (!tahr__vicinity_knows(&query, hit, &count) || count > 0) return TAHR_OK;
-    if (!walk->foot) {
-        *known = 1;
-        context->spared++;
-        return TAHR_OK;
-    }
-    aim(&query, context, walk, 1);
-    *known = tahr__vicinity_knows(&query, hit, &count) && count > 0;
-    context->spared += *known ? 2 : 0;
+    if (world->movable.count > 0 || !cache || !cache->announced) return TAHR_OK;
+    if (!tahr__frame_holds(&cache->frame, walk->position, walk->up)) return TAHR_OK;
+    body.world = world;
+    body.cache = cache;
+    body.frame = &cache->frame;
+    aim(&body, context, walk, 0);
+    const uint32_t way = tahr__vicinity_look(&body);
+    if (way == TAHR__UNKNOWN) return TAHR_OK;
+    *known = (uint32_t)(walk->foot ? goes_to(&body, way, walk, hit) : tahr__vicinity_is_clear(&body, way));
+    context->spared += *known ? walk->foot ? 2 : 1 : 0;
     return TAHR_OK;
 }

@@ -45,14 +45,14 @@ typedef tahr_status (*tahr_gather_fn)(void *user, const tahr_bounds *box, uint32
 typedef struct tahr_native_desc {
     uint32_t struct_size;
     uint32_t no_vicinity;     /* 1: every query looks at all that was gathered, however clear the air is; same bits */
-    uint32_t cache_triangles; /* per character, default 128, at most 4096, 280 bytes each; what exceeds it is slower */
+    uint32_t cache_triangles; /* per character, default 128, at most 4096, 288 bytes each; what exceeds it is slower */
     uint32_t no_cache;        /* 1: every query walks the tree; same bits */
     uint32_t no_simd;         /* 1: the scalar twin; same bits */
     uint32_t no_fields;       /* 1: a mesh that is a field of heights stays a mesh (tahr_world_describe); same bits */
     double cache_margin;      /* m around the announced box, 0..1000; 0: by how dense the scene is there, at most 1 */
     /* NULL: the described bodies are all there is. Else these triangles besides them (which may be none): they answer
      * bit for bit as a mesh of them would. They carry nobody and are no sensors: describe what moves, and sensors, as
-     * bodies. tahr_world_touch says that they have changed. 400 bytes a triangle in the cache instead of 280; without
+     * bodies. tahr_world_touch says that they have changed. 408 bytes a triangle in the cache instead of 288; without
      * a cache, or where it is too small, every query gathers for itself. */
     tahr_gather_fn gather;
     void *gather_user;

@@ -523,7 +523,7 @@ static void a_large_mesh_stays_under_a_hundred_bytes_per_triangle(void **unused)
 /* What native.h says of a character's cache: so many bytes for every triangle that it can hold. */
 static void a_movers_cache_costs_what_the_header_says(void **unused)
 {
-    const double said = 280;
+    const double said = 288;
     (void)unused;
     const uint32_t held[2] = {192, 4096};
     uint64_t bytes[2];

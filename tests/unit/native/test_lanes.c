@@ -177,6 +177,50 @@ static void what_is_near_is_no_nearer_than_told(void **unused)
     assert_true(kept > 3000 && left_out > 10 * kept && close > 0.6 * kept);
 }
 
+/* The distances of all are no more than they are, and of what is within the limit as near tells them; and none but
+ * those of no more than what is asked for are picked. */
+static void what_is_measured_is_no_nearer_than_told(void **unused)
+{
+    static scene s;
+    oracle_random seed = {59};
+    uint32_t picked = 0, lifted = 0;
+    (void)unused;
+    for (int run = 0; run < 3000; run++) {
+        if (run % 20 == 0) make(&s, &seed);
+        motion m = random_motion(&seed);
+        m.by = v_make(0, 0, 0);
+        const tahr__lanes_query q = query_of(&m);
+        tahr__lanes_found near[COUNT], found[COUNT];
+        float far[BLOCKS * TAHR__LANES], lift[BLOCKS * TAHR__LANES] = {0};
+        tahr__lanes_measure_1(&s.lanes, &q, far);
+        const uint32_t count = tahr__lanes_near_1(&s.lanes, &q, near);
+        for (uint32_t i = 0; i < count; i++)
+            assert_true(far[near[i].index] == near[i].time);
+        for (uint32_t i = 0; i < COUNT; i++) {
+            assert_true(far[i] - TAHR__LANE_SLACK <= distance(&m, &s.facets[i], 0));
+            lift[i] = oracle_below(&seed, 3) == 0 ? 1e38f : 0;
+        }
+        for (uint32_t i = COUNT; i < BLOCKS * TAHR__LANES; i++)
+            assert_true(far[i] > 1e29f);
+        const uint32_t all = tahr__lanes_pick_1(far, NULL, COUNT, q.reach, found);
+        const uint32_t some = tahr__lanes_pick_1(far, lift, COUNT, q.reach, near);
+        uint32_t expected = 0, unlifted = 0;
+        for (uint32_t i = 0; i < COUNT; i++) {
+            if (!(far[i] <= q.reach)) continue;
+            assert_true(found[expected].index == i && found[expected].time == far[i]);
+            expected++;
+            if (lift[i] > 0) continue;
+            assert_int_equal(near[unlifted].index, i);
+            unlifted++;
+        }
+        assert_int_equal(all, expected);
+        assert_int_equal(some, unlifted);
+        picked += all;
+        lifted += all - some;
+    }
+    assert_true(picked > 3000 && lifted > 0.2 * picked && lifted < 0.5 * picked);
+}
+
 static void assert_same_bits(tahr__lanes_fn *one, tahr__lanes_fn *const widths[3], const tahr__lanes *lanes,
                              const tahr__lanes_query *q)
 {
@@ -188,6 +232,24 @@ static void assert_same_bits(tahr__lanes_fn *one, tahr__lanes_fn *const widths[3
     }
 }
 
+/* The same of what is measured at a place, and picked. */
+static void assert_same_measures(const tahr__lanes_way *one, const tahr__lanes_way *many, const tahr__lanes *lanes,
+                                 const tahr__lanes_query *q)
+{
+    float far[2][BLOCKS * TAHR__LANES] = {{0}}, lift[BLOCKS * TAHR__LANES] = {0};
+    tahr__lanes_found found[2][COUNT];
+    one->measure(lanes, q, far[0]);
+    many->measure(lanes, q, far[1]);
+    assert_memory_equal(far[0], far[1], sizeof far[0]);
+    for (uint32_t i = 0; i < lanes->count; i += 3)
+        lift[i] = 1e38f;
+    for (int lifts = 0; lifts < 2; lifts++) {
+        const uint32_t count = one->pick(far[0], lifts ? lift : NULL, lanes->count, q->reach, found[0]);
+        assert_int_equal(many->pick(far[0], lifts ? lift : NULL, lanes->count, q->reach, found[1]), count);
+        assert_memory_equal(found[0], found[1], count * sizeof found[0][0]);
+    }
+}
+
 static void every_width_keeps_the_same_bits(void **unused)
 {
     static scene s;
@@ -196,6 +258,7 @@ static void every_width_keeps_the_same_bits(void **unused)
     const int eight = best->cull == tahr__lanes_cull_8;
     tahr__lanes_fn *const culls[] = {tahr__lanes_cull_4, best->cull, eight ? tahr__lanes_cull_8 : tahr__lanes_cull_4};
     tahr__lanes_fn *const nears[] = {tahr__lanes_near_4, best->near, eight ? tahr__lanes_near_8 : tahr__lanes_near_4};
+    const tahr__lanes_way four = {NULL, NULL, tahr__lanes_measure_4, tahr__lanes_pick_4};
     (void)unused;
     print_message("    eight lanes: %s\n", eight ? "tested" : "no AVX2 here, not tested");
     for (int run = 0; run < 20000; run++) {
@@ -209,6 +272,8 @@ static void every_width_keeps_the_same_bits(void **unused)
         lanes.blocks = rest;
         assert_same_bits(tahr__lanes_cull_1, culls, &lanes, &q);
         assert_same_bits(tahr__lanes_near_1, nears, &lanes, &q);
+        assert_same_measures(tahr__lanes_best(1), &four, &lanes, &q);
+        assert_same_measures(tahr__lanes_best(1), best, &lanes, &q);
     }
 }
 
@@ -218,6 +283,7 @@ int main(void)
         cmocka_unit_test(what_is_left_out_is_out_of_reach),
         cmocka_unit_test(what_is_kept_comes_near),
         cmocka_unit_test(what_is_near_is_no_nearer_than_told),
+        cmocka_unit_test(what_is_measured_is_no_nearer_than_told),
         cmocka_unit_test(every_width_keeps_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
