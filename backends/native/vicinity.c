@@ -39,7 +39,7 @@
 /* And by so much (m) one may reach over the edge of another: rounding. */
 #define HEM 1e-6
 /* Around a place on the floor other triangles are looked for as far as this (m). */
-#define SPOT 0.5
+#define SPOT 0.35
 /* A spot (m) that the next steps leave is not worth finding: so many feet are then left to what is near, twice as many
  * each time. */
 #define NARROW 0.04
