@@ -64,6 +64,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
+    mover->pace = tahr__pace_of(&mover->config, &mover->limits);
     mover->may_go_short_way = (uint32_t)tahr__may_go_short_way(world, config, &mover->limits);
     mover->cache = cache;
     mover->cache_size = cache_size;
@@ -268,6 +269,9 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     }
     if (blank && usual && !around && tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
+    }
+    if (state->mode == TAHR_MODE_WALKING) {
+        decay_learn(&mover->limits.decay, mover->config.turn_friction, dt);
     }
     tahr__step step;
     tahr__pull pull;

@@ -4,6 +4,8 @@
 #define TAHR_VEC_H
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 #include <tahr/types.h>
 
 #ifdef __FAST_MATH__
@@ -104,6 +106,15 @@ static inline int vec_is_finite(vec3 a)
 static inline int vec_equal(vec3 a, vec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* 0 if they are equal to the bit, so that 0.0 is not -0.0: many such tests make one branch. */
+static inline uint64_t other_bits(const vec3 *a, const vec3 *b)
+{
+    uint64_t p[3], q[3];
+    memcpy(p, a, sizeof p);
+    memcpy(q, b, sizeof q);
+    return (p[0] ^ q[0]) | (p[1] ^ q[1]) | (p[2] ^ q[2]);
 }
 
 static inline vec3 rotate(tahr_quat q, vec3 v)

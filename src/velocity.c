@@ -35,6 +35,18 @@ static double decay_integral(double f, double t)
     return -tahr__expm1(-x) / f;
 }
 
+tahr__decay tahr__decay_of(double exponent)
+{
+    const tahr__decay decay = {exponent, tahr__expm1(-exponent)};
+    return decay;
+}
+
+/* expm1(-x) */
+static inline double decayed(const tahr__law *law, double x)
+{
+    return x == law->decay.exponent ? law->decay.rate : tahr__expm1(-x);
+}
+
 /* Time to brake from v to v1 < v. */
 static double brake_time(double v, double v1, double b, double f)
 {
@@ -178,7 +190,7 @@ static inline tahr__motion toward_wish(const tahr__law *law, vec3 v, double t)
         m.velocity = scale(law->wish, p1);
         return m;
     }
-    double e = tahr__expm1(-f * t);
+    double e = decayed(law, f * t);
     double sideways = f * t < SMALL ? decay_integral(f, t) : -e / f;
     along = q2 <= FLAT_CAP * most * most ? straight(law, min_of(p, most), t, &p1) : bent(law, p, q2, e, t, &p1);
     m.displacement = add_scaled(scale(law->wish, along), across, sideways);

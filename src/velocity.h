@@ -5,6 +5,13 @@
 
 #include "vec.h"
 
+/* What is left of the part across a wish after a time, less 1: worked out once for many steps of one length. All zero:
+ * nothing is known, and that too is true. */
+typedef struct tahr__decay {
+    double exponent; /* turn_friction times the time */
+    double rate;     /* expm1(-exponent) */
+} tahr__decay;
+
 /* How a velocity across up answers to a wish. */
 typedef struct tahr__law {
     vec3 wish;            /* unit direction across up, or zero: no input */
@@ -13,6 +20,7 @@ typedef struct tahr__law {
     double turn_friction; /* 1/s decay of the part across the wish */
     double braking;       /* m/s2 without input or above speed */
     double drag;          /* 1/s added to it */
+    tahr__decay decay;    /* of a whole step, or zero: a result that is known, no setting */
 } tahr__law;
 
 typedef struct tahr__motion {
@@ -20,6 +28,17 @@ typedef struct tahr__motion {
     vec3 velocity;
     double stop_time; /* s at which the velocity became zero; < 0: it did not during this time */
 } tahr__motion;
+
+tahr__decay tahr__decay_of(double exponent);
+
+/* Works out the decay of a step of t seconds, unless it is known. */
+static inline void decay_learn(tahr__decay *decay, double friction, double t)
+{
+    const double exponent = friction * t;
+    if (exponent != decay->exponent) {
+        *decay = tahr__decay_of(exponent);
+    }
+}
 
 /* Advances the velocity v (across up) by t >= 0 seconds. Composes: two halves give the whole, to rounding. */
 tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t);
