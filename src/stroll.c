@@ -105,7 +105,7 @@ int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_sta
         return 0;
     }
     const vec3 up = state->up;
-    const tahr__motion m = tahr__law_advance(law_of(mover, input, dt, up), reject(state->velocity, up), dt);
+    const tahr__motion m = law_advance(law_of(mover, input, dt, up), reject(state->velocity, up), dt);
     if (m.stop_time >= 0) {
         return 0;
     }
