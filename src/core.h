@@ -108,10 +108,13 @@ typedef struct tahr__limits {
     tahr__decay decay;          /* of walking, of the last length of step; or zero */
 } tahr__limits;
 
-/* What a walk the short way (stroll.c) asks of config and limits, side by side in memory, and what it remembers: a wish
- * is mostly that of the last step. */
+/* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.c) remembers:
+ * a wish is mostly that of the last step. */
 typedef struct tahr__pace {
-    vec3 up;           /* pull.up without -0.0: only who stands so goes the short way */
+    vec3 up;           /* pull.up without -0.0, +z without gravity: only who stands so walks the short way */
+    double max_dt;     /* s */
+    uint32_t special;  /* 1: held in a plane, or not round */
+    uint32_t mask;
     double foot;       /* m, offset of the foot */
     double range;      /* m, of its sweep */
     double skin;       /* m */
@@ -119,8 +122,6 @@ typedef struct tahr__pace {
     double rim;        /* m, radius and skin */
     double tolerance;  /* m, from the rim */
     double level;      /* cosine of the steepest face that may be stood on without a look at what was */
-    uint32_t mask;
-    uint32_t reserved;
     vec3 move;         /* the last input.move, if law.wish is not zero, */
     tahr__law law;     /* and how it is approached */
 } tahr__pace;

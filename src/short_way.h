@@ -40,8 +40,8 @@ static inline int tahr__tries_short_way(tahr_mover *mover, uint32_t mode)
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report)
 {
-    const int traced = report && (report->decisions || report->queries), knows = mover->world->backend->walk != NULL;
-    if (!mover->may_go_short_way || !knows || traced || input->jump || state->flags ||
+    const int traced = report && (report->decisions || report->queries);
+    if (!mover->may_go_short_way || traced || (input->jump | state->flags) ||
         !tahr__tries_short_way(mover, state->mode)) {
         return 0;
     }

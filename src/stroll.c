@@ -4,12 +4,13 @@
 #include "floor.h"
 #include "foot.h"
 #include "path.h"
+#include "shape.h"
 #include "short_way.h"
 #include "turning.h"
 
 int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits)
 {
-    return !world_is_planar(world) && !world->has && !limits->feel && !limits->in_plane && limits->usual &&
+    return world->backend->walk && !world_is_planar(world) && !world->has && !limits->feel && !limits->in_plane && limits->usual &&
            config->short_ways && !config->keep_level_speed && config->floor_probe == TAHR_FLOOR_PROBE_WHOLE &&
            limits->shape.type == TAHR_SHAPE_CAPSULE;
 }
@@ -17,7 +18,10 @@ int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, c
 tahr__pace tahr__pace_of(const tahr_config *c, const tahr__limits *limits)
 {
     const tahr__decay unknown = {0, 0};
-    tahr__pace pace = {.up = clean(limits->pull.up),
+    tahr__pace pace = {.up = limits->pull.size > 0 ? clean(limits->pull.up) : vec(0, 0, 1),
+                       .max_dt = c->max_dt,
+                       .special = limits->in_plane || !shape_is_round(&limits->shape),
+                       .mask = c->mask,
                        .foot = limits->foot.offset,
                        .range = foot_range(c, c->snap_distance),
                        .skin = c->skin,
@@ -25,7 +29,6 @@ tahr__pace tahr__pace_of(const tahr_config *c, const tahr__limits *limits)
                        .rim = limits->shape.radius + c->skin,
                        .tolerance = c->edge_tolerance,
                        .level = max_of(max_of(limits->walkable, limits->walkable_hysteresis), 1e-4),
-                       .mask = c->mask,
                        .law = tahr__law_of_wish(c, &unknown, vec(0, 0, 0), 0, 0, 1)};
     return pace;
 }
