@@ -61,6 +61,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
         memset(cache, 0, cache_size);
     }
     mover->world = world;
+    mover->sleep.wide = tahr__is_wide();
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
@@ -354,6 +355,9 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     if (!input || !state) {
         return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
     }
-    return mover->dozes ? tahr__step_noted(mover, input, dt, state, report)
-                              : tahr__step_awake(mover, input, dt, state, report);
+    if (mover->dozes == 0) {
+        return tahr__step_awake(mover, input, dt, state, report);
+    }
+    return mover->dozes == 2 ? tahr__step_wide(mover, input, dt, state, report)
+                             : tahr__step_noted(mover, input, dt, state, report);
 }
