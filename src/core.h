@@ -122,7 +122,9 @@ typedef struct tahr__pace {
     double rim;        /* m, radius and skin */
     double tolerance;  /* m, from the rim */
     double level;      /* cosine of the steepest face that may be stood on without a look at what was */
-    vec3 move;         /* the last input.move, if law.wish is not zero, */
+    uint32_t wishes;   /* law_wishes of it */
+    uint32_t reserved;
+    vec3 move;         /* the last input.move, */
     tahr__law law;     /* and how it is approached */
 } tahr__pace;
 
