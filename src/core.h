@@ -162,7 +162,7 @@ struct tahr_mover {
     void *cache;
     uint32_t busy;
     uint32_t is_recorded; /* 1: the step under way has been told of */
-    uint32_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide may look */
+    uint32_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide looks first */
     uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t may_go_short_way;
     uint32_t rest;   /* steps that go the long way before the short one is tried again, */

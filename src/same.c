@@ -64,9 +64,8 @@ WIDE tahr_status tahr__step_wide(tahr_mover *mover, const tahr_input *input, dou
     const tahr_world *world = mover->world;
     _Static_assert(offsetof(tahr_input, move.z) == STEP, "the rest of a wish");
     const uint64_t odd = (bits_of(dt) ^ bits_of(s->dt)) | (world_revision(world) ^ s->revision) |
-                         (bits_of(input->move.z) ^ bits_of(s->input.move.z)) | input->flags | input->reserved |
-                         (input->struct_size ^ (uint32_t)sizeof *input) | (uint64_t)(uintptr_t)world->recording |
-                         (uint64_t)(uintptr_t)mover->company;
+                         (bits_of(input->move.z) ^ bits_of(s->input.move.z)) | input->reserved |
+                         (uint64_t)(uintptr_t)world->recording | (uint64_t)(uintptr_t)mover->company;
     if (odd != 0) {
         return tahr__step_noted(mover, input, dt, state, report);
     }

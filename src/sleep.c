@@ -90,7 +90,7 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
         r->event_capacity == UINT32_MAX) {
         return;
     }
-    mover->dozes = s->wide ? 2 : 1;
+    mover->dozes = s->wide && step->input->struct_size == sizeof s->input && step->input->flags == 0 ? 2 : 1;
     s->noted = 1 + r->event_capacity;
     s->dt = dt;
     s->revision = world_revision(mover->world);
