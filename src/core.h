@@ -111,21 +111,21 @@ typedef struct tahr__limits {
 /* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.c) remembers:
  * a wish is mostly that of the last step. */
 typedef struct tahr__pace {
-    vec3 up;           /* pull.up without -0.0, +z without gravity: only who stands so walks the short way */
-    double max_dt;     /* s */
-    uint32_t special;  /* 1: held in a plane, or not round */
+    vec3 up;          /* pull.up without -0.0, +z without gravity: only who stands so walks the short way */
+    double max_dt;    /* s */
+    uint32_t special; /* 1: held in a plane, or not round */
     uint32_t mask;
-    double foot;       /* m, offset of the foot */
-    double range;      /* m, of its sweep */
-    double skin;       /* m */
-    double most;       /* m, clearance of the band in which a floor is left as it is */
-    double rim;        /* m, radius and skin */
-    double tolerance;  /* m, from the rim */
-    double level;      /* cosine of the steepest face that may be stood on without a look at what was */
-    uint32_t wishes;   /* law_wishes of it */
+    double foot;      /* m, offset of the foot */
+    double range;     /* m, of its sweep */
+    double skin;      /* m */
+    double most;      /* m, clearance of the band in which a floor is left as it is */
+    double rim;       /* m, radius and skin */
+    double tolerance; /* m, from the rim */
+    double level;     /* cosine of the steepest face that may be stood on without a look at what was */
+    uint32_t wishes;  /* law_wishes of it */
     uint32_t reserved;
-    vec3 move;         /* the last input.move, */
-    tahr__law law;     /* and how it is approached */
+    vec3 move;     /* the last input.move, */
+    tahr__law law; /* and how it is approached */
 } tahr__pace;
 
 /* Events of a step that can be repeated; a step with more is computed again. */
@@ -154,6 +154,15 @@ typedef struct tahr__custom {
 
 /* What a state remembers, from base on, that has nothing to remember. */
 extern const tahr_state tahr__blank;
+#define TAHR__EIGHT(x)         \
+    {                          \
+        x, x, x, x, x, x, x, x \
+    }
+#define TAHR__BLANK                                                                                                  \
+    {                                                                                                                \
+        .base = {.body = TAHR_NO_BODY, .pose = {.orientation = {0, 0, 0, 1}}}, .touched = TAHR__EIGHT(TAHR_NO_BODY), \
+        .wall_body = TAHR_NO_BODY, .drop_body = TAHR_NO_BODY                                                         \
+    }
 
 /* In the order in which a step reads it: the short way (short_way.h) costs the lines of memory up to the limits' foot. */
 struct tahr_mover {
@@ -165,8 +174,8 @@ struct tahr_mover {
     uint32_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide looks first */
     uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t may_go_short_way;
-    uint32_t rest;   /* steps that go the long way before the short one is tried again, */
-    uint32_t failed; /* and how often in a row it was of no use */
+    uint32_t rest;          /* steps that go the long way before the short one is tried again, */
+    uint32_t failed;        /* and how often in a row it was of no use */
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
     tahr__pace pace;

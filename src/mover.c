@@ -348,8 +348,7 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
         if (status < 0) {
             return status;
         }
-    } else if (!(mover->company && mover->company->neighbours) &&
-               tahr__go_short_way(mover, input, dt, state, report)) {
+    } else if (!(mover->company && mover->company->neighbours) && tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
     }
     return take_step(mover, input, dt, state, report, plain);

@@ -29,10 +29,9 @@ WIDE static inline __m256i half(const void *from, size_t at)
     return _mm256_zextsi128_si256(_mm_loadu_si128((const __m128i *)(const void *)((const char *)from + at)));
 }
 
-/* All bits that differ. */
-WIDE static inline __m256i other_state(const tahr__sleep *s, const tahr_state *state)
+/* All bits that differ; memory: what the state remembered. */
+WIDE static inline __m256i other_state(const tahr__sleep *s, const tahr_state *memory, const tahr_state *state)
 {
-    const tahr_state *memory = noted_memory(s);
     __m256i other = _mm256_xor_si256(half(state, MEMORY - STEP / 2), half(&s->state, MEMORY - STEP / 2));
     other = _mm256_or_si256(other, _mm256_xor_si256(half(state, MEMORY), half(memory, MEMORY)));
 #if !defined(__clang__)
@@ -52,7 +51,7 @@ WIDE static inline __m256i other_state(const tahr__sleep *s, const tahr_state *s
 
 WIDE int tahr__same_wide(const tahr__sleep *s, const tahr_state *state)
 {
-    const __m256i other = other_state(s, state);
+    const __m256i other = other_state(s, noted_memory(s), state);
     return _mm256_testz_si256(other, other);
 }
 
@@ -69,7 +68,9 @@ WIDE tahr_status tahr__step_wide(tahr_mover *mover, const tahr_input *input, dou
     if (odd != 0) {
         return tahr__step_noted(mover, input, dt, state, report);
     }
-    const __m256i other = _mm256_or_si256(other_state(s, state), _mm256_xor_si256(load(input, 0), load(&s->input, 0)));
+    static const tahr_state blank = TAHR__BLANK; /* known here: most of it is zero, and need not be read */
+    const __m256i other =
+        _mm256_or_si256(other_state(s, &blank, state), _mm256_xor_si256(load(input, 0), load(&s->input, 0)));
     if (!_mm256_testz_si256(other, other)) {
         return tahr__step_noted(mover, input, dt, state, report);
     }

@@ -32,7 +32,8 @@ static inline int same_state(const tahr__sleep *s, const tahr_state *state)
                                 sizeof *state - memory) == 0;
 }
 
-/* tahr__step_noted on such a processor, after a step with an input of this version and without flags. */
+/* tahr__step_noted on such a processor, after a step of who remembers nothing, with an input of this version
+ * and without flags. */
 tahr_status tahr__step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                             tahr_report *report);
 

@@ -90,13 +90,15 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
         r->event_capacity == UINT32_MAX) {
         return;
     }
-    mover->dozes = s->wide && step->input->struct_size == sizeof s->input && step->input->flags == 0 ? 2 : 1;
+    s->blank =
+        memcmp((const char *)state + base_at, (const char *)&tahr__blank + base_at, sizeof *state - base_at) == 0;
+    mover->dozes =
+        s->wide && s->blank && step->input->struct_size == sizeof s->input && step->input->flags == 0 ? 2 : 1;
     s->noted = 1 + r->event_capacity;
     s->dt = dt;
     s->revision = world_revision(mover->world);
     s->status = (int16_t)tahr__step_status(r->flags);
     s->state = *state;
-    s->blank = memcmp((const char *)state + base_at, (const char *)&tahr__blank + base_at, sizeof *state - base_at) == 0;
     s->input = *step->input;
     s->report = (tahr_report){.flags = r->flags | TAHR_REPORT_ASLEEP,
                               .event_capacity = r->event_capacity,

@@ -10,9 +10,9 @@
 
 int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits)
 {
-    return world->backend->walk && !world_is_planar(world) && !world->has && !limits->feel && !limits->in_plane && limits->usual &&
-           config->short_ways && !config->keep_level_speed && config->floor_probe == TAHR_FLOOR_PROBE_WHOLE &&
-           limits->shape.type == TAHR_SHAPE_CAPSULE;
+    return world->backend->walk && !world_is_planar(world) && !world->has && !limits->feel && !limits->in_plane &&
+           limits->usual && config->short_ways && !config->keep_level_speed &&
+           config->floor_probe == TAHR_FLOOR_PROBE_WHOLE && limits->shape.type == TAHR_SHAPE_CAPSULE;
 }
 
 tahr__pace tahr__pace_of(const tahr_config *c, const tahr__limits *limits)
@@ -38,7 +38,8 @@ static inline int begins_on_face(const tahr_mover *mover, const tahr_state *s)
 {
     const tahr_floor *f = &s->floor;
     const uint32_t face = TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE;
-    const uint64_t other = (s->floor_revision ^ mover->world->revision) | ((f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) ^ face) |
+    const uint64_t other = (s->floor_revision ^ mover->world->revision) |
+                           ((f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) ^ face) |
                            other_bits(&s->floor_position, &s->position) | other_bits(&s->up, &mover->pace.up);
     return other == 0 && dot(f->normal, f->surface_normal) >= TAHR__ON_FACE &&
            (dot(f->surface_normal, s->up) > TAHR__GENTLE || (f->flags & TAHR_FLOOR_SLOPE));
@@ -76,10 +77,9 @@ static inline int ends_on_face(const tahr__pace *pace, vec3 position, const tahr
 {
     const vec3 offset = reject(sub(hit->point, position), pace->up);
     return hit->blocking && hit->walkable_rule == TAHR_WALKABLE_DEFAULT &&
-           dot(hit->surface_normal, pace->up) >= pace->level &&
-           dot(hit->normal, hit->surface_normal) > TAHR__ON_FACE && pace->rim - length(offset) >= pace->tolerance &&
-           (hit->fraction > 0 || hit->distance >= pace->skin) && clearance >= pace->skin - 1e-6 &&
-           clearance <= pace->most;
+           dot(hit->surface_normal, pace->up) >= pace->level && dot(hit->normal, hit->surface_normal) > TAHR__ON_FACE &&
+           pace->rim - length(offset) >= pace->tolerance && (hit->fraction > 0 || hit->distance >= pace->skin) &&
+           clearance >= pace->skin - 1e-6 && clearance <= pace->most;
 }
 
 /* As tahr__clean_state does; up is clean, and what else there is of the floor stays. */
