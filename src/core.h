@@ -122,10 +122,9 @@ typedef struct tahr__pace {
     double rim;       /* m, radius and skin */
     double tolerance; /* m, from the rim */
     double level;     /* cosine of the steepest face that may be stood on without a look at what was */
-    uint32_t wishes;  /* law_wishes of it */
-    uint32_t reserved;
-    vec3 move;     /* the last input.move, */
-    tahr__law law; /* and how it is approached */
+    vec3 move;        /* the last input.move, */
+    tahr__law law;    /* and how it is approached */
+    uint32_t wishes;  /* law_wishes of that */
 } tahr__pace;
 
 /* Events of a step that can be repeated; a step with more is computed again. */
@@ -152,7 +151,8 @@ typedef struct tahr__custom {
     void *user;
 } tahr__custom;
 
-/* What a state remembers, from base on, that has nothing to remember. */
+/* What a state remembers, from base on, that has nothing to remember; and how it is made, for who needs to know it when
+ * it is compiled. */
 extern const tahr_state tahr__blank;
 #define TAHR__EIGHT(x)         \
     {                          \
