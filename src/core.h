@@ -92,6 +92,8 @@ enum {
 /* Numbers derived from config and shape: of the config's own shape once, when the mover is created. */
 typedef struct tahr__limits {
     tahr_shape shape;           /* the character's now */
+    tahr__foot foot;            /* of the whole shape */
+    tahr__decay decay;          /* of walking, of the last length of step; or zero */
     double walkable;            /* cosine of the steepest walkable floor */
     double walkable_hysteresis; /* the same for a floor that was walkable */
     double width;               /* m, half width of the shape: what perch and edge rules measure against */
@@ -100,12 +102,30 @@ typedef struct tahr__limits {
     double beside, below;       /* m beyond its motion that a step asks about */
     double axis;                /* m, half of the segment that rounding makes a capsule, or half the height of a box */
     tahr__pull pull;            /* of config.gravity, in the plane */
-    tahr__foot foot;            /* of the whole shape */
     vec3 plane;                 /* config.plane, exactly unit; zero: none */
     uint32_t in_plane;          /* 1: there is one */
     uint32_t feel;              /* TAHR__FEEL_* */
     uint32_t usual;             /* 1: EXACT, JOINT slides and depenetration, MARGIN */
 } tahr__limits;
+
+/* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.c) remembers:
+ * a wish is mostly that of the last step. */
+typedef struct tahr__pace {
+    vec3 up;          /* pull.up without -0.0, +z without gravity: only who stands so walks the short way */
+    double max_dt;    /* s */
+    uint32_t special; /* 1: held in a plane, or not round */
+    uint32_t mask;
+    double foot;      /* m, offset of the foot */
+    double range;     /* m, of its sweep */
+    double skin;      /* m */
+    double most;      /* m, clearance of the band in which a floor is left as it is */
+    double rim;       /* m, radius and skin */
+    double tolerance; /* m, from the rim */
+    double level;     /* cosine of the steepest face that may be stood on without a look at what was */
+    vec3 move;        /* the last input.move, */
+    tahr__law law;    /* and how it is approached */
+    uint32_t wishes;  /* law_wishes of that */
+} tahr__pace;
 
 /* Events of a step that can be repeated; a step with more is computed again. */
 enum { TAHR__SLEEP_EVENTS = 8 };
@@ -113,8 +133,10 @@ enum { TAHR__SLEEP_EVENTS = 8 };
 /* The last step, if it left the state as it was (sleep.h). In the order in which a sleeper compares it, from the begin of
  * a line of memory: a crowd asleep costs the lines that it reads. */
 typedef struct tahr__sleep {
-    uint32_t noted; /* 1 + the report's event_capacity; 0: nothing is */
-    tahr_status status;
+    _Alignas(64) uint32_t noted; /* 1 + the report's event_capacity; 0: nothing is */
+    int16_t status;
+    uint8_t wide;  /* tahr__is_wide */
+    uint8_t blank; /* 1: what the state remembers is that of tahr__blank, which is nearer than this one's own copy */
     double dt;
     uint64_t revision;
     tahr_input input;
@@ -129,29 +151,51 @@ typedef struct tahr__custom {
     void *user;
 } tahr__custom;
 
-/* What a state remembers, from base on, that has nothing to remember. */
+/* What a state remembers, from base on, that has nothing to remember; and how it is made, for who needs to know it when
+ * it is compiled. */
 extern const tahr_state tahr__blank;
+#define TAHR__EIGHT(x)         \
+    {                          \
+        x, x, x, x, x, x, x, x \
+    }
+#define TAHR__BLANK                                                                                                  \
+    {                                                                                                                \
+        .base = {.body = TAHR_NO_BODY, .pose = {.orientation = {0, 0, 0, 1}}}, .touched = TAHR__EIGHT(TAHR_NO_BODY), \
+        .wall_body = TAHR_NO_BODY, .drop_body = TAHR_NO_BODY                                                         \
+    }
 
+/* In the order in which a step reads it: the short way (short_way.h) costs the lines of memory up to the limits' foot. */
 struct tahr_mover {
     tahr_world *world;
     struct tahr__company *company; /* in a step of a crowd: who else is there (neighbours.h), else NULL */
     void *cache;
-    size_t cache_size;
-    tahr__custom custom;
     uint32_t busy;
     uint32_t is_recorded; /* 1: the step under way has been told of */
+    uint32_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide looks first */
     uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t may_go_short_way;
     uint32_t long_way; /* 1: the last step could have been no short one (short_way.h) */
     uint32_t rest;     /* steps until one is tried, */
     uint32_t failed;   /* and how often in a row it was in vain */
-    uint32_t reserved;
-    tahr__sleep sleep;
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
-    tahr_config config;
+    tahr__pace pace;
     tahr__limits limits;
+    tahr_config config;
+    size_t cache_size;
+    tahr__custom custom;
+    tahr__sleep sleep;
 };
+
+/* A step begins that may change something: what the last one was is forgotten. Most movers have nothing to forget, and
+ * leave that memory alone. */
+static inline void mover_wake(tahr_mover *mover)
+{
+    if (mover->dozes) {
+        mover->dozes = 0;
+        mover->sleep.noted = 0;
+    }
+}
 
 /* Public as the opaque tahr_step of a custom mode. */
 typedef tahr_step tahr__step;

@@ -45,5 +45,6 @@ tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t
     limits.pull = tahr__pull_of(along_plane(&limits, c->gravity));
     limits.foot = tahr__foot_of(s, capabilities);
     limits.feel = feel_of(c);
+    limits.decay = (tahr__decay){0, 0};
     return limits;
 }

@@ -8,12 +8,7 @@
 
 _Static_assert(sizeof(tahr_state) == 512, "tahr_state is 512 bytes for a whole ABI range");
 
-#define NOBODY TAHR_NO_BODY
-const tahr_state tahr__blank = {.base = {.body = NOBODY, .pose = {.orientation = {0, 0, 0, 1}}},
-                                .touched = {NOBODY, NOBODY, NOBODY, NOBODY, NOBODY, NOBODY, NOBODY, NOBODY},
-                                .wall_body = NOBODY,
-                                .drop_body = NOBODY};
-#undef NOBODY
+const tahr_state tahr__blank = TAHR__BLANK;
 
 /* What belongs to the place that a character is at. */
 static void forget_places(tahr_state *state)
