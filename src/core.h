@@ -74,6 +74,11 @@ typedef struct tahr__pull {
     vec3 up;      /* unit, opposite; zero without gravity */
 } tahr__pull;
 
+/* What a fall of a config's own gravity is cut up by. */
+typedef struct tahr__arc {
+    double chord; /* s at most of a chord, off the arc by no more than config.arc_tolerance: |a| t^2 / 8 */
+} tahr__arc;
+
 /* What is swept downward to find the floor, and how far the centre of it lies from the character's along up. */
 typedef struct tahr__foot {
     tahr_shape shape;
@@ -100,6 +105,7 @@ typedef struct tahr__limits {
     double beside, below;       /* m beyond its motion that a step asks about */
     double axis;                /* m, half of the segment that rounding makes a capsule, or half the height of a box */
     tahr__pull pull;            /* of config.gravity, in the plane */
+    tahr__arc arc;              /* of pull */
     tahr__foot foot;            /* of the whole shape */
     vec3 plane;                 /* config.plane, exactly unit; zero: none */
     uint32_t in_plane;          /* 1: there is one */
@@ -129,6 +135,14 @@ typedef struct tahr__custom {
     void *user;
 } tahr__custom;
 
+/* Where the config's shape may go without meeting anything, while the world stays what it was: as told by the slot
+ * walk. */
+typedef struct tahr__clear {
+    vec3 at;
+    double far2;       /* m2: square of how far from there */
+    uint64_t revision; /* of the world; 0: nothing is known */
+} tahr__clear;
+
 /* What a state remembers, from base on, that has nothing to remember. */
 extern const tahr_state tahr__blank;
 
@@ -144,6 +158,7 @@ struct tahr_mover {
     uint32_t may_go_short_way;
     uint32_t rest;   /* steps that go the long way before the short one is tried again, */
     uint32_t failed; /* and how often in a row it was of no use */
+    tahr__clear clear;
     tahr__sleep sleep;
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */

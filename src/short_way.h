@@ -38,7 +38,8 @@ static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input,
                                      tahr_report *report)
 {
     const int traced = report && (report->decisions || report->queries), knows = mover->world->backend->walk != NULL;
-    if (!mover->may_go_short_way || !knows || traced || input->jump || state->flags ||
+    if (!mover->may_go_short_way || !knows || traced ||
+        (state->mode != TAHR_MODE_FALLING && (input->jump || state->flags)) ||
         !tahr__tries_short_way(mover, state->mode)) {
         return 0;
     }

@@ -19,12 +19,12 @@ static void aim(tahr__query *query, tahr_query_context *context, const tahr_walk
     query->ignore_body = TAHR_NO_BODY;
 }
 
-/* Beyond all that there is, by more than the shape and its way. A metre is more than any rounding. */
-static int is_in_the_open(const tahr__native *world, const tahr_walk *walk)
+/* Beyond all that there is: how far the shape may go (m; < 0: it is not). A metre is more than any rounding. */
+static double room_in_the_open(const tahr__native *world, const tahr_walk *walk)
 {
-    return world->movable.count == 0 &&
-           tahr__outside_of_all(world, walk->position) >
-               1 + walk->shape->half_height + walk->shape->radius + walk->margin + v_length(walk->motion);
+    return world->movable.count > 0 ? -1
+                                    : tahr__outside_of_all(world, walk->position) -
+                                          (1 + walk->shape->half_height + walk->shape->radius + walk->margin);
 }
 
 tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit,
@@ -35,10 +35,14 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
     tahr__query query;
     uint32_t count = 0;
     *known = 0;
-    if (!walk->foot && is_in_the_open(world, walk)) {
-        *known = 1;
-        context->spared++;
-        return TAHR_OK;
+    if (!walk->foot) {
+        const double room = room_in_the_open(world, walk);
+        hit->distance = d_max(room, 0);
+        if (room > v_length(walk->motion)) {
+            *known = 1;
+            context->spared++;
+            return TAHR_OK;
+        }
     }
     if (!cache || !cache->announced || !tahr__frame_holds(&cache->frame, walk->position, walk->up)) return TAHR_OK;
     query.world = world;
