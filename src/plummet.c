@@ -16,132 +16,157 @@ enum { REMEMBERED = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMPING | TAHR_STATE_FLOOR
 /* A flight so far. */
 typedef struct flight {
     vec3 position, velocity;
-    vec3 up;
-    int upright; /* up is exactly +z: what is 0 of it need not be multiplied with */
-    int met_apex;
-    uint32_t chords;
+    uint32_t chords, apexes;
 } flight;
 
-static double along_up(const flight *f, vec3 v)
-{
-    return f->upright ? v.z : dot(v, f->up);
-}
-
-static vec3 across_up(const flight *f, vec3 v, double along)
-{
-    return f->upright ? vec(v.x, v.y, 0) : add_scaled(v, f->up, -along);
-}
-
-static vec3 lifted(const flight *f, vec3 v, double along)
-{
-    return f->upright ? vec(v.x, v.y, v.z + along) : add_scaled(v, f->up, along);
-}
-
-/* s of the next chord, as falling.c's fall_chord cuts it. */
-static double next_chord(const tahr__limits *limits, double rise, double left, int *reaches_apex)
-{
-    const double gravity = limits->pull.size, most = limits->arc.chord;
-    const double apex = rise > 1e-9 * gravity ? rise / gravity : 0;
-    const double duration = min_of(left, most);
-    *reaches_apex = apex > 0 && apex <= duration;
-    if (*reaches_apex) {
-        return apex;
-    }
-    return left > duration ? left / (double)(int)(left / duration + 1) : duration;
-}
-
-/* Without a wish nothing changes a velocity across up, and often there is none. */
-static inline tahr__motion drift(const tahr__law *law, vec3 level, double t)
-{
-    tahr__motion rest = {{0, 0, 0}, level, -1};
-    return law->speed > 0 || length_squared(level) > 0 ? tahr__law_advance(law, level, t) : rest;
-}
-
 /* Does all of a motion lie where nothing is, as far as a backend has told? */
-static int is_in_clear(const tahr_mover *mover, vec3 from, vec3 to)
+static inline int is_in_clear(const tahr_mover *mover, vec3 from, vec3 to)
 {
     const tahr__clear *clear = &mover->clear;
     return clear->revision == mover->world->revision && length_squared(sub(from, clear->at)) <= clear->far2 &&
            length_squared(sub(to, clear->at)) <= clear->far2;
 }
 
-/* Is it known that nothing is in the way? */
-static int is_free(tahr_mover *mover, const flight *f, vec3 motion, vec3 to, tahr_query_context *context)
+/* Field by field: compilers clear what is left out with a slow string instruction. */
+static int is_known_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 up, tahr_query_context *context)
 {
-    const tahr_walk walk = {.shape = &mover->limits.shape,
-                            .position = f->position,
-                            .motion = motion,
-                            .up = f->up,
-                            .margin = mover->config.skin,
-                            .mask = mover->config.mask};
+    tahr_walk walk;
     tahr_hit none;
     uint32_t known = 0;
-    if (is_in_clear(mover, f->position, to)) {
-        context->spared++;
-        return 1;
-    }
+    walk.shape = &mover->limits.shape;
+    walk.foot = NULL;
+    walk.position = walk.foot_position = from;
+    walk.motion = walk.foot_motion = motion;
+    walk.up = up;
+    walk.margin = mover->config.skin;
+    walk.mask = mover->config.mask;
+    walk.reserved = 0;
     none.distance = 0;
     if (mover->world->backend->walk(mover->world->self, context, &walk, &none, &known) != TAHR_OK || !known) {
         return 0;
     }
     if (none.distance > 0) {
-        mover->clear = (tahr__clear){f->position, none.distance * none.distance, mover->world->revision};
+        mover->clear = (tahr__clear){from, none.distance * none.distance, mover->world->revision};
     }
     return 1;
 }
 
-/* One chord. Returns the s of it; 0: it is not known to be free. */
-static double fly(tahr_mover *mover, const tahr__law *law, flight *f, double left, tahr_query_context *context)
+static inline int is_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 to, vec3 up, tahr_query_context *context)
 {
-    int reaches_apex;
-    double fall;
-    const double gravity = mover->limits.pull.size, rise = along_up(f, f->velocity);
-    const double t = next_chord(&mover->limits, rise, left, &reaches_apex);
-    const double way = tahr__fall_advance(rise, gravity, mover->config.terminal_speed, 0, t, &fall);
-    const tahr__motion m = drift(law, across_up(f, f->velocity, rise), t);
-    const vec3 motion = lifted(f, m.displacement, way), to = add(f->position, motion);
-    if (!is_free(mover, f, motion, to, context)) {
+    if (is_in_clear(mover, from, to)) {
+        context->spared++;
+        return 1;
+    }
+    return is_known_free(mover, from, motion, up, context);
+}
+
+/* tahr__fall_advance without a hold, and without its division where the terminal speed is far, or reached. */
+static inline double fall_for(double rise, double gravity, double terminal, double t, double *v)
+{
+    const double gained = gravity * t;
+    if (rise == -terminal) {
+        *v = rise;
+        return rise * t;
+    }
+    if (rise > -terminal && rise + terminal > gained * (1 + 1e-9)) {
+        *v = rise - gained;
+        return rise * t - 0.5 * gravity * t * t;
+    }
+    return tahr__fall_advance(rise, gravity, terminal, 0, t, v);
+}
+
+static int is_zero(vec3 v)
+{
+    return v.x == 0 && v.y == 0 && v.z == 0;
+}
+
+/* Across up, as falling.c's arc_at. Without a wish, and with nothing to brake, there is nothing to work out. */
+static inline tahr__motion drift(const tahr_config *config, vec3 wish, vec3 level, double t)
+{
+    if (is_zero(wish) && is_zero(level)) {
+        return (tahr__motion){wish, level, -1};
+    }
+    const tahr__law law = tahr__arc_law(config, wish);
+    return tahr__law_advance(&law, level, t);
+}
+
+/* Almost every step: one chord, no apex on it, and an up whose x and y are 0 and need not be multiplied with. */
+static inline int drop(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *s, flight *f,
+                       tahr_query_context *context)
+{
+    const vec3 wish = vec(input->move.x, input->move.y, 0), level = vec(s->velocity.x, s->velocity.y, 0);
+    const tahr__motion m = drift(&mover->config, wish, level, dt);
+    double fall, gravity = mover->limits.pull.size;
+    const double way = fall_for(s->velocity.z, gravity, mover->config.terminal_speed, dt, &fall);
+    const vec3 motion = vec(m.displacement.x, m.displacement.y, way), to = add(s->position, motion);
+    *f = (flight){to, vec(m.velocity.x, m.velocity.y, fall), 1, 0};
+    return is_free(mover, s->position, motion, to, s->up, context);
+}
+
+/* One chord, as falling.c's fall_chord cuts it. Returns the s of it; 0: it is not known to be free. */
+static double fly(tahr_mover *mover, vec3 wish, flight *f, double left, vec3 up, tahr_query_context *context)
+{
+    const tahr__limits *limits = &mover->limits;
+    const double gravity = limits->pull.size, rise = dot(f->velocity, up);
+    const double apex = rise > 1e-9 * gravity ? rise / gravity : 0;
+    double t = min_of(left, limits->arc.chord), fall;
+    const int meets_apex = apex > 0 && apex <= t;
+    if (meets_apex) {
+        t = apex;
+    } else if (left > t) {
+        t = left / (double)(int)(left / t + 1);
+    }
+    const double way = fall_for(rise, gravity, mover->config.terminal_speed, t, &fall);
+    const tahr__motion m = drift(&mover->config, wish, add_scaled(f->velocity, up, -rise), t);
+    const vec3 motion = add_scaled(m.displacement, up, way), to = add(f->position, motion);
+    if (!is_free(mover, f->position, motion, to, up, context)) {
         return 0;
     }
     f->position = to;
-    f->velocity = lifted(f, m.velocity, fall);
-    if (reaches_apex) {
-        f->velocity = across_up(f, f->velocity, along_up(f, f->velocity));
-        f->met_apex = 1;
+    f->velocity = add_scaled(m.velocity, up, fall);
+    if (meets_apex) {
+        f->velocity = reject(f->velocity, up);
+        f->apexes++;
     }
+    f->chords++;
     return t;
 }
 
-static int is_such(const tahr_mover *mover, double dt, const tahr_state *s)
+static int fly_all(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *s, flight *f,
+                   tahr_query_context *context)
 {
-    return dt > TAHR__SHORTEST && mover->limits.pull.size > 1e-6 && dt <= MOST_CHORDS * mover->limits.arc.chord &&
-           !(s->flags & ~(uint32_t)REMEMBERED) && is_against_gravity(&mover->limits.pull, s->up);
+    const vec3 wish = reject(input->move, s->up);
+    double used = 1;
+    *f = (flight){s->position, s->velocity, 0, 0};
+    for (double left = dt; left >= 1e-12 && used > 0; left -= used) { /* less is rounding */
+        used = fly(mover, wish, f, left, s->up, context);
+    }
+    return used > 0;
 }
 
 int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report)
 {
+    const tahr__limits *limits = &mover->limits;
     const vec3 up = state->up;
-    flight f = {state->position, state->velocity, up, up.z == 1 && up.x == 0 && up.y == 0, 0, 0};
-    if (!is_such(mover, dt, state)) {
-        return 0;
-    }
-    const tahr__law law = tahr__arc_law(&mover->config, across_up(&f, input->move, along_up(&f, input->move)));
     tahr_query_context context = {.cache = mover->cache};
-    for (double left = dt; left >= 1e-12; f.chords++) { /* less is rounding */
-        const double used = fly(mover, &law, &f, left, &context);
-        if (used == 0) {
-            return 0;
-        }
-        left -= used;
-    }
-    if ((f.met_apex && report && report->events) || length_squared(f.velocity) > FASTEST2 ||
-        vec_equal(f.position, state->position) || goes_astray(mover, f.position)) {
+    flight f;
+    if (dt <= TAHR__SHORTEST || limits->pull.size <= 1e-6 || dt > MOST_CHORDS * limits->arc.chord ||
+        state->flags & ~(uint32_t)REMEMBERED || !is_against_gravity(&limits->pull, up)) {
         return 0;
     }
+    const int simple = dt <= limits->arc.chord && up.z == 1 && up.x == 0 && up.y == 0 &&
+                       (state->velocity.z <= 0 || state->velocity.z > dt * limits->pull.size * (1 + 1e-9));
+    const int done =
+        simple ? drop(mover, input, dt, state, &f, &context) : fly_all(mover, input, dt, state, &f, &context);
+    const int rests = f.position.z == state->position.z && vec_equal(f.position, state->position);
+    if (!done || rests || length_squared(f.velocity) > FASTEST2 ||
+        (f.apexes > 0 && report && report->events) || goes_astray(mover, f.position)) {
+        return 0;
+    }
+    const uint32_t ended = TAHR_STATE_JUMP_HELD | (f.apexes > 0 ? TAHR_STATE_JUMPING : 0u);
     state->position = f.position;
     state->velocity = f.velocity;
-    state->flags &= ~(uint32_t)(TAHR_STATE_JUMP_HELD | (f.met_apex ? TAHR_STATE_JUMPING : 0));
-    state->flags |= input->jump ? TAHR_STATE_JUMP_HELD : 0u;
+    state->flags = (state->flags & ~ended) | (input->jump ? TAHR_STATE_JUMP_HELD : 0u);
     tahr__clean_state(state, state);
     tahr__report_short_way(report, f.chords, &context);
     return 1;
