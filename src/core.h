@@ -158,10 +158,10 @@ struct tahr_mover {
     uint32_t may_go_short_way;
     uint32_t rest;   /* steps that go the long way before the short one is tried again, */
     uint32_t failed; /* and how often in a row it was of no use */
-    tahr__clear clear;
     tahr__sleep sleep;
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
+    tahr__clear clear;
     tahr_config config;
     tahr__limits limits;
 };
