@@ -8,13 +8,39 @@
 #include "core.h"
 #include "shape.h"
 
+/* All bits of the 8-byte words of a state in [from, to): | of them, and & of them. */
+static inline uint64_t state_word(const tahr_state *s, size_t at)
+{
+    uint64_t word;
+    memcpy(&word, (const char *)s + at, sizeof word);
+    return word;
+}
+
+static inline uint64_t state_words(const tahr_state *s, size_t from, size_t to)
+{
+    uint64_t any = 0;
+    for (size_t at = from; at < to; at += sizeof any) {
+        any |= state_word(s, at);
+    }
+    return any;
+}
+
 /* Does the state remember nothing, from radius on? Then all of that is in order. */
 static inline int state_is_blank(const tahr_mover *mover, const tahr_state *s)
 {
-    const size_t from = offsetof(tahr_state, base);
     const tahr_shape *shape = &mover->config.shape;
-    return memcmp(&s->radius, &shape->radius, 2 * sizeof s->radius) == 0 && /* and half_height, in both */
-           memcmp((const char *)s + from, (const char *)&tahr__blank + from, sizeof *s - from) == 0;
+    const tahr_base *b = &s->base;
+    const size_t pose = offsetof(tahr_state, base.pose), velocity = offsetof(tahr_state, base.velocity);
+    const size_t touched = offsetof(tahr_state, touched), counts = offsetof(tahr_state, touched_count);
+    const size_t wall = offsetof(tahr_state, wall_body), reserved = offsetof(tahr_state, reserved);
+    uint64_t odd = state_words(s, pose, velocity - sizeof(double)) | state_words(s, velocity, touched);
+    odd |= state_words(s, counts, wall) | state_words(s, reserved, sizeof *s);
+    odd |= bits_of(b->pose.orientation.w) ^ bits_of(1.0);
+    odd |= (bits_of(s->radius) ^ bits_of(shape->radius)) | (bits_of(s->half_height) ^ bits_of(shape->half_height));
+    odd |= b->seen | s->wall_feature | s->drop_feature | ~(b->body & s->wall_body & s->drop_body);
+    odd |= ~(state_word(s, touched) & state_word(s, touched + 8) & state_word(s, touched + 16) &
+             state_word(s, touched + 24));
+    return odd == 0;
 }
 
 /* Is everything else in order too, and as simple as it almost always is? What is not gets the whole check, which names
@@ -24,19 +50,19 @@ static inline int arguments_are_usual(const tahr_mover *mover, const tahr_input 
 {
     const tahr_floor *f = &s->floor;
     const tahr_quat q = s->orientation;
-    double turn = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w), up = length_squared(s->up);
+    double turn = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    double lean = other_bits(&s->up, &mover->pace.up) ? length_squared(s->up) - 1 : 0;
     double places = (length_squared(s->position) + length_squared(s->floor_position)) + length_squared(f->point);
     places += f->distance * f->distance + f->perch_distance * f->perch_distance;
     double speeds = length_squared(s->velocity) + length_squared(in->move);
     double normals = length_squared(f->normal) + length_squared(f->surface_normal);
     uint32_t odd = (in->struct_size ^ (uint32_t)sizeof *in) | in->flags | in->reserved | in->crouch;
-    odd |= mover->limits.in_plane | (report ? report->struct_size ^ (uint32_t)sizeof *report : 0u);
+    odd |= mover->pace.special | (report ? report->struct_size ^ (uint32_t)sizeof *report : 0u);
     odd |= s->flags & ~(uint32_t)((TAHR_STATE_CRUSHED << 1) - 1);
-    double off = (turn - 1) * (turn - 1) + (up - 1) * (up - 1); /* of the units from unit length, squared */
-    normals -= f->flags ? 2 : 0;                                /* zero where there is no floor */
-    return odd == 0 && s->mode <= TAHR_MODE_CUSTOM && shape_is_round(&mover->config.shape) && dt >= 0 &&
-           dt <= mover->config.max_dt && places <= 4e14 && speeds <= 1e10 && off + normals * normals <= 1e-18 &&
-           s->jump_hold == 0;
+    double off = (turn - 1) * (turn - 1) + lean * lean; /* of the units from unit length, squared */
+    normals -= f->flags ? 2 : 0;                        /* zero where there is no floor */
+    return odd == 0 && s->mode <= TAHR_MODE_CUSTOM && dt >= 0 && dt <= mover->pace.max_dt && places <= 4e14 &&
+           speeds <= 1e10 && off + normals * normals <= 1e-18 && s->jump_hold == 0;
 }
 
 /* TAHR_OK, or the first thing that is wrong, which the log has been told. report may be NULL. */

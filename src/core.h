@@ -111,7 +111,26 @@ typedef struct tahr__limits {
     uint32_t in_plane;          /* 1: there is one */
     uint32_t feel;              /* TAHR__FEEL_* */
     uint32_t usual;             /* 1: EXACT, JOINT slides and depenetration, MARGIN */
+    tahr__decay decay;          /* of walking, of the last length of step; or zero */
 } tahr__limits;
+
+/* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.c) remembers:
+ * a wish is mostly that of the last step. */
+typedef struct tahr__pace {
+    vec3 up;           /* pull.up without -0.0, +z without gravity: only who stands so walks the short way */
+    double max_dt;     /* s */
+    uint32_t special;  /* 1: held in a plane, or not round */
+    uint32_t mask;
+    double foot;       /* m, offset of the foot */
+    double range;      /* m, of its sweep */
+    double skin;       /* m */
+    double most;       /* m, clearance of the band in which a floor is left as it is */
+    double rim;        /* m, radius and skin */
+    double tolerance;  /* m, from the rim */
+    double level;      /* cosine of the steepest face that may be stood on without a look at what was */
+    vec3 move;         /* the last input.move, if law.wish is not zero, */
+    tahr__law law;     /* and how it is approached */
+} tahr__pace;
 
 /* Events of a step that can be repeated; a step with more is computed again. */
 enum { TAHR__SLEEP_EVENTS = 8 };
@@ -158,6 +177,7 @@ struct tahr_mover {
     uint32_t may_go_short_way;
     uint32_t rest;   /* steps that go the long way before the short one is tried again, */
     uint32_t failed; /* and how often in a row it was of no use */
+    tahr__pace pace;
     tahr__sleep sleep;
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */

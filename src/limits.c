@@ -46,5 +46,6 @@ tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t
     limits.arc.chord = limits.pull.size > 0 ? sqrt(8 * c->arc_tolerance / limits.pull.size) : c->max_dt;
     limits.foot = tahr__foot_of(s, capabilities);
     limits.feel = feel_of(c);
+    limits.decay = (tahr__decay){0, 0};
     return limits;
 }

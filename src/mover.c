@@ -64,6 +64,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
+    mover->pace = tahr__pace_of(&mover->config, &mover->limits);
     mover->may_go_short_way = (uint32_t)tahr__may_go_short_way(world, config, &mover->limits);
     mover->cache = cache;
     mover->cache_size = cache_size;
@@ -247,27 +248,13 @@ static void detect_stuck(tahr__step *step, const tahr_state *before)
     }
 }
 
-tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                             tahr_report *report)
+/* The long way. plain: the state remembers nothing, and nothing was asked for but to go and to jump. */
+static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report, int plain)
 {
-    if (mover->busy) {
-        return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",
-                              "is being stepped already");
-    }
-    if (mover->world->recording && !mover->is_recorded) {
-        return tahr__record_step(mover, input, dt, state, report);
-    }
     const tahr__neighbours *around = mover->company ? mover->company->neighbours : NULL;
-    int blank = state_is_blank(mover, state);
-    int usual = arguments_are_usual(mover, input, dt, state, report);
-    if (!blank || !usual) {
-        tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
-        if (status < 0) {
-            return status;
-        }
-    }
-    if (blank && usual && !around && tahr__go_short_way(mover, input, dt, state, report)) {
-        return TAHR_OK;
+    if (state->mode == TAHR_MODE_WALKING) {
+        decay_learn(&mover->limits.decay, mover->config.turn_friction, dt);
     }
     tahr__step step;
     tahr__pull pull;
@@ -276,7 +263,7 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     step.limits = &mover->limits;
     step.custom = &mover->custom;
     step.world = mover->world;
-    if (!blank &&
+    if (!plain &&
         (state->half_height != mover->config.shape.half_height || state->radius != mover->config.shape.radius)) {
         tahr__use_shape(&step, state->radius, state->half_height);
     }
@@ -307,7 +294,7 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     if (dt > 0) {
         mover->busy = 1;
         mover->sleep.noted = 0;
-        const int plain = blank && usual && mover->plain && !around; /* and nothing will be remembered */
+        plain = plain && mover->plain && !around; /* and nothing will be remembered */
         run(&step, dt, plain);
         mover->busy = 0;
         if (step.error < 0) {
@@ -333,6 +320,29 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
         *report = step.report;
     }
     return step.report.flags == 0 ? TAHR_OK : tahr__step_status(step.report.flags);
+}
+
+tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report)
+{
+    if (mover->busy) {
+        return tahr__complain(&mover->world->log, TAHR_E_REENTRANT, "tahr_mover_step", "mover",
+                              "is being stepped already");
+    }
+    if (mover->world->recording && !mover->is_recorded) {
+        return tahr__record_step(mover, input, dt, state, report);
+    }
+    const int plain = state_is_blank(mover, state) && arguments_are_usual(mover, input, dt, state, report);
+    if (!plain) {
+        tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
+        if (status < 0) {
+            return status;
+        }
+    } else if (!(mover->company && mover->company->neighbours) &&
+               tahr__go_short_way(mover, input, dt, state, report)) {
+        return TAHR_OK;
+    }
+    return take_step(mover, input, dt, state, report, plain);
 }
 
 tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,

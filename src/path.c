@@ -33,7 +33,7 @@ static inline tahr__law law_along(const tahr__step *step, const tahr__plane *wal
         kept = length(wish) / size;
         size *= kept;
     }
-    return tahr__law_of_wish(c, wish, size, asked, kept);
+    return tahr__law_of_wish(c, &step->limits->decay, wish, size, asked, kept);
 }
 
 /* Ramps are not merged as walls are: two faces that differ by a hair both carry, and the steeper one decides. */

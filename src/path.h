@@ -65,14 +65,16 @@ void tahr__path_bend(tahr__step *step, tahr__path *w);
 #define TAHR__GENTLE 0.966
 
 /* How a wish (m/s, across up, of `size`) is approached, of which walls leave the part `kept`: `asked` m/s. No query. */
-static inline tahr__law tahr__law_of_wish(const tahr_config *c, vec3 wish, double size, double asked, double kept)
+static inline tahr__law tahr__law_of_wish(const tahr_config *c, const tahr__decay *known, vec3 wish, double size,
+                                          double asked, double kept)
 {
     tahr__law law = {.wish = size > 0 ? scale(wish, 1.0 / size) : vec(0, 0, 0),
                      .speed = asked * kept,
                      .acceleration = c->acceleration * kept,
                      .turn_friction = c->turn_friction,
                      .braking = c->braking_deceleration,
-                     .drag = c->braking_drag};
+                     .drag = c->braking_drag,
+                     .decay = *known};
     return law;
 }
 

@@ -25,6 +25,16 @@ static inline void tahr__report_begin(tahr_report *r, const tahr_report *user)
     }
 }
 
+/* The same in place, of a user who asks for neither decisions nor queries. */
+static inline void tahr__report_clear(tahr_report *r)
+{
+    const size_t from = offsetof(tahr_report, event_count), half = (sizeof *r - from) / 2;
+    r->flags = 0;
+    r->event_capacity = r->events ? r->event_capacity : 0;
+    memset((char *)r + from, 0, half);
+    memset((char *)r + from + half, 0, sizeof *r - from - half);
+}
+
 /* Appends an event at step->time + step->ahead; hit may be NULL. */
 void tahr__event(tahr__step *step, uint32_t type, const tahr_hit *hit, double value);
 

@@ -13,6 +13,9 @@
 /* May steps of this mover be such? Asked once. No query. */
 int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits);
 
+/* What a stroll asks of them. */
+tahr__pace tahr__pace_of(const tahr_config *config, const tahr__limits *limits);
+
 /* A step of a state that remembers nothing, with an input that asks for nothing but a direction, both checked. [out]
  * state, report (or NULL). Returns 1; 0: it is not such a step, or it is not known to be; nothing was written. What
  * counts as two sweeps, and as one. */
@@ -37,9 +40,9 @@ static inline int tahr__tries_short_way(tahr_mover *mover, uint32_t mode)
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report)
 {
-    const int traced = report && (report->decisions || report->queries), knows = mover->world->backend->walk != NULL;
-    if (!mover->may_go_short_way || !knows || traced ||
-        (state->mode != TAHR_MODE_FALLING && (input->jump || state->flags)) ||
+    const int traced = report && (report->decisions || report->queries);
+    if (!mover->may_go_short_way || traced ||
+        (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) ||
         !tahr__tries_short_way(mover, state->mode)) {
         return 0;
     }
@@ -65,8 +68,7 @@ static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, const
     if (!r) {
         return;
     }
-    const tahr_report given = *r;
-    tahr__report_begin(r, &given);
+    tahr__report_clear(r);
     r->sweeps = sweeps;
     r->slices = 1;
     r->triangle_tests = context->narrow_tests;

@@ -92,7 +92,7 @@ vec3 tahr__new_fall_velocity(const tahr__pull *pull, double terminal, vec3 veloc
 
 tahr__law tahr__constant_law(void)
 {
-    tahr__law law = {{0, 0, 0}, 0, 0, 0, 0, 0};
+    tahr__law law = {.wish = {0, 0, 0}};
     return law;
 }
 

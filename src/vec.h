@@ -4,6 +4,8 @@
 #define TAHR_VEC_H
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 #include <tahr/types.h>
 
 #ifdef __FAST_MATH__
@@ -104,6 +106,19 @@ static inline int vec_is_finite(vec3 a)
 static inline int vec_equal(vec3 a, vec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static inline uint64_t bits_of(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* 0 if they are equal to the bit, so that 0.0 is not -0.0: many such tests make one branch. */
+static inline uint64_t other_bits(const vec3 *a, const vec3 *b)
+{
+    return (bits_of(a->x) ^ bits_of(b->x)) | (bits_of(a->y) ^ bits_of(b->y)) | (bits_of(a->z) ^ bits_of(b->z));
 }
 
 static inline vec3 rotate(tahr_quat q, vec3 v)

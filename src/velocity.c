@@ -13,12 +13,6 @@
 /* Below this f t the quotient expm1(-f t) / f is replaced by its series, which keeps 1 ulp down to f = 0. */
 static const double SMALL = 1e-4;
 
-/* Relative excess over the asked speed that is rounding, not over-speed. */
-static const double ROUNDING = 1e-12;
-
-/* A part across the wish, squared and relative to V, of less than half a unit in the last place is rounding too. */
-static const double ROUNDING_ACROSS = 1e-30;
-
 /* Up to here, likewise, V - c and what it takes off the way are below half a unit in the last place: q^2 / (2 V^2). */
 static const double FLAT_CAP = 2.5e-17;
 
@@ -33,6 +27,18 @@ static double decay_integral(double f, double t)
         return t * (1 - x * (0.5 - x * (1.0 / 6 - x * (1.0 / 24))));
     }
     return -tahr__expm1(-x) / f;
+}
+
+tahr__decay tahr__decay_of(double exponent)
+{
+    const tahr__decay decay = {exponent, tahr__expm1(-exponent)};
+    return decay;
+}
+
+/* expm1(-x) */
+static inline double decayed(const tahr__law *law, double x)
+{
+    return x == law->decay.exponent ? law->decay.rate : tahr__expm1(-x);
 }
 
 /* Time to brake from v to v1 < v. */
@@ -146,50 +152,17 @@ static double bent(const tahr__law *law, double p, double q2, double e, double t
     return along;
 }
 
-/* Along the wish while the part across it is too small to bend the cap: the free line, and from where it meets the
- * speed asked for that speed. Returns the way, [out] the speed at the end. */
-static double straight(const tahr__law *law, double p, double t, double *p1)
+tahr__motion tahr__law_turn(const tahr__law *law, vec3 across, double p, double t)
 {
-    double v = law->speed, a = law->acceleration;
-    double free = t;
-    if (p >= v && a > 0) {
-        *p1 = v;
-        return v * t;
-    }
-    if (p + a * t > v) {
-        free = min_of(t, (v - p) / a);
-    }
-    double along = p * free + 0.5 * a * free * free;
-    *p1 = free < t ? v : p + a * free;
-    return free < t ? along + v * (t - free) : along;
-}
-
-/* From a velocity that is not above the speed asked for. */
-static inline tahr__motion toward_wish(const tahr__law *law, vec3 v, double t)
-{
-    double most = law->speed, f = law->turn_friction, along, p1;
-    double p = dot(v, law->wish);
-    vec3 across = add_scaled(v, law->wish, -p);
-    double q2 = length_squared(across);
-    tahr__motion m;
-    m.stop_time = -1;
-    if (q2 <= ROUNDING_ACROSS * most * most) {
-        m.displacement = scale(law->wish, straight(law, min_of(p, most), t, &p1));
-        m.velocity = scale(law->wish, p1);
-        return m;
-    }
-    double e = tahr__expm1(-f * t);
-    double sideways = f * t < SMALL ? decay_integral(f, t) : -e / f;
-    along = q2 <= FLAT_CAP * most * most ? straight(law, min_of(p, most), t, &p1) : bent(law, p, q2, e, t, &p1);
-    m.displacement = add_scaled(scale(law->wish, along), across, sideways);
-    m.velocity = add_scaled(scale(law->wish, p1), across, 1 + e);
+    const double most = law->speed, f = law->turn_friction, q2 = length_squared(across);
+    const double e = decayed(law, f * t), sideways = f * t < SMALL ? decay_integral(f, t) : -e / f;
+    double p1;
+    const double along =
+        q2 <= FLAT_CAP * most * most ? law_straight(law, min_of(p, most), t, &p1) : bent(law, p, q2, e, t, &p1);
+    const tahr__motion m = {.displacement = add_scaled(scale(law->wish, along), across, sideways),
+                            .velocity = add_scaled(scale(law->wish, p1), across, 1 + e),
+                            .stop_time = -1};
     return m;
-}
-
-static int brakes(const tahr__law *law, vec3 v)
-{
-    double most = law->speed * (1 + ROUNDING);
-    return length_squared(v) > most * most;
 }
 
 /* Brakes to rest or to the speed asked for, and goes on from there. */
@@ -198,24 +171,26 @@ static tahr__motion brake_first(const tahr__law *law, vec3 v, double t, int wish
     tahr__motion m = {{0, 0, 0}, v, -1};
     double rest = t - brake_phase(law, v, t, &m);
     if (wishes && rest > 0) {
-        tahr__motion then = toward_wish(law, m.velocity, rest);
+        tahr__motion then = law_toward_wish(law, m.velocity, rest);
         m.displacement = add(m.displacement, then.displacement);
         m.velocity = then.velocity;
     }
     return m;
 }
 
-tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t)
+tahr__motion tahr__law_brake(const tahr__law *law, vec3 v, double t)
 {
-    int wishes = law->speed > 0 && length_squared(law->wish) > 0;
-    if (wishes && !brakes(law, v)) {
-        return toward_wish(law, v, t);
-    }
+    const int wishes = law_wishes(law);
     if (wishes || length_squared(v) > 0) {
         return brake_first(law, v, t, wishes);
     }
     tahr__motion rest = {{0, 0, 0}, v, -1};
     return rest;
+}
+
+tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t)
+{
+    return law_advance(law, v, t);
 }
 
 /* Across the wish it decays; along it the cap takes no more than the acceleration is, or it would not stay on it. */
@@ -231,7 +206,7 @@ double tahr__law_bending(const tahr__law *law, vec3 v)
 double tahr__law_sagitta(const tahr__law *law, vec3 v, double t)
 {
     double bent = tahr__law_bending(law, v) * t * t / 8, p = dot(v, law->wish);
-    if (bent == 0 || brakes(law, v) || !(law->turn_friction > 0)) {
+    if (bent == 0 || law_brakes(law, v) || !(law->turn_friction > 0)) {
         return bent;
     }
     double across = length(reject(v, law->wish)), aside = across * min_of(t, 1 / law->turn_friction);
@@ -258,10 +233,10 @@ double tahr__law_time(const tahr__law *law, vec3 v, double duration, vec3 whole,
     double low = 0, high = duration, size2 = length_squared(whole);
     vec3 measure = scale(whole, 1.0 / size2);
     double rate = dot(v, measure);
-    if (law->speed > 0 && rate > 0 && !brakes(law, v)) {
+    if (law->speed > 0 && rate > 0 && !law_brakes(law, v)) {
         double p = dot(v, law->wish), most = law->speed;
         double q2 = length_squared(add_scaled(v, law->wish, -p));
-        if (p > 0 && q2 <= ROUNDING_ACROSS * most * most) {
+        if (p > 0 && q2 <= TAHR__STRAIGHT * most * most) {
             return min_of(straight_time(law, min_of(p, most), part * dot(whole, law->wish)), duration);
         }
     }

@@ -5,6 +5,13 @@
 
 #include "vec.h"
 
+/* What is left of the part across a wish after a time, less 1: worked out once for many steps of one length. All zero:
+ * nothing is known, and that too is true. */
+typedef struct tahr__decay {
+    double exponent; /* turn_friction times the time */
+    double rate;     /* expm1(-exponent) */
+} tahr__decay;
+
 /* How a velocity across up answers to a wish. */
 typedef struct tahr__law {
     vec3 wish;            /* unit direction across up, or zero: no input */
@@ -13,6 +20,7 @@ typedef struct tahr__law {
     double turn_friction; /* 1/s decay of the part across the wish */
     double braking;       /* m/s2 without input or above speed */
     double drag;          /* 1/s added to it */
+    tahr__decay decay;    /* of a whole step, or zero: a result that is known, no setting */
 } tahr__law;
 
 typedef struct tahr__motion {
@@ -21,8 +29,80 @@ typedef struct tahr__motion {
     double stop_time; /* s at which the velocity became zero; < 0: it did not during this time */
 } tahr__motion;
 
+tahr__decay tahr__decay_of(double exponent);
+
+/* Works out the decay of a step of t seconds, unless it is known. */
+static inline void decay_learn(tahr__decay *decay, double friction, double t)
+{
+    const double exponent = friction * t;
+    if (exponent != decay->exponent) {
+        *decay = tahr__decay_of(exponent);
+    }
+}
+
 /* Advances the velocity v (across up) by t >= 0 seconds. Composes: two halves give the whole, to rounding. */
 tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t);
+
+/* Relative excess over the asked speed that is rounding, not over-speed. */
+#define TAHR__OVER_SPEED 1e-12
+
+/* A part across the wish, squared and relative to the speed asked for, of less than half a unit in the last place is
+ * rounding too. */
+#define TAHR__STRAIGHT 1e-30
+
+/* The rarer parts of it: of a velocity not above the speed asked for, `across` and p along the wish; and of all that is
+ * above it, or without a wish. */
+tahr__motion tahr__law_turn(const tahr__law *law, vec3 across, double p, double t);
+tahr__motion tahr__law_brake(const tahr__law *law, vec3 v, double t);
+
+static inline int law_wishes(const tahr__law *law)
+{
+    return law->speed > 0 && length_squared(law->wish) > 0;
+}
+
+static inline int law_brakes(const tahr__law *law, vec3 v)
+{
+    const double most = law->speed * (1 + TAHR__OVER_SPEED);
+    return length_squared(v) > most * most;
+}
+
+/* Along the wish while the part across it is too small to bend the cap: the free line, and from where it meets the
+ * speed asked for that speed. Returns the way, [out] the speed at the end. */
+static inline double law_straight(const tahr__law *law, double p, double t, double *p1)
+{
+    double v = law->speed, a = law->acceleration;
+    double free = t;
+    if (p >= v && a > 0) {
+        *p1 = v;
+        return v * t;
+    }
+    if (p + a * t > v) {
+        free = min_of(t, (v - p) / a);
+    }
+    double along = p * free + 0.5 * a * free * free;
+    *p1 = free < t ? v : p + a * free;
+    return free < t ? along + v * (t - free) : along;
+}
+
+/* From a velocity that is not above the speed asked for. */
+static inline tahr__motion law_toward_wish(const tahr__law *law, vec3 v, double t)
+{
+    const double most = law->speed, p = dot(v, law->wish);
+    const vec3 across = add_scaled(v, law->wish, -p);
+    double p1;
+    if (!(length_squared(across) <= TAHR__STRAIGHT * most * most)) {
+        return tahr__law_turn(law, across, p, t);
+    }
+    const double along = law_straight(law, min_of(p, most), t, &p1);
+    const tahr__motion m = {scale(law->wish, along), scale(law->wish, p1), -1};
+    return m;
+}
+
+/* tahr__law_advance, for where every call counts. */
+static inline tahr__motion law_advance(const tahr__law *law, vec3 v, double t)
+{
+    return law_wishes(law) && !law_brakes(law, v) ? law_toward_wish(law, v, t) : tahr__law_brake(law, v, t);
+}
 
 /* s within duration at which a part (0..1) of the way is covered, measured along the whole of it; whole is the
  * displacement after duration and not zero. The speed changes on the way, so the part of the time is not the part of
