@@ -74,11 +74,6 @@ typedef struct tahr__pull {
     vec3 up;      /* unit, opposite; zero without gravity */
 } tahr__pull;
 
-/* What a fall of a config's own gravity is cut up by. */
-typedef struct tahr__arc {
-    double chord; /* s at most of a chord, off the arc by no more than config.arc_tolerance: |a| t^2 / 8 */
-} tahr__arc;
-
 /* What is swept downward to find the floor, and how far the centre of it lies from the character's along up. */
 typedef struct tahr__foot {
     tahr_shape shape;
@@ -105,7 +100,6 @@ typedef struct tahr__limits {
     double beside, below;       /* m beyond its motion that a step asks about */
     double axis;                /* m, half of the segment that rounding makes a capsule, or half the height of a box */
     tahr__pull pull;            /* of config.gravity, in the plane */
-    tahr__arc arc;              /* of pull */
     tahr__foot foot;            /* of the whole shape */
     vec3 plane;                 /* config.plane, exactly unit; zero: none */
     uint32_t in_plane;          /* 1: there is one */
@@ -162,6 +156,19 @@ typedef struct tahr__clear {
     uint64_t revision; /* of the world; 0: nothing is known */
 } tahr__clear;
 
+/* What a rise or fall the short way (plummet.c) asks of config and limits, and what it remembers. */
+typedef struct tahr__dive {
+    double gravity;  /* m/s2 */
+    double chord;    /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
+    double longest;  /* s: longer steps go the long way */
+    double terminal; /* m/s */
+    uint32_t upright; /* 1: up is exactly +z */
+    uint32_t reserved;
+    tahr__clear clear;
+    vec3 move;     /* the last input.move, */
+    tahr__law law; /* and how it is approached */
+} tahr__dive;
+
 /* What a state remembers, from base on, that has nothing to remember. */
 extern const tahr_state tahr__blank;
 
@@ -181,7 +188,7 @@ struct tahr_mover {
     tahr__sleep sleep;
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
-    tahr__clear clear;
+    tahr__dive dive;
     tahr_config config;
     tahr__limits limits;
 };

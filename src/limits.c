@@ -43,7 +43,6 @@ tahr__limits tahr__limits_of(const tahr_config *c, const tahr_shape *s, uint32_t
     limits.plane = unit(c->plane);
     limits.in_plane = length_squared(c->plane) > 0;
     limits.pull = tahr__pull_of(along_plane(&limits, c->gravity));
-    limits.arc.chord = limits.pull.size > 0 ? sqrt(8 * c->arc_tolerance / limits.pull.size) : c->max_dt;
     limits.foot = tahr__foot_of(s, capabilities);
     limits.feel = feel_of(c);
     limits.decay = (tahr__decay){0, 0};

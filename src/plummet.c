@@ -2,7 +2,6 @@
  * plummet.c: a rise or a fall in free air. See short_way.h. */
 #include "falling.h"
 #include "short_way.h"
-#include "turning.h"
 
 /* m/s, squared: faster than this a fall is capped (mover.c). */
 static const double FASTEST2 = 1e10;
@@ -10,7 +9,7 @@ static const double FASTEST2 = 1e10;
 /* Of an arc that falling.c cuts into more chords than this the long way is no detour: 10 Hz are 5 at most. */
 enum { MOST_CHORDS = 6 };
 
-/* What a flight remembers: of buttons that do nothing in the air without the settings under "Feel". */
+/* What a flight may remember: buttons do nothing in the air without the settings under "Feel". */
 enum { REMEMBERED = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMPING | TAHR_STATE_FLOOR_MOVED };
 
 /* A flight so far. */
@@ -19,10 +18,24 @@ typedef struct flight {
     uint32_t chords, apexes;
 } flight;
 
+tahr__dive tahr__dive_of(const tahr_config *c, const tahr__limits *limits)
+{
+    const double gravity = limits->pull.size;
+    const vec3 up = limits->pull.up, none = vec(0, 0, 0);
+    tahr__dive dive = {.gravity = gravity,
+                       .terminal = c->terminal_speed,
+                       .upright = up.z == 1 && up.x == 0 && up.y == 0,
+                       .move = none,
+                       .law = tahr__arc_law(c, none)};
+    dive.chord = gravity > 0 ? sqrt(8 * c->arc_tolerance / gravity) : 0;
+    dive.longest = gravity > 1e-6 ? MOST_CHORDS * dive.chord : 0;
+    return dive;
+}
+
 /* Does all of a motion lie where nothing is, as far as a backend has told? */
 static inline int is_in_clear(const tahr_mover *mover, vec3 from, vec3 to)
 {
-    const tahr__clear *clear = &mover->clear;
+    const tahr__clear *clear = &mover->dive.clear;
     return clear->revision == mover->world->revision && length_squared(sub(from, clear->at)) <= clear->far2 &&
            length_squared(sub(to, clear->at)) <= clear->far2;
 }
@@ -38,15 +51,15 @@ static int is_known_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 up, tah
     walk.position = walk.foot_position = from;
     walk.motion = walk.foot_motion = motion;
     walk.up = up;
-    walk.margin = mover->config.skin;
-    walk.mask = mover->config.mask;
+    walk.margin = mover->pace.skin;
+    walk.mask = mover->pace.mask;
     walk.reserved = 0;
     none.distance = 0;
     if (mover->world->backend->walk(mover->world->self, context, &walk, &none, &known) != TAHR_OK || !known) {
         return 0;
     }
     if (none.distance > 0) {
-        mover->clear = (tahr__clear){from, none.distance * none.distance, mover->world->revision};
+        mover->dive.clear = (tahr__clear){from, none.distance * none.distance, mover->world->revision};
     }
     return 1;
 }
@@ -61,63 +74,56 @@ static inline int is_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 to, ve
 }
 
 /* tahr__fall_advance without a hold, and without its division where the terminal speed is far, or reached. */
-static inline double fall_for(double rise, double gravity, double terminal, double t, double *v)
+static inline double fall_for(const tahr__dive *dive, double rise, double t, double *v)
 {
-    const double gained = gravity * t;
-    if (rise == -terminal) {
+    const double gained = dive->gravity * t;
+    if (rise == -dive->terminal) {
         *v = rise;
         return rise * t;
     }
-    if (rise > -terminal && rise + terminal > gained * (1 + 1e-9)) {
+    if (rise > -dive->terminal && rise + dive->terminal > gained * (1 + 1e-9)) {
         *v = rise - gained;
-        return rise * t - 0.5 * gravity * t * t;
+        return rise * t - 0.5 * dive->gravity * t * t;
     }
-    return tahr__fall_advance(rise, gravity, terminal, 0, t, v);
-}
-
-static int is_zero(vec3 v)
-{
-    return v.x == 0 && v.y == 0 && v.z == 0;
+    return tahr__fall_advance(rise, dive->gravity, dive->terminal, 0, t, v);
 }
 
 /* Across up, as falling.c's arc_at. Without a wish, and with nothing to brake, there is nothing to work out. */
-static inline tahr__motion drift(const tahr_config *config, vec3 wish, vec3 level, double t)
+static inline tahr__motion drift(tahr__law *law, vec3 level, double t)
 {
-    if (is_zero(wish) && is_zero(level)) {
-        return (tahr__motion){wish, level, -1};
+    if (law->speed == 0 && level.x == 0 && level.y == 0 && level.z == 0) {
+        return (tahr__motion){level, level, -1};
     }
-    const tahr__law law = tahr__arc_law(config, wish);
-    return tahr__law_advance(&law, level, t);
+    decay_learn(&law->decay, law->turn_friction, t);
+    return law_advance(law, level, t);
 }
 
 /* Almost every step: one chord, no apex on it, and an up whose x and y are 0 and need not be multiplied with. */
-static inline int drop(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *s, flight *f,
-                       tahr_query_context *context)
+static inline int drop(tahr_mover *mover, double dt, const tahr_state *s, flight *f, tahr_query_context *context)
 {
-    const vec3 wish = vec(input->move.x, input->move.y, 0), level = vec(s->velocity.x, s->velocity.y, 0);
-    const tahr__motion m = drift(&mover->config, wish, level, dt);
-    double fall, gravity = mover->limits.pull.size;
-    const double way = fall_for(s->velocity.z, gravity, mover->config.terminal_speed, dt, &fall);
+    tahr__dive *dive = &mover->dive;
+    double fall;
+    const tahr__motion m = drift(&dive->law, vec(s->velocity.x, s->velocity.y, 0), dt);
+    const double way = fall_for(dive, s->velocity.z, dt, &fall);
     const vec3 motion = vec(m.displacement.x, m.displacement.y, way), to = add(s->position, motion);
     *f = (flight){to, vec(m.velocity.x, m.velocity.y, fall), 1, 0};
     return is_free(mover, s->position, motion, to, s->up, context);
 }
 
 /* One chord, as falling.c's fall_chord cuts it. Returns the s of it; 0: it is not known to be free. */
-static double fly(tahr_mover *mover, vec3 wish, flight *f, double left, vec3 up, tahr_query_context *context)
+static double fly(tahr_mover *mover, flight *f, double left, vec3 up, tahr_query_context *context)
 {
-    const tahr__limits *limits = &mover->limits;
-    const double gravity = limits->pull.size, rise = dot(f->velocity, up);
-    const double apex = rise > 1e-9 * gravity ? rise / gravity : 0;
-    double t = min_of(left, limits->arc.chord), fall;
+    tahr__dive *dive = &mover->dive;
+    const double rise = dot(f->velocity, up), apex = rise > 1e-9 * dive->gravity ? rise / dive->gravity : 0;
+    double t = min_of(left, dive->chord), fall;
     const int meets_apex = apex > 0 && apex <= t;
     if (meets_apex) {
         t = apex;
     } else if (left > t) {
         t = left / (double)(int)(left / t + 1);
     }
-    const double way = fall_for(rise, gravity, mover->config.terminal_speed, t, &fall);
-    const tahr__motion m = drift(&mover->config, wish, add_scaled(f->velocity, up, -rise), t);
+    const double way = fall_for(dive, rise, t, &fall);
+    const tahr__motion m = drift(&dive->law, add_scaled(f->velocity, up, -rise), t);
     const vec3 motion = add_scaled(m.displacement, up, way), to = add(f->position, motion);
     if (!is_free(mover, f->position, motion, to, up, context)) {
         return 0;
@@ -132,35 +138,37 @@ static double fly(tahr_mover *mover, vec3 wish, flight *f, double left, vec3 up,
     return t;
 }
 
-static int fly_all(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *s, flight *f,
-                   tahr_query_context *context)
+static int fly_all(tahr_mover *mover, double dt, const tahr_state *s, flight *f, tahr_query_context *context)
 {
-    const vec3 wish = reject(input->move, s->up);
     double used = 1;
     *f = (flight){s->position, s->velocity, 0, 0};
     for (double left = dt; left >= 1e-12 && used > 0; left -= used) { /* less is rounding */
-        used = fly(mover, wish, f, left, s->up, context);
+        used = fly(mover, f, left, s->up, context);
     }
     return used > 0;
 }
 
 int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report)
 {
-    const tahr__limits *limits = &mover->limits;
-    const vec3 up = state->up;
+    tahr__dive *dive = &mover->dive;
     tahr_query_context context = {.cache = mover->cache};
     flight f;
-    if (dt <= TAHR__SHORTEST || limits->pull.size <= 1e-6 || dt > MOST_CHORDS * limits->arc.chord ||
-        state->flags & ~(uint32_t)REMEMBERED || !is_against_gravity(&limits->pull, up)) {
+    if (!(dt > TAHR__SHORTEST && dt <= dive->longest) || state->flags & ~(uint32_t)REMEMBERED ||
+        other_bits(&state->up, &mover->pace.up)) {
         return 0;
     }
-    const int simple = dt <= limits->arc.chord && up.z == 1 && up.x == 0 && up.y == 0 &&
-                       (state->velocity.z <= 0 || state->velocity.z > dt * limits->pull.size * (1 + 1e-9));
-    const int done =
-        simple ? drop(mover, input, dt, state, &f, &context) : fly_all(mover, input, dt, state, &f, &context);
+    if (other_bits(&dive->move, &input->move)) {
+        const tahr__decay known = dive->law.decay;
+        dive->law = tahr__arc_law(&mover->config, reject(input->move, state->up));
+        dive->law.decay = known;
+        dive->move = input->move;
+    }
+    const double rise = state->velocity.z;
+    const int simple = dt <= dive->chord && dive->upright && (rise <= 0 || rise > dt * dive->gravity * (1 + 1e-9));
+    const int done = simple ? drop(mover, dt, state, &f, &context) : fly_all(mover, dt, state, &f, &context);
     const int rests = f.position.z == state->position.z && vec_equal(f.position, state->position);
-    if (!done || rests || length_squared(f.velocity) > FASTEST2 ||
-        (f.apexes > 0 && report && report->events) || goes_astray(mover, f.position)) {
+    if (!done || rests || length_squared(f.velocity) > FASTEST2 || (f.apexes > 0 && report && report->events) ||
+        goes_astray(mover, f.position)) {
         return 0;
     }
     const uint32_t ended = TAHR_STATE_JUMP_HELD | (f.apexes > 0 ? TAHR_STATE_JUMPING : 0u);
