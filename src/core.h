@@ -111,19 +111,19 @@ typedef struct tahr__limits {
 /* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.c) remembers:
  * a wish is mostly that of the last step. */
 typedef struct tahr__pace {
-    vec3 up;           /* pull.up without -0.0, +z without gravity: only who stands so walks the short way */
-    double max_dt;     /* s */
-    uint32_t special;  /* 1: held in a plane, or not round */
+    vec3 up;          /* pull.up without -0.0, +z without gravity: only who stands so walks the short way */
+    double max_dt;    /* s */
+    uint32_t special; /* 1: held in a plane, or not round */
     uint32_t mask;
-    double foot;       /* m, offset of the foot */
-    double range;      /* m, of its sweep */
-    double skin;       /* m */
-    double most;       /* m, clearance of the band in which a floor is left as it is */
-    double rim;        /* m, radius and skin */
-    double tolerance;  /* m, from the rim */
-    double level;      /* cosine of the steepest face that may be stood on without a look at what was */
-    vec3 move;         /* the last input.move, if law.wish is not zero, */
-    tahr__law law;     /* and how it is approached */
+    double foot;      /* m, offset of the foot */
+    double range;     /* m, of its sweep */
+    double skin;      /* m */
+    double most;      /* m, clearance of the band in which a floor is left as it is */
+    double rim;       /* m, radius and skin */
+    double tolerance; /* m, from the rim */
+    double level;     /* cosine of the steepest face that may be stood on without a look at what was */
+    vec3 move;        /* the last input.move, if law.wish is not zero, */
+    tahr__law law;    /* and how it is approached */
 } tahr__pace;
 
 /* Events of a step that can be repeated; a step with more is computed again. */
@@ -158,10 +158,10 @@ typedef struct tahr__clear {
 
 /* What a rise or fall the short way (plummet.c) asks of config and limits, and what it remembers. */
 typedef struct tahr__dive {
-    double gravity;  /* m/s2 */
-    double chord;    /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
-    double longest;  /* s: longer steps go the long way */
-    double terminal; /* m/s */
+    double gravity;   /* m/s2 */
+    double chord;     /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
+    double longest;   /* s: longer steps go the long way */
+    double terminal;  /* m/s */
     uint32_t upright; /* 1: up is exactly +z */
     uint32_t reserved;
     tahr__clear clear;

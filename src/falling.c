@@ -24,7 +24,10 @@
 typedef struct arc {
     tahr__law law; /* across the axis */
     vec3 axis;     /* against gravity */
-    vec3 level;    /* velocity across the axis */
+    vec3 level;    /* velocity across the axis: */
+    vec3 across;   /* of that what does not go along the wish, */
+    double along;  /* and what does, */
+    int turns;     /* if it is bent by it and nothing else */
     double rise;   /* velocity along it */
     double gravity, terminal, hold;
     int drifts; /* 1: a drive comes on top of the velocity */
@@ -84,6 +87,16 @@ static void limit_control(const fall *f, vec3 axis, tahr__law *law)
     }
 }
 
+/* An arc is asked at many times: what they have in common. */
+static void prepare_law(arc *a)
+{
+    const double most = a->law.speed;
+    a->turns = law_wishes(&a->law) && !law_brakes(&a->law, a->level);
+    a->along = dot(a->level, a->law.wish);
+    a->across = add_scaled(a->level, a->law.wish, -a->along);
+    a->turns = a->turns && !(length_squared(a->across) <= TAHR__STRAIGHT * most * most);
+}
+
 static arc arc_of(const tahr__step *step, const fall *f)
 {
     const tahr_config *c = step->config;
@@ -108,14 +121,16 @@ static arc arc_of(const tahr__step *step, const fall *f)
     if (is_driven(step)) {
         drive_arc(step, &a);
     }
+    prepare_law(&a);
     return a;
 }
 
 static vec3 arc_at(const arc *a, double t, vec3 *velocity)
 {
     double v;
-    double rise = tahr__fall_advance(a->rise, a->gravity, a->terminal, a->hold, t, &v);
-    tahr__motion m = tahr__law_advance(&a->law, a->level, t);
+    double rise = a->hold > 0 ? tahr__fall_advance(a->rise, a->gravity, a->terminal, a->hold, t, &v)
+                              : fall_for(a->rise, a->gravity, a->terminal, t, &v);
+    tahr__motion m = a->turns ? tahr__law_turn(&a->law, a->across, a->along, t) : law_advance(&a->law, a->level, t);
     *velocity = add_scaled(m.velocity, a->axis, v);
     vec3 way = add_scaled(m.displacement, a->axis, rise);
     return a->drifts ? add_scaled(way, a->drift, t) : way;
@@ -134,43 +149,74 @@ static double chord_time(const tahr__step *step, const arc *a)
     return a->gravity > 0 ? sqrt(8 * step->config->arc_tolerance / a->gravity) : step->config->max_dt;
 }
 
-/* When the arc meets the plane through `touch` (relative to the arc's start): safeguarded Newton between 0 and t. */
-static double meeting_time(const arc *a, vec3 normal, vec3 touch, double t)
+/* Where an arc is at a time. */
+typedef struct reading {
+    double t; /* s */
+    vec3 way, velocity;
+} reading;
+
+static reading read_arc(const arc *a, double t)
+{
+    reading r = {.t = t};
+    r.way = arc_at(a, t, &r.velocity);
+    return r;
+}
+
+enum { MEETING_ROUNDS = 24 };
+
+/* Where the arc meets the plane through `touch` (relative to the arc's start): safeguarded Newton between 0 and t. Its
+ * end is rounding, which may go back and forth between two times for good. */
+static reading meet_plane(const arc *a, vec3 normal, vec3 touch, double t)
 {
     double low = 0, high = t, s = 0.5 * t, goal = dot(normal, touch);
-    for (int i = 0; i < 24; i++) {
-        vec3 v;
-        double value = dot(normal, arc_at(a, s, &v)) - goal;
-        double slope = dot(normal, a->drifts ? add(v, a->drift) : v);
+    reading last[2] = {{.t = -1}, {.t = -1}};
+    int again = 0;
+    for (int i = 0; i < MEETING_ROUNDS; i++) {
+        reading *r = &last[i & 1];
+        again = r->t == s ? again + 1 : 0;
+        if (!again) {
+            *r = read_arc(a, s);
+        }
+        double value = dot(normal, r->way) - goal;
+        double slope = dot(normal, a->drifts ? add(r->velocity, a->drift) : r->velocity);
         *(value > 0 ? &low : &high) = s;
         double next = slope < 0 ? s - value / slope : 0.5 * (low + high);
         next = next >= low && next <= high ? next : 0.5 * (low + high);
         if (next == s) {
-            break;
+            return *r;
+        }
+        if (again > 1 && next == last[(i + 1) & 1].t) { /* so it would end */
+            return last[MEETING_ROUNDS & 1];
         }
         s = next;
     }
-    return s;
+    return read_arc(a, s);
 }
 
-/* Puts the character where its arc, not the chord, meets the plane of the hit. Returns the time of it. */
-static double meet_on_arc(tahr__step *step, const arc *a, vec3 chord, double duration, tahr_hit *hit)
+/* Puts the character where its arc, not the chord, meets the plane of the hit. Returns the time of it; [out] the
+ * velocity then. */
+static double meet_on_arc(tahr__step *step, const arc *a, vec3 chord, double duration, tahr_hit *hit, vec3 *velocity)
 {
-    vec3 v, start = step->state.position;
+    vec3 start = step->state.position;
     if (hit->fraction * length(chord) < 1e-9) { /* touched from the start */
         step->state.position = add_scaled(start, chord, hit->fraction);
+        arc_at(a, duration * hit->fraction, velocity);
         return duration * hit->fraction;
     }
-    double t = meeting_time(a, hit->normal, scale(chord, hit->fraction), duration);
-    vec3 to = arc_at(a, t, &v);
+    const reading met = meet_plane(a, hit->normal, scale(chord, hit->fraction), duration);
+    const double t = met.t;
+    const vec3 to = met.way;
     tahr_hit check;
+    *velocity = met.velocity;
     tahr__sweep(step, &step->limits->shape, start, to, step->config->skin, 0, &check);
     if (check.start_overlap || check.unknown) {
+        arc_at(a, 0, velocity);
         return 0;
     }
     if (check.blocking && (1 - check.fraction) * length(to) > 1e-9) { /* something else comes first */
         *hit = check;
         step->state.position = add_scaled(start, to, check.fraction);
+        arc_at(a, t * check.fraction, velocity);
         return t * check.fraction;
     }
     step->state.position = add(start, to);
@@ -339,16 +385,14 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     int met = is_met(hit);
     if (met && f->plane_count == 0 && !pushed) {
         step->state.position = start;
-        used = meet_on_arc(step, &a, chord, duration, hit);
-    } else if (hit->blocking) {
-        used = hit->start_overlap ? duration : duration * hit->fraction;
+        used = meet_on_arc(step, &a, chord, duration, hit, &v);
+    } else if (hit->blocking && !hit->start_overlap) {
+        used = duration * hit->fraction;
+        arc_at(&a, used, &v);
     }
     if (met && tahr__drops_on(step, hit)) {
         met = 0;
         hit->blocking = 0;
-    }
-    if (used != duration) {
-        arc_at(&a, used, &v);
     }
     step->state.velocity = slide_in_air(step, f, v);
     tahr__time_fall(step, began, used, f->plane_count > 0 || pushed);

@@ -73,21 +73,6 @@ static inline int is_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 to, ve
     return is_known_free(mover, from, motion, up, context);
 }
 
-/* tahr__fall_advance without a hold, and without its division where the terminal speed is far, or reached. */
-static inline double fall_for(const tahr__dive *dive, double rise, double t, double *v)
-{
-    const double gained = dive->gravity * t;
-    if (rise == -dive->terminal) {
-        *v = rise;
-        return rise * t;
-    }
-    if (rise > -dive->terminal && rise + dive->terminal > gained * (1 + 1e-9)) {
-        *v = rise - gained;
-        return rise * t - 0.5 * dive->gravity * t * t;
-    }
-    return tahr__fall_advance(rise, dive->gravity, dive->terminal, 0, t, v);
-}
-
 /* Across up, as falling.c's arc_at. Without a wish, and with nothing to brake, there is nothing to work out. */
 static inline tahr__motion drift(tahr__law *law, vec3 level, double t)
 {
@@ -104,7 +89,7 @@ static inline int drop(tahr_mover *mover, double dt, const tahr_state *s, flight
     tahr__dive *dive = &mover->dive;
     double fall;
     const tahr__motion m = drift(&dive->law, vec(s->velocity.x, s->velocity.y, 0), dt);
-    const double way = fall_for(dive, s->velocity.z, dt, &fall);
+    const double way = fall_for(s->velocity.z, dive->gravity, dive->terminal, dt, &fall);
     const vec3 motion = vec(m.displacement.x, m.displacement.y, way), to = add(s->position, motion);
     *f = (flight){to, vec(m.velocity.x, m.velocity.y, fall), 1, 0};
     return is_free(mover, s->position, motion, to, s->up, context);
@@ -122,7 +107,7 @@ static double fly(tahr_mover *mover, flight *f, double left, vec3 up, tahr_query
     } else if (left > t) {
         t = left / (double)(int)(left / t + 1);
     }
-    const double way = fall_for(dive, rise, t, &fall);
+    const double way = fall_for(rise, dive->gravity, dive->terminal, t, &fall);
     const tahr__motion m = drift(&dive->law, add_scaled(f->velocity, up, -rise), t);
     const vec3 motion = add_scaled(m.displacement, up, way), to = add(f->position, motion);
     if (!is_free(mover, f->position, motion, to, up, context)) {

@@ -42,8 +42,7 @@ static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input,
                                      tahr_report *report)
 {
     const int traced = report && (report->decisions || report->queries);
-    if (!mover->may_go_short_way || traced ||
-        (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) ||
+    if (!mover->may_go_short_way || traced || (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) ||
         !tahr__tries_short_way(mover, state->mode)) {
         return 0;
     }
