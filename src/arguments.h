@@ -28,7 +28,7 @@ static inline uint64_t state_words(const tahr_state *s, size_t from, size_t to)
 /* Does the state remember nothing, from radius on? Then all of that is in order. */
 static inline int state_is_blank(const tahr_mover *mover, const tahr_state *s)
 {
-    const tahr_shape *shape = &mover->config.shape;
+    const tahr_shape *shape = &mover->limits.shape;
     const tahr_base *b = &s->base;
     const size_t pose = offsetof(tahr_state, base.pose), velocity = offsetof(tahr_state, base.velocity);
     const size_t touched = offsetof(tahr_state, touched), counts = offsetof(tahr_state, touched_count);

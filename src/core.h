@@ -92,6 +92,8 @@ enum {
 /* Numbers derived from config and shape: of the config's own shape once, when the mover is created. */
 typedef struct tahr__limits {
     tahr_shape shape;           /* the character's now */
+    tahr__foot foot;            /* of the whole shape */
+    tahr__decay decay;          /* of walking, of the last length of step; or zero */
     double walkable;            /* cosine of the steepest walkable floor */
     double walkable_hysteresis; /* the same for a floor that was walkable */
     double width;               /* m, half width of the shape: what perch and edge rules measure against */
@@ -100,12 +102,10 @@ typedef struct tahr__limits {
     double beside, below;       /* m beyond its motion that a step asks about */
     double axis;                /* m, half of the segment that rounding makes a capsule, or half the height of a box */
     tahr__pull pull;            /* of config.gravity, in the plane */
-    tahr__foot foot;            /* of the whole shape */
     vec3 plane;                 /* config.plane, exactly unit; zero: none */
     uint32_t in_plane;          /* 1: there is one */
     uint32_t feel;              /* TAHR__FEEL_* */
     uint32_t usual;             /* 1: EXACT, JOINT slides and depenetration, MARGIN */
-    tahr__decay decay;          /* of walking, of the last length of step; or zero */
 } tahr__limits;
 
 /* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.c) remembers:
@@ -132,7 +132,7 @@ enum { TAHR__SLEEP_EVENTS = 8 };
 /* The last step, if it left the state as it was (sleep.h). In the order in which a sleeper compares it, from the begin of
  * a line of memory: a crowd asleep costs the lines that it reads. */
 typedef struct tahr__sleep {
-    uint32_t noted; /* 1 + the report's event_capacity; 0: nothing is */
+    _Alignas(64) uint32_t noted; /* 1 + the report's event_capacity; 0: nothing is */
     tahr_status status;
     double dt;
     uint64_t revision;
@@ -172,26 +172,38 @@ typedef struct tahr__dive {
 /* What a state remembers, from base on, that has nothing to remember. */
 extern const tahr_state tahr__blank;
 
+/* In the order in which a step reads it: the short way (short_way.h) costs the lines of memory up to the limits' foot. */
 struct tahr_mover {
     tahr_world *world;
     struct tahr__company *company; /* in a step of a crowd: who else is there (neighbours.h), else NULL */
     void *cache;
-    size_t cache_size;
-    tahr__custom custom;
     uint32_t busy;
     uint32_t is_recorded; /* 1: the step under way has been told of */
+    uint32_t dozes;       /* 0: sleep.noted is 0 */
     uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t may_go_short_way;
     uint32_t rest;   /* steps that go the long way before the short one is tried again, */
     uint32_t failed; /* and how often in a row it was of no use */
-    tahr__pace pace;
-    tahr__sleep sleep;
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
+    tahr__pace pace;
     tahr__dive dive;
-    tahr_config config;
     tahr__limits limits;
+    tahr_config config;
+    size_t cache_size;
+    tahr__custom custom;
+    tahr__sleep sleep;
 };
+
+/* A step begins that may change something: what the last one was is forgotten. Most movers have nothing to forget, and
+ * leave that memory alone. */
+static inline void mover_wake(tahr_mover *mover)
+{
+    if (mover->dozes) {
+        mover->dozes = 0;
+        mover->sleep.noted = 0;
+    }
+}
 
 /* Public as the opaque tahr_step of a custom mode. */
 typedef tahr_step tahr__step;

@@ -294,7 +294,7 @@ static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double 
     }
     if (dt > 0) {
         mover->busy = 1;
-        mover->sleep.noted = 0;
+        mover_wake(mover);
         plain = plain && mover->plain && !around; /* and nothing will be remembered */
         run(&step, dt, plain);
         mover->busy = 0;
@@ -355,6 +355,6 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     if (!input || !state) {
         return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
     }
-    return mover->sleep.noted ? tahr__step_noted(mover, input, dt, state, report)
+    return mover->dozes ? tahr__step_noted(mover, input, dt, state, report)
                               : tahr__step_awake(mover, input, dt, state, report);
 }

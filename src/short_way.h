@@ -51,7 +51,7 @@ static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input,
                                                         : 0;
     if (done) {
         mover->failed = mover->rest = 0;
-        mover->sleep.noted = 0;
+        mover_wake(mover);
     }
     return done;
 }

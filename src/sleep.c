@@ -81,6 +81,7 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
         r->event_capacity == UINT32_MAX) {
         return;
     }
+    mover->dozes = 1;
     s->noted = 1 + r->event_capacity;
     s->dt = dt;
     s->revision = world_revision(mover->world);
