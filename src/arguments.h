@@ -8,7 +8,6 @@
 #include "core.h"
 #include "shape.h"
 
-/* All bits of the 8-byte words of a state in [from, to): | of them, and & of them. */
 static inline uint64_t state_word(const tahr_state *s, size_t at)
 {
     uint64_t word;
@@ -16,6 +15,7 @@ static inline uint64_t state_word(const tahr_state *s, size_t at)
     return word;
 }
 
+/* All bits that are in any of its 8-byte words in [from, to). */
 static inline uint64_t state_words(const tahr_state *s, size_t from, size_t to)
 {
     uint64_t any = 0;

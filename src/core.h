@@ -115,15 +115,17 @@ typedef struct tahr__pace {
     double max_dt;    /* s */
     uint32_t special; /* 1: held in a plane, or not round */
     uint32_t mask;
-    double foot;      /* m, offset of the foot */
-    double range;     /* m, of its sweep */
-    double skin;      /* m */
-    double most;      /* m, clearance of the band in which a floor is left as it is */
-    double rim;       /* m, radius and skin */
-    double tolerance; /* m, from the rim */
-    double level;     /* cosine of the steepest face that may be stood on without a look at what was */
-    vec3 move;        /* the last input.move, if law.wish is not zero, */
-    tahr__law law;    /* and how it is approached */
+    double foot;       /* m, offset of the foot */
+    double range;      /* m, of its sweep */
+    double skin;       /* m */
+    double most;       /* m, clearance of the band in which a floor is left as it is */
+    double rim;        /* m, radius and skin */
+    double tolerance;  /* m, from the rim */
+    double level;      /* cosine of the steepest face that may be stood on without a look at what was */
+    uint32_t wishes;   /* law_wishes of it */
+    uint32_t reserved;
+    vec3 move;         /* the last input.move, */
+    tahr__law law;     /* and how it is approached */
 } tahr__pace;
 
 /* Events of a step that can be repeated; a step with more is computed again. */
@@ -133,7 +135,9 @@ enum { TAHR__SLEEP_EVENTS = 8 };
  * a line of memory: a crowd asleep costs the lines that it reads. */
 typedef struct tahr__sleep {
     _Alignas(64) uint32_t noted; /* 1 + the report's event_capacity; 0: nothing is */
-    tahr_status status;
+    int16_t status;
+    uint8_t wide;  /* tahr__is_wide */
+    uint8_t blank; /* 1: what the state remembers is that of tahr__blank, which is nearer than this one's own copy */
     double dt;
     uint64_t revision;
     tahr_input input;
@@ -179,7 +183,7 @@ struct tahr_mover {
     void *cache;
     uint32_t busy;
     uint32_t is_recorded; /* 1: the step under way has been told of */
-    uint32_t dozes;       /* 0: sleep.noted is 0 */
+    uint32_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide may look */
     uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t may_go_short_way;
     uint32_t rest;   /* steps that go the long way before the short one is tried again, */

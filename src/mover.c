@@ -61,6 +61,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
         memset(cache, 0, cache_size);
     }
     mover->world = world;
+    mover->sleep.wide = tahr__is_wide();
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
@@ -249,13 +250,21 @@ static void detect_stuck(tahr__step *step, const tahr_state *before)
     }
 }
 
+/* Compilers copy more than 256 bytes at once with a slow string instruction. */
+static inline void copy_state(tahr_state *to, const tahr_state *from)
+{
+    const size_t half = sizeof *to / 2;
+    memcpy(to, from, half);
+    memcpy((char *)to + half, (const char *)from + half, half);
+}
+
 /* The long way. plain: the state remembers nothing, and nothing was asked for but to go and to jump. */
 static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                              tahr_report *report, int plain)
 {
     const tahr__neighbours *around = mover->company ? mover->company->neighbours : NULL;
     if (state->mode == TAHR_MODE_WALKING) {
-        decay_learn(&mover->limits.decay, mover->config.turn_friction, dt);
+        decay_learn(&mover->limits.decay, mover->pace.law.turn_friction, dt);
     }
     tahr__step step;
     tahr__pull pull;
@@ -269,7 +278,7 @@ static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double 
         tahr__use_shape(&step, state->radius, state->half_height);
     }
     step.input = input;
-    memcpy(&step.state, state, USED);
+    copy_state(&step.state, state);
     tahr__report_begin(&step.report, report);
     step.context = (tahr_query_context){.cache = mover->cache};
     step.pull = &mover->limits.pull;
@@ -309,7 +318,8 @@ static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double 
             cap_speed(&step.state);
         }
         if (vec_equal(step.state.position, state->position)) {
-            const tahr_state before = *state;
+            tahr_state before;
+            copy_state(&before, state);
             hand_over(&step, !plain, state);
             tahr__sleep_note(mover, &step, dt, state, around || memcmp(&before, state, sizeof before) != 0);
         } else {
@@ -355,6 +365,9 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     if (!input || !state) {
         return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
     }
-    return mover->dozes ? tahr__step_noted(mover, input, dt, state, report)
-                              : tahr__step_awake(mover, input, dt, state, report);
+    if (mover->dozes == 0) {
+        return tahr__step_awake(mover, input, dt, state, report);
+    }
+    return mover->dozes == 2 ? tahr__step_wide(mover, input, dt, state, report)
+                             : tahr__step_noted(mover, input, dt, state, report);
 }

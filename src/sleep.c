@@ -13,7 +13,7 @@
 /* Can what was noted be told in this report, which may be NULL? A trace wants to see the step. */
 static int report_suits(const tahr__sleep *s, const tahr_report *report)
 {
-    if (!report) {
+    if (!report || !s->noted) {
         return s->noted == 1;
     }
     const uint32_t capacity = report->events ? report->event_capacity : 0;
@@ -48,13 +48,11 @@ int tahr__sleep_again(const tahr__sleep *s, tahr_report *report, tahr_status *st
 
 /* What equals the arguments of the noted step was checked with them; only a longer input or report may hold something
  * else. */
-tahr_status tahr__step_noted(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                             tahr_report *report)
+tahr_status tahr__step_same(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report)
 {
     const tahr__sleep *s = &mover->sleep;
-    const tahr_world *world = mover->world;
-    const int alone = !world->recording && !(mover->company && mover->company->neighbours);
-    if (!alone || !sleeps_on(s, world_revision(world), input, dt, state) || !report_suits(s, report)) {
+    if (!report_suits(s, report)) {
         return tahr__step_awake(mover, input, dt, state, report);
     }
     if (input->struct_size != sizeof *input || (report && report->struct_size != sizeof *report)) {
@@ -67,11 +65,22 @@ tahr_status tahr__step_noted(tahr_mover *mover, const tahr_input *input, double 
     return s->status;
 }
 
+tahr_status tahr__step_noted(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report)
+{
+    const tahr_world *world = mover->world;
+    const int alone = !world->recording && !(mover->company && mover->company->neighbours);
+    return alone && sleeps_on(&mover->sleep, world_revision(world), input, dt, state)
+               ? tahr__step_same(mover, input, dt, state, report)
+               : tahr__step_awake(mover, input, dt, state, report);
+}
+
 /* Input of a newer caller may have a tail, which is zero. */
 void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, const tahr_state *state, int changed)
 {
     tahr__sleep *s = &mover->sleep;
     const tahr_report *r = &step->report;
+    const size_t base_at = offsetof(tahr_state, base);
     /* Where a base that the core has no note of is, only the next step asks. */
     uint32_t base = step->state.base.body;
     changed |= base != TAHR_NO_BODY && base >= mover->world->body_count;
@@ -81,12 +90,13 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
         r->event_capacity == UINT32_MAX) {
         return;
     }
-    mover->dozes = 1;
+    mover->dozes = s->wide ? 2 : 1;
     s->noted = 1 + r->event_capacity;
     s->dt = dt;
     s->revision = world_revision(mover->world);
-    s->status = tahr__step_status(r->flags);
+    s->status = (int16_t)tahr__step_status(r->flags);
     s->state = *state;
+    s->blank = memcmp((const char *)state + base_at, (const char *)&tahr__blank + base_at, sizeof *state - base_at) == 0;
     s->input = *step->input;
     s->report = (tahr_report){.flags = r->flags | TAHR_REPORT_ASLEEP,
                               .event_capacity = r->event_capacity,

@@ -54,6 +54,7 @@ static inline const tahr__law *law_of(tahr_mover *mover, const tahr_input *input
         const double size = length(wish), asked = mover->limits.speed * min_of(size, 1);
         pace->law = tahr__law_of_wish(c, &pace->law.decay, wish, size, asked, 1);
         pace->move = input->move;
+        pace->wishes = (uint32_t)law_wishes(&pace->law);
     }
     decay_learn(&pace->law.decay, pace->law.turn_friction, dt);
     return &pace->law;
@@ -108,7 +109,8 @@ int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_sta
         return 0;
     }
     const vec3 up = state->up;
-    const tahr__motion m = law_advance(law_of(mover, input, dt, up), reject(state->velocity, up), dt);
+    const tahr__law *law = law_of(mover, input, dt, up);
+    const tahr__motion m = law_advance(law, pace->wishes != 0, reject(state->velocity, up), dt);
     if (m.stop_time >= 0) {
         return 0;
     }

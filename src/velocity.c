@@ -190,7 +190,7 @@ tahr__motion tahr__law_brake(const tahr__law *law, vec3 v, double t)
 
 tahr__motion tahr__law_advance(const tahr__law *law, vec3 v, double t)
 {
-    return law_advance(law, v, t);
+    return law_advance(law, law_wishes(law), v, t);
 }
 
 /* Across the wish it decays; along it the cap takes no more than the acceleration is, or it would not stay on it. */

@@ -98,10 +98,10 @@ static inline tahr__motion law_toward_wish(const tahr__law *law, vec3 v, double 
     return m;
 }
 
-/* tahr__law_advance, for where every call counts. */
-static inline tahr__motion law_advance(const tahr__law *law, vec3 v, double t)
+/* tahr__law_advance, for where every call counts. wishes: law_wishes. */
+static inline tahr__motion law_advance(const tahr__law *law, int wishes, vec3 v, double t)
 {
-    return law_wishes(law) && !law_brakes(law, v) ? law_toward_wish(law, v, t) : tahr__law_brake(law, v, t);
+    return wishes && !law_brakes(law, v) ? law_toward_wish(law, v, t) : tahr__law_brake(law, v, t);
 }
 
 /* s within duration at which a part (0..1) of the way is covered, measured along the whole of it; whole is the

@@ -1,0 +1,363 @@
+/* SPDX-License-Identifier: MIT
+ * test_quick_step.c: what makes most steps cheap (a walk the short way, a sleeper that is not computed, what is
+ * remembered of a wish) sees every bit that it is given: a mover with it and one without it do the same with whatever
+ * is changed between two steps, and refuse the same. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "oracle.h"
+#include "rig.h"
+#include "short_way.h"
+
+static const double DT = 1.0 / 60;
+
+/* The same character twice, on a box of 200 m, maybe within a sensor: with all shortcuts and with none. */
+typedef struct pair {
+    rig on, off;
+    tahr_body_desc bodies[2];
+} pair;
+
+static void open_pair(pair *p, int senses)
+{
+    tahr_config config = rig_config();
+    const tahr_vec3 at = {0, 0, config.shape.half_height + 0.02};
+    for (int i = 0; i < 2; i++) {
+        tahr_body_desc_init(&p->bodies[i], sizeof p->bodies[i], TAHR_BODY_BOX);
+        p->bodies[i].half_extents = (tahr_vec3){100, 100, 1};
+        p->bodies[i].pose.position.z = i - 1;
+    }
+    p->bodies[1].flags = TAHR_BODY_SENSOR;
+    rig_open_bodies(&p->on, p->bodies, senses ? 2 : 1, &config, at);
+    config.short_ways = config.sleep = 0;
+    rig_open_bodies(&p->off, p->bodies, senses ? 2 : 1, &config, at);
+}
+
+static void close_pair(pair *p)
+{
+    rig_close(&p->on);
+    rig_close(&p->off);
+}
+
+/* Steps of the first, until it is under way, or asleep. */
+static void settle(pair *p, tahr_vec3 move, tahr_state *state)
+{
+    *state = p->on.state;
+    p->on.input.move = move;
+    for (int i = 0; i < 120; i++) {
+        assert_int_equal(tahr_mover_step(p->on.mover, &p->on.input, DT, state, NULL), TAHR_OK);
+    }
+}
+
+/* Both take a step from there, the first right after one from `good`; and end alike. */
+static tahr_status assert_alike(pair *p, const tahr_state *good, const tahr_state *state, const tahr_input *input,
+                                int with_report)
+{
+    tahr_state a = *good, b = *state;
+    tahr_report ra = {.struct_size = sizeof ra}, rb = ra;
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(tahr_mover_step(p->on.mover, &p->on.input, DT, &a, NULL), TAHR_OK);
+        a = *good;
+    }
+    p->on.mover->rest = p->on.mover->failed = 0; /* it tries the short way */
+    a = *state;
+    p->on.log.text[0] = p->off.log.text[0] = 0;
+    tahr_status is = tahr_mover_step(p->on.mover, input, DT, &a, with_report ? &ra : NULL);
+    tahr_status was = tahr_mover_step(p->off.mover, input, DT, &b, with_report ? &rb : NULL);
+    assert_int_equal(is, was);
+    assert_memory_equal(&a, &b, sizeof a);
+    assert_string_equal(p->on.log.text, p->off.log.text);
+    if (with_report) {
+        assert_int_equal(ra.flags & ~(uint32_t)TAHR_REPORT_ASLEEP, rb.flags & ~(uint32_t)TAHR_REPORT_ASLEEP);
+        assert_true(ra.residual == rb.residual && ra.step_offset == rb.step_offset && ra.time_lost == rb.time_lost);
+    }
+    if (is < 0) {
+        assert_memory_equal(&a, state, sizeof a);
+    }
+    return is;
+}
+
+/* Each bit of a state turned round, one by one. */
+static void assert_every_bit_counts(pair *p, const tahr_state *good)
+{
+    int refused = 0;
+    for (size_t bit = 0; bit < 8 * sizeof *good; bit++) {
+        tahr_state changed = *good;
+        ((unsigned char *)&changed)[bit / 8] ^= (unsigned char)(1u << bit % 8);
+        refused += assert_alike(p, good, &changed, &p->on.input, bit % 2 == 0) < 0;
+    }
+    print_message("    %d of %d refused\n", refused, (int)(8 * sizeof *good));
+    assert_true(refused > 8 * 40); /* the reserved bytes at least */
+}
+
+static void every_bit_of_who_walks_is_seen(void **unused)
+{
+    pair p;
+    tahr_state good, end;
+    (void)unused;
+    open_pair(&p, 0);
+    settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
+    end = good;
+    assert_true(tahr__stroll(p.on.mover, &p.on.input, DT, &end, NULL)); /* that is what is tried */
+    assert_every_bit_counts(&p, &good);
+    close_pair(&p);
+}
+
+static void is_asleep(pair *p, const tahr_state *good)
+{
+    tahr_state end = *good;
+    tahr_report report = {.struct_size = sizeof report};
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(tahr_mover_step(p->on.mover, &p->on.input, DT, &end, &report), TAHR_OK);
+        assert_memory_equal(&end, good, sizeof end);
+    }
+    assert_true(report.flags & TAHR_REPORT_ASLEEP);
+}
+
+/* With 32-byte vectors, where the processor has them, and without; of who remembers nothing, and of who is in a
+ * sensor. */
+static void every_bit_of_who_sleeps_is_seen(void **unused)
+{
+    (void)unused;
+    for (int way = 0; way < 4; way++) {
+        pair p;
+        tahr_state good;
+        open_pair(&p, way & 1);
+        p.on.mover->sleep.wide = way & 2 ? 0 : p.on.mover->sleep.wide;
+        settle(&p, (tahr_vec3){0, 0, 0}, &good);
+        is_asleep(&p, &good);
+        assert_int_equal(p.on.mover->sleep.blank, !(way & 1));
+        assert_every_bit_counts(&p, &good);
+        close_pair(&p);
+    }
+}
+
+/* Of an input all that counts without a flag, and the flags. */
+static void every_bit_of_an_input_is_seen(void **unused)
+{
+    (void)unused;
+    for (int walks = 0; walks < 2; walks++) {
+        pair p;
+        tahr_state good;
+        int refused = 0;
+        open_pair(&p, 0);
+        settle(&p, (tahr_vec3){0.5 * walks, 0.25 * walks, 0}, &good);
+        for (size_t bit = 0; bit < 8 * sizeof p.on.input; bit++) {
+            const size_t byte = bit / 8;
+            tahr_input changed = p.on.input;
+            if (byte >= 4 && byte < offsetof(tahr_input, reserved)) {
+                changed.gravity = (tahr_vec3){0, 0, -9.81};
+                changed.facing = (tahr_vec3){0, 1, 0};
+                changed.radius = 0.35, changed.half_height = 0.9;
+            }
+            ((unsigned char *)&changed)[byte] ^= (unsigned char)(1u << bit % 8);
+            if (byte >= 4) { /* what lies behind a longer input is nobody's */
+                refused += assert_alike(&p, &good, &good, &changed, bit % 2 == 0) < 0;
+            }
+        }
+        assert_true(refused >= 32 + 20); /* input.reserved, and the flags that are none */
+        close_pair(&p);
+    }
+}
+
+typedef struct field {
+    const char *name;
+    size_t at;
+    double bad; /* out of range */
+} field;
+
+#define FIELD(name, member, bad)                         \
+    {                                                    \
+        "state." name, offsetof(tahr_state, member), bad \
+    }
+
+/* Numbers of a state as mover.h and arguments.c give their ranges; and each not finite. */
+static void what_is_wrong_in_who_walks_is_named(void **unused)
+{
+    static const field fields[] = {FIELD("position", position.x, 2.1e7),
+                                   FIELD("position", position.y, -2.1e7),
+                                   FIELD("position", position.z, 2.1e7),
+                                   FIELD("velocity", velocity.x, 1.1e5),
+                                   FIELD("velocity", velocity.y, 1.1e5),
+                                   FIELD("velocity", velocity.z, -1.1e5),
+                                   FIELD("orientation", orientation.x, 0.01),
+                                   FIELD("orientation", orientation.y, 0.01),
+                                   FIELD("orientation", orientation.z, 1),
+                                   FIELD("orientation", orientation.w, 1.001),
+                                   FIELD("up", up.x, 0.001),
+                                   FIELD("up", up.y, 0.001),
+                                   FIELD("up", up.z, 0.999),
+                                   FIELD("floor.normal", floor.normal.x, 0.1),
+                                   FIELD("floor.normal", floor.normal.y, 0.1),
+                                   FIELD("floor.normal", floor.normal.z, 0.9),
+                                   FIELD("floor.surface_normal", floor.surface_normal.x, 0.1),
+                                   FIELD("floor.surface_normal", floor.surface_normal.y, 0.1),
+                                   FIELD("floor.surface_normal", floor.surface_normal.z, 1.1),
+                                   FIELD("floor.point", floor.point.x, 1.1e8),
+                                   FIELD("floor.point", floor.point.y, 1.1e8),
+                                   FIELD("floor.point", floor.point.z, 1.1e8),
+                                   FIELD("floor.distance", floor.distance, 1.1e8),
+                                   FIELD("floor.perch_distance", floor.perch_distance, -1.1e8),
+                                   FIELD("floor_position", floor_position.x, 1.1e8),
+                                   FIELD("floor_position", floor_position.y, 1.1e8),
+                                   FIELD("floor_position", floor_position.z, 1.1e8),
+                                   FIELD("jump_hold", jump_hold, -1e-9)};
+    pair p;
+    tahr_state good;
+    (void)unused;
+    open_pair(&p, 0);
+    settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
+        const double bad[] = {NAN, INFINITY, -INFINITY, fields[i].bad};
+        for (int k = 0; k < 4; k++) {
+            tahr_state wrong = good;
+            memcpy((char *)&wrong + fields[i].at, &bad[k], sizeof bad[k]);
+            assert_int_equal(assert_alike(&p, &good, &wrong, &p.on.input, k % 2), TAHR_E_ARGUMENT);
+            if (!strstr(p.on.log.text, fields[i].name)) {
+                fail_msg("%s: \"%s\"", fields[i].name, p.on.log.text);
+            }
+        }
+    }
+    for (int k = 0; k < 12; k++) {
+        const double bad[] = {NAN, INFINITY, -INFINITY, 1.1e6};
+        tahr_input wrong = p.on.input;
+        memcpy((char *)&wrong.move + 8 * (k / 4), &bad[k % 4], sizeof bad[0]);
+        assert_int_equal(assert_alike(&p, &good, &good, &wrong, k % 2), TAHR_E_ARGUMENT);
+        assert_non_null(strstr(p.on.log.text, "input.move"));
+    }
+    close_pair(&p);
+}
+
+/* In a world without gravity nothing says which way is up; but it has to be a direction. */
+static void without_gravity_up_is_still_checked(void **unused)
+{
+    tahr_body_desc ground;
+    tahr_config config = rig_config();
+    rig r;
+    (void)unused;
+    config.gravity = (tahr_vec3){0, 0, 0};
+    tahr_body_desc_init(&ground, sizeof ground, TAHR_BODY_BOX);
+    ground.half_extents = (tahr_vec3){9, 9, 1};
+    rig_open_bodies(&r, &ground, 1, &config, (tahr_vec3){0, 0, 3});
+    r.state.up = (tahr_vec3){0, 0, 0};
+    assert_int_equal(tahr_mover_step(r.mover, &r.input, DT, &r.state, NULL), TAHR_E_ARGUMENT);
+    assert_non_null(strstr(r.log.text, "state.up"));
+    rig_close(&r);
+}
+
+/* One mover, two characters in turn, with wishes and lengths of steps that change: what it remembers of one is not
+ * taken for the other. */
+static void a_mover_remembers_no_wish_of_another(void **unused)
+{
+    pair p;
+    tahr_state on[2], off[2];
+    oracle_random dice = {11};
+    const double lengths[] = {1.0 / 60, 1.0 / 30, 1.0 / 144, 1e-3};
+    tahr_vec3 moves[2] = {{0.5, 0, 0}, {0, 0.5, 0}};
+    double dt = DT;
+    (void)unused;
+    open_pair(&p, 0);
+    settle(&p, (tahr_vec3){0, 0, 0}, &on[0]);
+    on[1] = off[0] = off[1] = on[0];
+    for (int n = 0; n < 4000; n++) {
+        const int who = n % 2;
+        if (oracle_below(&dice, 12) == 0) {
+            const double a = oracle_uniform(&dice, 0, 6.2831853), size = oracle_uniform(&dice, 0, 1.2);
+            moves[oracle_below(&dice, 2)] = (tahr_vec3){size * cos(a), size * sin(a), oracle_uniform(&dice, -1, 1)};
+            dt = oracle_below(&dice, 3) ? dt : lengths[oracle_below(&dice, 4)];
+        }
+        p.on.input.move = p.off.input.move = moves[who];
+        assert_int_equal(tahr_mover_step(p.on.mover, &p.on.input, dt, &on[who], NULL), TAHR_OK);
+        assert_int_equal(tahr_mover_step(p.off.mover, &p.off.input, dt, &off[who], NULL), TAHR_OK);
+        assert_memory_equal(&on[who], &off[who], sizeof on[who]);
+        if (fabs(on[who].position.x) > 60 || fabs(on[who].position.y) > 60) {
+            moves[who] = (tahr_vec3){-on[who].position.x / 60, -on[who].position.y / 60, 0};
+        }
+    }
+    close_pair(&p);
+}
+
+static void a_decay_that_is_known_changes_no_bit(void **unused)
+{
+    oracle_random dice = {5};
+    (void)unused;
+    for (int i = 0; i < 20000; i++) {
+        const double a = oracle_uniform(&dice, 0, 6.2831853), t = oracle_uniform(&dice, 1e-4, 0.2);
+        tahr__law law = {.wish = {cos(a), sin(a), 0},
+                         .speed = oracle_uniform(&dice, 0, 6),
+                         .acceleration = oracle_uniform(&dice, 0, 40),
+                         .turn_friction = oracle_below(&dice, 5) ? oracle_uniform(&dice, 0, 12) : 0,
+                         .braking = 20,
+                         .drag = 16};
+        const vec3 v = {oracle_uniform(&dice, -6, 6), oracle_uniform(&dice, -6, 6), 0};
+        const tahr__motion m = tahr__law_advance(&law, v, t);
+        decay_learn(&law.decay, law.turn_friction, t);
+        const tahr__motion known = tahr__law_advance(&law, v, t);
+        assert_memory_equal(&m, &known, sizeof m);
+    }
+}
+
+/* Two in a lean crowd of one task: one mover steps both. Only the second keeps its level speed up a slope. */
+static void a_lean_crowd_takes_no_short_way_for_who_may_not(void **unused)
+{
+    const double slope = 0.3; /* rad */
+    tahr_body_desc ground;
+    tahr_world_desc desc;
+    tahr_world *world = NULL;
+    tahr_config configs[2] = {rig_config(), rig_config()};
+    tahr_crowd *crowd = NULL;
+    tahr_crowd_desc crowd_desc;
+    tahr_crowd_tick tick;
+    tahr_member members[2] = {{.id = 0, .config = 0}, {.id = 1, .config = 1}};
+    tahr_input inputs[2];
+    tahr_state states[2], begin[2];
+    (void)unused;
+    tahr_body_desc_init(&ground, sizeof ground, TAHR_BODY_BOX);
+    ground.half_extents = (tahr_vec3){100, 100, 1};
+    ground.pose.orientation = (tahr_quat){0, -sin(slope / 2), 0, cos(slope / 2)};
+    ground.pose.position = (tahr_vec3){sin(slope), 0, -cos(slope)}; /* its top goes through the origin */
+    tahr_world_desc_init(&desc, sizeof desc);
+    desc.bodies = &ground;
+    desc.body_count = 1;
+    assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_OK);
+    configs[1].keep_level_speed = 1;
+    tahr_crowd_desc_init(&crowd_desc, sizeof crowd_desc);
+    crowd_desc.capacity = 2, crowd_desc.configs = configs, crowd_desc.config_count = 2;
+    crowd_desc.flags = TAHR_CROWD_LEAN, crowd_desc.tasks = 1;
+    assert_int_equal(tahr_crowd_create(world, &crowd_desc, &crowd), TAHR_OK);
+    for (int i = 0; i < 2; i++) {
+        const tahr_vec3 at = {0, 8.0 * i, 1};
+        assert_int_equal(tahr_state_init(&states[i], &configs[i], &at), TAHR_OK);
+        inputs[i] = (tahr_input){.struct_size = sizeof inputs[i], .move = {1, 0, 0}};
+    }
+    tahr_crowd_tick_init(&tick, sizeof tick);
+    tick.count = 2, tick.dt = DT, tick.members = members, tick.inputs = inputs, tick.states = states;
+    for (int n = 0; n < 180; n++) {
+        memcpy(begin, states, sizeof begin);
+        assert_true(tahr_crowd_step(crowd, &tick) >= 0);
+    }
+    /* The speed asked for, along the slope and level: max_speed. */
+    const double way[2] = {(states[0].position.x - begin[0].position.x) / DT,
+                           (states[1].position.x - begin[1].position.x) / DT};
+    assert_true(fabs(way[0] - configs[0].max_speed * cos(slope)) < 1e-6);
+    assert_true(fabs(way[1] - configs[1].max_speed) < 1e-6);
+    tahr_crowd_destroy(crowd);
+    tahr_world_close(world);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_bit_of_who_walks_is_seen),
+                                       cmocka_unit_test(every_bit_of_who_sleeps_is_seen),
+                                       cmocka_unit_test(every_bit_of_an_input_is_seen),
+                                       cmocka_unit_test(what_is_wrong_in_who_walks_is_named),
+                                       cmocka_unit_test(without_gravity_up_is_still_checked),
+                                       cmocka_unit_test(a_mover_remembers_no_wish_of_another),
+                                       cmocka_unit_test(a_decay_that_is_known_changes_no_bit),
+                                       cmocka_unit_test(a_lean_crowd_takes_no_short_way_for_who_may_not)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
