@@ -54,10 +54,11 @@ static void limit_control(const tahr__plane *planes, uint32_t plane_count, vec3 
 static void prepare_law(tahr__arc *a)
 {
     const double most = a->law.speed;
-    a->turns = law_wishes(&a->law) && !law_brakes(&a->law, a->level);
+    a->wishes = law_wishes(&a->law);
     a->along = dot(a->level, a->law.wish);
     a->across = add_scaled(a->level, a->law.wish, -a->along);
-    a->turns = a->turns && !(length_squared(a->across) <= TAHR__STRAIGHT * most * most);
+    a->turns =
+        a->wishes && !law_brakes(&a->law, a->level) && !(length_squared(a->across) <= TAHR__STRAIGHT * most * most);
 }
 
 tahr__arc tahr__arc_of(const tahr__step *step, const tahr__plane *planes, uint32_t count)
@@ -93,7 +94,8 @@ vec3 tahr__arc_at(const tahr__arc *a, double t, vec3 *velocity)
     double v;
     double rise = a->hold > 0 ? tahr__fall_advance(a->rise, a->gravity, a->terminal, a->hold, t, &v)
                               : fall_for(a->rise, a->gravity, a->terminal, t, &v);
-    tahr__motion m = a->turns ? tahr__law_turn(&a->law, a->across, a->along, t) : law_advance(&a->law, a->level, t);
+    tahr__motion m =
+        a->turns ? tahr__law_turn(&a->law, a->across, a->along, t) : law_advance(&a->law, a->wishes, a->level, t);
     *velocity = add_scaled(m.velocity, a->axis, v);
     vec3 way = add_scaled(m.displacement, a->axis, rise);
     return a->drifts ? add_scaled(way, a->drift, t) : way;

@@ -12,8 +12,9 @@ typedef struct tahr__arc {
     vec3 level;    /* velocity across the axis: */
     vec3 across;   /* of that what does not go along the wish, */
     double along;  /* and what does, */
-    int turns;     /* if it is bent by it and nothing else */
-    double rise;   /* velocity along it */
+    int wishes;    /* law_wishes of the law */
+    int turns;     /* 1: it is bent by its wish and nothing else */
+    double rise;   /* velocity along the axis */
     double gravity, terminal, hold;
     int drifts; /* 1: a drive comes on top of the velocity */
     vec3 drift; /* m/s, with drifts */

@@ -167,7 +167,7 @@ typedef struct tahr__dive {
     double longest;   /* s: longer steps go the long way */
     double terminal;  /* m/s */
     uint32_t upright; /* 1: up is exactly +z */
-    uint32_t reserved;
+    uint32_t wishes;  /* law_wishes of law */
     tahr__clear clear;
     vec3 move;     /* the last input.move, */
     tahr__law law; /* and how it is approached */

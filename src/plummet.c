@@ -74,13 +74,14 @@ static inline int is_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 to, ve
 }
 
 /* Across up, as falling.c's arc_at. Without a wish, and with nothing to brake, there is nothing to work out. */
-static inline tahr__motion drift(tahr__law *law, vec3 level, double t)
+static inline tahr__motion drift(tahr__dive *dive, vec3 level, double t)
 {
-    if (law->speed == 0 && level.x == 0 && level.y == 0 && level.z == 0) {
+    tahr__law *law = &dive->law;
+    if (!dive->wishes && level.x == 0 && level.y == 0 && level.z == 0) {
         return (tahr__motion){level, level, -1};
     }
     decay_learn(&law->decay, law->turn_friction, t);
-    return law_advance(law, level, t);
+    return law_advance(law, dive->wishes != 0, level, t);
 }
 
 /* Almost every step: one chord, no apex on it, and an up whose x and y are 0 and need not be multiplied with. */
@@ -88,7 +89,7 @@ static inline int drop(tahr_mover *mover, double dt, const tahr_state *s, flight
 {
     tahr__dive *dive = &mover->dive;
     double fall;
-    const tahr__motion m = drift(&dive->law, vec(s->velocity.x, s->velocity.y, 0), dt);
+    const tahr__motion m = drift(dive, vec(s->velocity.x, s->velocity.y, 0), dt);
     const double way = fall_for(s->velocity.z, dive->gravity, dive->terminal, dt, &fall);
     const vec3 motion = vec(m.displacement.x, m.displacement.y, way), to = add(s->position, motion);
     *f = (flight){to, vec(m.velocity.x, m.velocity.y, fall), 1, 0};
@@ -108,7 +109,7 @@ static double fly(tahr_mover *mover, flight *f, double left, vec3 up, tahr_query
         t = left / (double)(int)(left / t + 1);
     }
     const double way = fall_for(rise, dive->gravity, dive->terminal, t, &fall);
-    const tahr__motion m = drift(&dive->law, add_scaled(f->velocity, up, -rise), t);
+    const tahr__motion m = drift(dive, add_scaled(f->velocity, up, -rise), t);
     const vec3 motion = add_scaled(m.displacement, up, way), to = add(f->position, motion);
     if (!is_free(mover, f->position, motion, to, up, context)) {
         return 0;
@@ -146,6 +147,7 @@ int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_st
         const tahr__decay known = dive->law.decay;
         dive->law = tahr__arc_law(&mover->config, reject(input->move, state->up));
         dive->law.decay = known;
+        dive->wishes = (uint32_t)law_wishes(&dive->law);
         dive->move = input->move;
     }
     const double rise = state->velocity.z;
