@@ -33,6 +33,24 @@ static double truth(const tahr__arc *a, vec3 n, double goal)
     return (double)(2 * -goal / (-v + sqrtl(v * v + 4 * half * -goal)));
 }
 
+/* The same Newton without anything remembered of its rounds. */
+static double all_rounds(const tahr__arc *a, vec3 n, double goal, double duration)
+{
+    double low = 0, high = duration, t = 0.5 * duration;
+    for (int i = 0; i < 24; i++) {
+        vec3 v;
+        const double value = dot(n, tahr__arc_at(a, t, &v)) - goal, slope = dot(n, v);
+        *(value > 0 ? &low : &high) = t;
+        double next = slope < 0 ? t - value / slope : 0.5 * (low + high);
+        next = next >= low && next <= high ? next : 0.5 * (low + high);
+        if (next == t) {
+            break;
+        }
+        t = next;
+    }
+    return t;
+}
+
 static void check(const tahr__arc *a, vec3 n, double goal, double duration)
 {
     const double t = truth(a, n, goal);
@@ -42,6 +60,7 @@ static void check(const tahr__arc *a, vec3 n, double goal, double duration)
     const tahr__arc_point met = tahr__arc_meet(a, n, scale(n, goal), duration);
     vec3 v, way = tahr__arc_at(a, met.t, &v);
     assert_true(fabs(met.t - t) <= 1e-9 * t);
+    assert_true(met.t == all_rounds(a, n, dot(n, scale(n, goal)), duration));
     assert_true(fabs(dot(n, way) - goal) <= 4e-16 * (length(way) + fabs(goal)));
     assert_memory_equal(&met.way, &way, sizeof way);
     assert_memory_equal(&met.velocity, &v, sizeof v);
