@@ -151,6 +151,27 @@ typedef struct tahr__custom {
     void *user;
 } tahr__custom;
 
+/* Where the config's shape may go without meeting anything, while the world stays what it was: as told by the slot
+ * walk. */
+typedef struct tahr__clear {
+    vec3 at;
+    double far2;       /* m2: square of how far from there */
+    uint64_t revision; /* of the world; 0: nothing is known */
+} tahr__clear;
+
+/* What a rise or fall the short way (plummet.c) asks of config and limits, and what it remembers. */
+typedef struct tahr__dive {
+    double gravity;   /* m/s2 */
+    double chord;     /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
+    double longest;   /* s: longer steps go the long way */
+    double terminal;  /* m/s */
+    uint32_t upright; /* 1: up is exactly +z */
+    uint32_t wishes;  /* law_wishes of law */
+    tahr__clear clear;
+    vec3 move;     /* the last input.move, */
+    tahr__law law; /* and how it is approached */
+} tahr__dive;
+
 /* What a state remembers, from base on, that has nothing to remember; and how it is made, for who needs to know it when
  * it is compiled. */
 extern const tahr_state tahr__blank;
@@ -180,6 +201,7 @@ struct tahr_mover {
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
     tahr__pace pace;
+    tahr__dive dive;
     tahr__limits limits;
     tahr_config config;
     size_t cache_size;

@@ -51,6 +51,7 @@ static tahr_mover *mover_of(const tahr__tick *t, uint32_t i, const tahr__part *p
         m->limits = c->kinds[kind]->limits;
         m->plain = c->kinds[kind]->plain;
         m->pace = c->kinds[kind]->pace;
+        m->dive = c->kinds[kind]->dive;
         m->may_go_short_way = c->kinds[kind]->may_go_short_way;
         m->sleep.noted = 0;
         c->kind_of[at] = kind;

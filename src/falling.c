@@ -3,6 +3,7 @@
  * arc. */
 #include "falling.h"
 
+#include "arc.h"
 #include "base_motion.h"
 #include "corner.h"
 #include "drop.h"
@@ -20,17 +21,6 @@
 #include "swimming.h"
 #include "wall.h"
 
-/* A contact-free arc from the character's position. */
-typedef struct arc {
-    tahr__law law; /* across the axis */
-    vec3 axis;     /* against gravity */
-    vec3 level;    /* velocity across the axis */
-    double rise;   /* velocity along it */
-    double gravity, terminal, hold;
-    int drifts; /* 1: a drive comes on top of the velocity */
-    vec3 drift; /* m/s, with drifts */
-} arc;
-
 typedef struct fall {
     double left; /* s */
     tahr__plane planes[TAHR__MAX_PLANES];
@@ -41,136 +31,44 @@ typedef struct fall {
     tahr_hit edge;   /* the top of a wall that is pushed against */
 } fall;
 
-/* Air control is not limited by what rises less: a push along an upright wall lifts nobody
- * (VERTICAL_SLOPE_NORMAL_Z). */
-static const double UPRIGHT = 0.001;
-
-/* Less than this part of a push along a face is the rounding of one straight into it. */
-static const double ALONG = 1e-9;
-
-/* The drive is the velocity, and gravity acts where the drive leaves falling alone. */
-static void drive_arc(const tahr__step *step, arc *a)
-{
-    vec3 drive = drive_of(step);
-    double rise = dot(drive, a->axis);
-    a->level = add_scaled(drive, a->axis, -rise);
-    a->law = drive_law(a->level);
-    if (!(step->input->flags & TAHR_INPUT_DRIVE_LEVEL)) {
-        a->rise = rise;
-        a->gravity = a->hold = 0;
-        a->terminal = max_of(a->terminal, -rise);
-    }
-}
-
-/* LimitAirControl: of a push into a face that rises only what goes along it is left. The rest would carry the character
- * up, or hold it there against gravity. */
-static void limit_control(const fall *f, vec3 axis, tahr__law *law)
-{
-    tahr__plane walls[TAHR__MAX_PLANES];
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < f->plane_count; i++) {
-        double rise = dot(f->planes[i].normal, axis);
-        vec3 level = add_scaled(f->planes[i].normal, axis, -rise);
-        if (rise > UPRIGHT && length_squared(level) > 1e-12) {
-            walls[count] = f->planes[i];
-            walls[count++].normal = unit(level);
-        }
-    }
-    if (count > 0) {
-        vec3 along = tahr__bend(walls, count, law->wish);
-        double part = length(along);
-        law->wish = part > ALONG ? scale(along, 1.0 / part) : vec(0, 0, 0);
-        law->acceleration *= part;
-    }
-}
-
-static arc arc_of(const tahr__step *step, const fall *f)
-{
-    const tahr_config *c = step->config;
-    arc a = {.gravity = step->pull->size, .terminal = c->terminal_speed};
-    a.axis = a.gravity > 1e-6 ? step->pull->up : step->state.up;
-    if (vec_equal(a.axis, step->state.up) || dot(a.axis, step->state.up) > 1 - 1e-15) {
-        a.axis = step->state.up;
-    }
-    a.law = tahr__arc_law(c, reject(step->input->move, a.axis));
-    limit_control(f, a.axis, &a.law);
-    if (c->integrator == TAHR_INTEGRATOR_STEPPED) { /* the slice began with its velocity across up */
-        a.law = tahr__constant_law();
-    }
-    a.rise = dot(step->state.velocity, a.axis);
-    a.level = add_scaled(step->state.velocity, a.axis, -a.rise);
-    int holds = (step->state.flags & TAHR_STATE_JUMPING) && step->input->jump && !c->jump_hold_gravity;
-    a.hold = holds ? step->state.jump_hold : 0;
-    a.drifts = is_drifting(step);
-    if (a.drifts) {
-        a.drift = drive_of(step);
-    }
-    if (is_driven(step)) {
-        drive_arc(step, &a);
-    }
-    return a;
-}
-
-static vec3 arc_at(const arc *a, double t, vec3 *velocity)
-{
-    double v;
-    double rise = tahr__fall_advance(a->rise, a->gravity, a->terminal, a->hold, t, &v);
-    tahr__motion m = tahr__law_advance(&a->law, a->level, t);
-    *velocity = add_scaled(m.velocity, a->axis, v);
-    vec3 way = add_scaled(m.displacement, a->axis, rise);
-    return a->drifts ? add_scaled(way, a->drift, t) : way;
-}
-
 /* s until the arc is highest; 0 if it is past that. A rise of less than a nanosecond is the rounding of an apex that
  * was met already. */
-static double apex_time(const arc *a)
+static double apex_time(const tahr__arc *a)
 {
     return a->rise > 1e-9 * a->gravity && a->gravity > 0 ? a->hold + a->rise / a->gravity : 0;
 }
 
 /* A chord off the arc by at most arc_tolerance: |a| t^2 / 8. */
-static double chord_time(const tahr__step *step, const arc *a)
+static double chord_time(const tahr__step *step, const tahr__arc *a)
 {
     return a->gravity > 0 ? sqrt(8 * step->config->arc_tolerance / a->gravity) : step->config->max_dt;
 }
 
-/* When the arc meets the plane through `touch` (relative to the arc's start): safeguarded Newton between 0 and t. */
-static double meeting_time(const arc *a, vec3 normal, vec3 touch, double t)
+/* Puts the character where its arc, not the chord, meets the plane of the hit. Returns the time of it; [out] the
+ * velocity then. */
+static double meet_on_arc(tahr__step *step, const tahr__arc *a, vec3 chord, double duration, tahr_hit *hit,
+                          vec3 *velocity)
 {
-    double low = 0, high = t, s = 0.5 * t, goal = dot(normal, touch);
-    for (int i = 0; i < 24; i++) {
-        vec3 v;
-        double value = dot(normal, arc_at(a, s, &v)) - goal;
-        double slope = dot(normal, a->drifts ? add(v, a->drift) : v);
-        *(value > 0 ? &low : &high) = s;
-        double next = slope < 0 ? s - value / slope : 0.5 * (low + high);
-        next = next >= low && next <= high ? next : 0.5 * (low + high);
-        if (next == s) {
-            break;
-        }
-        s = next;
-    }
-    return s;
-}
-
-/* Puts the character where its arc, not the chord, meets the plane of the hit. Returns the time of it. */
-static double meet_on_arc(tahr__step *step, const arc *a, vec3 chord, double duration, tahr_hit *hit)
-{
-    vec3 v, start = step->state.position;
+    vec3 start = step->state.position;
     if (hit->fraction * length(chord) < 1e-9) { /* touched from the start */
         step->state.position = add_scaled(start, chord, hit->fraction);
+        tahr__arc_at(a, duration * hit->fraction, velocity);
         return duration * hit->fraction;
     }
-    double t = meeting_time(a, hit->normal, scale(chord, hit->fraction), duration);
-    vec3 to = arc_at(a, t, &v);
+    const tahr__arc_point met = tahr__arc_meet(a, hit->normal, scale(chord, hit->fraction), duration);
+    const double t = met.t;
+    const vec3 to = met.way;
     tahr_hit check;
+    *velocity = met.velocity;
     tahr__sweep(step, &step->limits->shape, start, to, step->config->skin, 0, &check);
     if (check.start_overlap || check.unknown) {
+        tahr__arc_at(a, 0, velocity);
         return 0;
     }
     if (check.blocking && (1 - check.fraction) * length(to) > 1e-9) { /* something else comes first */
         *hit = check;
         step->state.position = add_scaled(start, to, check.fraction);
+        tahr__arc_at(a, t * check.fraction, velocity);
         return t * check.fraction;
     }
     step->state.position = add(start, to);
@@ -242,7 +140,7 @@ static vec3 slide_in_air(const tahr__step *step, const fall *f, vec3 motion)
 
 /* s of the chord until the head is level with the edge that is fallen past; the whole chord if it does not come to
  * that. Bisection: the arc is bent along walls, and 50 halvings of a chord are below rounding. */
-static double time_to_edge(const tahr__step *step, const fall *f, const arc *a, double duration, vec3 *chord)
+static double time_to_edge(const tahr__step *step, const fall *f, const tahr__arc *a, double duration, vec3 *chord)
 {
     vec3 up = step->state.up, v;
     double depth = tahr__edge_depth(step, &f->edge), low = 0, high = duration;
@@ -251,16 +149,16 @@ static double time_to_edge(const tahr__step *step, const fall *f, const arc *a, 
     }
     for (int i = 0; i < 50; i++) {
         double middle = 0.5 * (low + high);
-        *chord = slide_in_air(step, f, arc_at(a, middle, &v));
+        *chord = slide_in_air(step, f, tahr__arc_at(a, middle, &v));
         *(-dot(*chord, up) < depth ? &low : &high) = middle;
     }
-    *chord = slide_in_air(step, f, arc_at(a, high, &v));
+    *chord = slide_in_air(step, f, tahr__arc_at(a, high, &v));
     return high;
 }
 
 /* The wall that was touched at the begin of a chord is left where its end is no longer at one: to a tenth of a
  * microsecond. */
-static void watch_wall(tahr__step *step, const fall *f, const arc *a, vec3 start, double used)
+static void watch_wall(tahr__step *step, const fall *f, const tahr__arc *a, vec3 start, double used)
 {
     double low = 0, high = used;
     if (tahr__is_at_wall(step, step->state.position)) {
@@ -268,7 +166,7 @@ static void watch_wall(tahr__step *step, const fall *f, const arc *a, vec3 start
     }
     while (step->config->wall_coyote_time > 0 && high - low > 1e-7) {
         double middle = 0.5 * (low + high);
-        vec3 v, at = add(start, slide_in_air(step, f, arc_at(a, middle, &v)));
+        vec3 v, at = add(start, slide_in_air(step, f, tahr__arc_at(a, middle, &v)));
         *(tahr__is_at_wall(step, at) ? &low : &high) = middle;
     }
     tahr__leave_wall(step, step->time + high);
@@ -284,17 +182,11 @@ static void use_time(tahr__step *step, fall *f, double t)
     }
 }
 
-static vec3 place_on_arc(const void *self, double t)
-{
-    vec3 v;
-    return arc_at(self, t, &v);
-}
-
 /* s of the chord until a fluid carries. */
-static double until_fluid(tahr__step *step, const arc *a, double duration)
+static double until_fluid(tahr__step *step, const tahr__arc *a, double duration)
 {
-    const tahr__way way = {a, place_on_arc};
-    vec3 v, to = arc_at(a, duration, &v);
+    const tahr__way way = {a, tahr__arc_place};
+    vec3 v, to = tahr__arc_at(a, duration, &v);
     if (a->rise > 0) { /* not before its apex, where a chord ends */
         return duration;
     }
@@ -309,7 +201,7 @@ enum { MOST_APEXES = 16 };
 /* One chord. Returns 1 if something was hit. */
 static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
 {
-    arc a = arc_of(step, f);
+    tahr__arc a = tahr__arc_of(step, f->planes, f->plane_count);
     if (step->limits->feel) {
         a.gravity *= tahr__gravity_factor(step, a.rise);
         a.terminal = fastest_fall(step);
@@ -328,10 +220,10 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
         reaches_apex = reaches_apex && dry == duration;
         duration = dry;
     }
-    vec3 chord = slide_in_air(step, f, arc_at(&a, duration, &v));
+    vec3 chord = slide_in_air(step, f, tahr__arc_at(&a, duration, &v));
     if (f->has_edge && a.rise <= 0) {
         duration = time_to_edge(step, f, &a, duration, &chord);
-        arc_at(&a, duration, &v);
+        tahr__arc_at(&a, duration, &v);
     }
     vec3 start = step->state.position, began = step->state.velocity;
     double used = duration;
@@ -339,16 +231,14 @@ static int fall_chord(tahr__step *step, fall *f, tahr_hit *hit)
     int met = is_met(hit);
     if (met && f->plane_count == 0 && !pushed) {
         step->state.position = start;
-        used = meet_on_arc(step, &a, chord, duration, hit);
-    } else if (hit->blocking) {
-        used = hit->start_overlap ? duration : duration * hit->fraction;
+        used = meet_on_arc(step, &a, chord, duration, hit, &v);
+    } else if (hit->blocking && !hit->start_overlap) {
+        used = duration * hit->fraction;
+        tahr__arc_at(&a, used, &v);
     }
     if (met && tahr__drops_on(step, hit)) {
         met = 0;
         hit->blocking = 0;
-    }
-    if (used != duration) {
-        arc_at(&a, used, &v);
     }
     step->state.velocity = slide_in_air(step, f, v);
     tahr__time_fall(step, began, used, f->plane_count > 0 || pushed);

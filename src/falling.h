@@ -20,4 +20,19 @@ static inline tahr__law tahr__arc_law(const tahr_config *c, vec3 wish)
     return law;
 }
 
+/* tahr__fall_advance without a hold, and without its division where the terminal speed is far, or reached. */
+static inline double fall_for(double v0, double g, double terminal, double t, double *v)
+{
+    const double gained = g * t;
+    if (v0 == -terminal) {
+        *v = v0;
+        return v0 * t;
+    }
+    if (v0 > -terminal && v0 + terminal > gained * (1 + 1e-9)) {
+        *v = v0 - gained;
+        return v0 * t - 0.5 * g * t * t;
+    }
+    return tahr__fall_advance(v0, g, terminal, 0, t, v);
+}
+
 #endif

@@ -66,6 +66,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
     mover->pace = tahr__pace_of(&mover->config, &mover->limits);
+    mover->dive = tahr__dive_of(&mover->config, &mover->limits);
     mover->may_go_short_way = (uint32_t)tahr__may_go_short_way(world, config, &mover->limits);
     mover->cache = cache;
     mover->cache_size = cache_size;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * selftest_walk.c: a case: what the slot walk says of a motion and of the floor under its end is what sweeps say. */
+ * selftest_walk.c: a case: what the slot walk says of a motion, of the floor under its end, and of the space around
+ * it is what sweeps say. */
 #include "selftest.h"
 
 #include <string.h>
 
-enum { STEPS = 240 };
+enum { STEPS = 240, FALLS = 120 };
 
 /* A floor with something to climb, to pass and to walk off. */
 static int build(tahr__lab *lab)
@@ -84,6 +85,40 @@ static void stride(tahr__lab *lab, int i)
     }
 }
 
+/* A motion without a foot, and how far there is said to be nothing, whichever way it goes. */
+static void fall(tahr__lab *lab, int i)
+{
+    const double heights[] = {1.2, 3, 8, 20}, over = heights[i % 4] + lab->shape.half_height / lab->scale;
+    tahr_sweep way = tahr__lab_sweep(lab, 12.0 * i / FALLS - 6, over, 0.1 * (i % 3) - 0.1, i % 5 ? -0.3 : -1.4);
+    const tahr_walk walk = {.shape = &way.shape,
+                            .position = way.position,
+                            .motion = way.motion,
+                            .up = way.up,
+                            .margin = way.margin,
+                            .mask = way.mask};
+    tahr_hit said;
+    uint32_t known = 0;
+    memset(&said, 0, sizeof said);
+    tahr_status status = lab->world->backend->walk(lab->world->self, &lab->context, &walk, &said, &known);
+    if (!tahr__lab_check(lab, status >= 0 && known <= 1, "walk: ok, and known 0 or 1", "%s, known %u",
+                         tahr_status_name(status), known) ||
+        !known) {
+        return;
+    }
+    tahr__lab_free(lab, &way, "a fall that is known to be free");
+    for (int k = 0; k < 4 && said.distance > 0; k++) {
+        const double far = 0.999 * said.distance / lab->scale;
+        tahr_sweep out = tahr__lab_sweep(lab, 12.0 * i / FALLS - 6, over,
+                                         k == 1   ? far
+                                         : k == 2 ? -far
+                                                  : 0,
+                                         k == 0   ? -far
+                                         : k == 3 ? far
+                                                  : 0);
+        tahr__lab_free(lab, &out, "as far as nothing is said to be");
+    }
+}
+
 static void walks(tahr__lab *lab)
 {
     for (uint32_t at = 0; tahr__lab_next(lab, &at, TAHR__LAB_ROUND);) {
@@ -99,6 +134,9 @@ static void walks(tahr__lab *lab)
         lab->context.cache = lab->cache;
         for (int i = 0; i < STEPS && lab_goes_on(lab); i++) {
             stride(lab, i);
+        }
+        for (int i = 0; i < FALLS && lab_goes_on(lab); i++) {
+            fall(lab, i);
         }
         lab->context.cache = NULL;
     }

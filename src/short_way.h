@@ -13,8 +13,9 @@
 /* May steps of this mover be such? Asked once. No query. */
 int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits);
 
-/* What a stroll asks of them. */
+/* What a stroll asks of them, and a plummet. */
 tahr__pace tahr__pace_of(const tahr_config *config, const tahr__limits *limits);
+tahr__dive tahr__dive_of(const tahr_config *config, const tahr__limits *limits);
 
 /* A step of a state that remembers nothing, with an input that asks for nothing but a direction, both checked. [out]
  * state, report (or NULL). Returns 1; 0: it is not such a step, or it is not known to be; nothing was written. What
@@ -51,7 +52,8 @@ static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input,
                                      tahr_report *report)
 {
     const int traced = report && (report->decisions || report->queries);
-    if (!mover->may_go_short_way || traced || (input->jump | state->flags) || !tahr__tries_short_way(mover)) {
+    if (!mover->may_go_short_way || traced || (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) ||
+        !tahr__tries_short_way(mover)) {
         return 0;
     }
     const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)

@@ -27,12 +27,12 @@ static void aim(tahr__query *query, tahr_query_context *context, const tahr_walk
     tahr__query_shape(query, foot ? walk->foot : walk->shape, (tahr_quat){0, 0, 0, 1});
 }
 
-/* Beyond all that there is, by more than the shape and its way. A metre is more than any rounding. */
-static int is_in_the_open(const tahr__native *world, const tahr_walk *walk)
+/* Beyond all that there is: how far the shape may go (m; < 0: it is not). A metre is more than any rounding. */
+static double room_in_the_open(const tahr__native *world, const tahr_walk *walk)
 {
-    return world->movable.count == 0 &&
-           tahr__outside_of_all(world, walk->position) >
-               1 + walk->shape->half_height + walk->shape->radius + walk->margin + v_length(walk->motion);
+    return world->movable.count > 0 ? -1
+                                    : tahr__outside_of_all(world, walk->position) -
+                                          (1 + walk->shape->half_height + walk->shape->radius + walk->margin);
 }
 
 /* May a foot that did not simply come down have met something all the same? */
@@ -63,10 +63,14 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
     tahr__cache *cache = context->cache;
     tahr__query body;
     *known = 0;
-    if (!walk->foot && is_in_the_open(world, walk)) {
-        *known = 1;
-        context->spared++;
-        return TAHR_OK;
+    if (!walk->foot) {
+        const double room = room_in_the_open(world, walk);
+        hit->distance = d_max(room, 0);
+        if (room > v_length(walk->motion)) {
+            *known = 1;
+            context->spared++;
+            return TAHR_OK;
+        }
     }
     if (world->movable.count > 0 || !cache || !cache->announced) return TAHR_OK;
     if (!tahr__frame_holds(&cache->frame, walk->position, walk->up)) return TAHR_OK;

@@ -121,7 +121,8 @@ typedef struct tahr_backend {
 
     /* Optional: a walk in one look. *known = 1: nothing blocks the motion, and *hit (of a foot) is the one that sweep
      * answers for it, bit for bit, by a plain face that nothing else is near. 0: it is not known, or not so; what *hit
-     * holds then means nothing. */
+     * holds then means nothing. Without a foot hit->distance, 0 before the call, may say how far (m) from its position
+     * such a shape meets nothing whichever way it goes, for as long as no body is placed anew. */
     tahr_status (*walk)(void *self, tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit, uint32_t *known);
 
     /* Optional: see tahr_world_describe. to is valid during the call, write never NULL. Nothing is allocated. */

@@ -472,6 +472,8 @@ static tahr_status walk(void *self, tahr_query_context *context, const tahr_walk
     mutant *m = self;
     tahr_status status = native()->walk(m->inner, context, walk, hit, known);
     if (m->which == WALKS_OFF_BY_ROUNDING && *known && walk->foot) hit->distance += 1e-15;
+    if (m->which == FALLS_THROUGH_FLOORS && !walk->foot) *known = 1;
+    if (m->which == SEES_NOTHING_TOO_FAR && !walk->foot && *known) hit->distance += 2;
     if (m->which == WALKS_THROUGH_WALLS && !*known && walk->foot) *known = floor_behind(m, context, walk, hit);
     return status;
 }

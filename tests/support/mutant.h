@@ -90,6 +90,8 @@
     X(SEVENTH_BODY_HAS_NO_CONTACTS, "random_contacts_among_blocks")  \
     X(WALKS_THROUGH_WALLS, "a_walk_in_one_look_is_its_sweeps")       \
     X(WALKS_OFF_BY_ROUNDING, "a_walk_in_one_look_is_its_sweeps")     \
+    X(FALLS_THROUGH_FLOORS, "a_walk_in_one_look_is_its_sweeps")      \
+    X(SEES_NOTHING_TOO_FAR, "a_walk_in_one_look_is_its_sweeps")      \
     X(MASK_IGNORED, "mask")                                          \
     X(IGNORE_BODY_IGNORED, "ignore_body")                            \
     X(ONLY_BODY_IGNORED, "only_body")                                \
