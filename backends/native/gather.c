@@ -111,6 +111,7 @@ static void take(tahr__search *search, uint32_t body, const uint32_t *items, uin
         give_up(g);
         return;
     }
+    g->search.room = world->capacity - n - count;
     tahr__form_heads(&world->bodies[body], body, items, count, &g->prims[n]);
     g->cache->plain &= !(g->prims[n].kind & TAHR__SENSOR);
     g->cache->count = n + count;
@@ -185,11 +186,49 @@ static double volume(const tahr_bounds *b)
     return side.x * side.y * side.z;
 }
 
+static void set_bounds(tahr__cache *cache, const tahr_bounds *announced, double margin)
+{
+    const tahr_vec3 m = {margin, margin, margin};
+    cache->bounds.min = v_sub(announced->min, m);
+    cache->bounds.max = v_add(announced->max, m);
+    cache->local = tahr__frame_box_to_local(&cache->frame, &cache->bounds);
+}
+
+/* Collects all that is within a margin. */
+static void collect(gather *g, const tahr_bounds *announced, double margin)
+{
+    tahr__cache *cache = g->cache;
+    const tahr__native *world = g->search.query->world;
+    set_bounds(cache, announced, margin);
+    cache->overflow = cache->count = 0;
+    cache->plain = 1;
+    g->search.box = cache->local;
+    g->search.narrowed = 0;
+    g->search.room = world->capacity;
+    tahr__tree_search(&g->search, &world->fixed);
+}
+
+/* Collects within the margin that is best. */
+static void collect_best(gather *g, const tahr_bounds *announced)
+{
+    tahr__cache *cache = g->cache;
+    const tahr__native *world = g->search.query->world;
+    double width = announced->max.x - announced->min.x, margin, next;
+    next = tahr__margin_best(world, width, cache->density);
+    do {
+        margin = next;
+        collect(g, announced, margin);
+        uint32_t count = cache->overflow ? TAHR__NONE : cache->count;
+        next = tahr__margin_next(world, width, margin, count, &cache->density);
+    } while (next < margin);
+    if (cache->overflow) set_bounds(cache, announced, 0.5 * world->cache_margin); /* no farther on it will not fit */
+}
+
 static void gather_now(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
 {
     tahr__cache *cache = context->cache;
     tahr__query query;
-    gather g;
+    gather g = {.blocks = blocks_of(cache), .prims = prims_of(world, cache), .cache = cache};
     tahr_status failed = TAHR_OK;
     memset(&query, 0, sizeof query);
     query.failed = &failed;
@@ -200,33 +239,16 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     query.ignore_body = TAHR_NO_BODY;
     query.sensors = TAHR__SENSORS_TOO;
     query.start = tahr__frame_box_to_local(&cache->frame, &(tahr_bounds){p->position, p->position}).min;
-    double margin;
-    int fits = tahr__margin_choose(&query, &p->bounds, &cache->counted, &margin);
-    tahr_vec3 m = v_make(margin, margin, margin);
-    cache->bounds.min = v_sub(p->bounds.min, m);
-    cache->bounds.max = v_add(p->bounds.max, m);
-    cache->local = tahr__frame_box_to_local(&cache->frame, &cache->bounds);
     cache->volume = volume(&p->bounds);
     cache->mask = p->mask;
     cache->gathered = 1;
-    cache->overflow = cache->count = 0;
-    cache->plain = 1;
     cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
     tahr__vicinity_forget(&cache->vicinity);
     g.search.query = &query;
-    g.search.box = cache->local;
-    g.search.reach = 0;
-    g.search.narrowed = 0;
     g.search.order = TAHR__IN_BULK;
     g.search.visit = store;
     g.search.take = take;
-    g.blocks = blocks_of(cache);
-    g.prims = prims_of(world, cache);
-    g.cache = cache;
-    if (fits)
-        tahr__tree_search(&g.search, &world->fixed);
-    else
-        cache->overflow = 1;
+    collect_best(&g, &p->bounds);
     if (world->gather) gather_loose(world, &g);
     cache->revision = world->revision;
     if (!cache->overflow) tahr__form_lanes(world, &cache->frame, g.prims, g.blocks, cache->count);

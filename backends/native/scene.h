@@ -187,7 +187,7 @@ typedef struct tahr__cache {
     uint32_t announced, gathered, overflow, mask, count;
     uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
     uint64_t revision;  /* of the user's triangles in it */
-    double counted;     /* see tahr__margin_choose */
+    double density;     /* of what was gathered last, see tahr__margin_best */
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
     tahr__vicinity vicinity;
 } tahr__cache;
@@ -224,8 +224,10 @@ typedef struct tahr__search {
     double reach;
     uint32_t narrowed;
     uint32_t order; /* TAHR__NEAREST_FIRST, ... */
+    uint32_t room;  /* IN_BULK: so many of a body can be taken, at most TAHR__CACHE_MOST */
+    uint32_t reserved;
     void (*visit)(struct tahr__search *search, const tahr__prim *prim);
-    /* IN_BULK: takes triangles of a mesh by their names; more than TAHR__CACHE_MOST: not all of them are there. */
+    /* IN_BULK: takes triangles of a mesh by their names; more than there is room for: not all of them are there. */
     void (*take)(struct tahr__search *search, uint32_t body, const uint32_t *items, uint32_t count);
 } tahr__search;
 
@@ -283,9 +285,12 @@ tahr__lanes tahr__cache_lanes(tahr__cache *cache);
 uint32_t tahr__corner_bucket(const tahr__corners *corners, tahr_vec3 corner);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
 
-/* margin.c: how far around what was announced to gather; 0: there is too much for the cache: not within [out] margin.
- * counted: [in, out] where to begin counting, which was best last time; 0: anywhere. */
-int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *counted, double *margin);
+/* margin.c: how far around what was announced to gather, by how many primitives there are for each m2 of the width
+ * around it; 0: it is not known. */
+double tahr__margin_best(const tahr__native *world, double width, double density);
+/* So many have been found within a margin: the density there, and the margin to gather anew with; the same: it will do,
+ * or what is too much is so within the least. */
+double tahr__margin_next(const tahr__native *world, double width, double margin, uint32_t count, double *density);
 
 /* vicinity.c: what a sweep need not ask. */
 /* Is it worth trying? */
@@ -341,8 +346,6 @@ uint32_t tahr__hull_face(const tahr__mesh *mesh, tahr_vec3 direction);
 
 /* tree.c: primitives of a group of bodies, straight from their trees. */
 void tahr__tree_search(tahr__search *search, const tahr__group *group);
-/* About how many primitives a box (world) concerns, at least as many as a search finds; beyond most it may stop. */
-uint32_t tahr__tree_count(const tahr__query *query, const tahr__group *group, const tahr_bounds *box, uint32_t most);
 /* And of one body alone. */
 void tahr__tree_search_body(tahr__search *search, uint32_t body);
 
