@@ -35,11 +35,10 @@ typedef struct tahr__body {
     tahr_bounds bounds; /* world */
 } tahr__body;
 
-/* Exact corners of some triangles, side by side; thin: 1 where the plane is not to be trusted. */
+/* Exact corners of some triangles. */
 enum { TAHR__FORMED = 4 };
 typedef struct tahr__raw {
-    double corner[3][3][TAHR__FORMED]; /* which, coordinate, triangle */
-    double thin[TAHR__FORMED];
+    const tahr_vec3 *corner[3][TAHR__FORMED];
 } tahr__raw;
 
 /* Forms the lanes of some triangles at a time (form.c). width 1: there is none. */

@@ -247,8 +247,8 @@ static int is_clear(const tahr__query *query, double until)
     double far = need(query, until);
     if (far > v->clear) return 0;
     for (uint32_t i = 0; i < v->count && v->far[i] < far; i++) {
-        const tahr__prim *prim = &tahr__cache_prims(query->world, query->cache)[v->near[i]];
-        if (prim->kind & TAHR__UNFORMED) return 0;
+        tahr__prim *prim = &tahr__cache_prims(query->world, query->cache)[v->near[i]];
+        if (prim->kind & TAHR__UNFORMED) tahr__form_rest(query->world, query->frame, prim);
         double t = plane_earliest(query, prim, until);
         if (t <= until && edges_earliest(query, prim, until, t) <= until) return 0;
     }
