@@ -405,6 +405,16 @@ static uint32_t meets(const tahr__wide_node *n, const tahr__wide_box *box)
     return ~apart & (0xFFu >> (8 - children_of(n)));
 }
 
+static uint32_t put_bits(uint32_t *to, uint32_t first, uint32_t bits)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < TAHR__WIDE; i++) {
+        to[count] = first + i;
+        count += bits >> i & 1;
+    }
+    return count;
+}
+
 #include "wide_collect.h"
 
 uint32_t tahr__wide_items_1(const tahr__wide *tree, const tahr__wide_box *box, uint32_t *items, uint32_t capacity)

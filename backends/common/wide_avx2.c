@@ -56,6 +56,24 @@ static inline uint32_t meets(const tahr__wide_node *n, const tahr__wide_box *box
     return met & met >> 8 & (0xFFu >> (7 - (n->base[0] >> 29)));
 }
 
+/* The numbers of up to four bits. */
+static inline uint32_t put_four(uint32_t *to, uint32_t first, uint32_t bits)
+{
+    /* The numbers of the bits of 0 to 15, a byte each, and how many they are, four bits each. */
+    static const uint32_t numbers[16] = {0,        0,      1,        0x100,   2,        0x200,   0x201,    0x20100,
+                                         3,        0x300,  0x301,    0x30100, 0x302,    0x30200, 0x30201,  0x3020100};
+    const uint64_t counts = 0x4332322132212110;
+    const __m128i each = _mm_cvtepu8_epi32(_mm_cvtsi32_si128((int32_t)numbers[bits]));
+    _mm_storeu_si128((__m128i *)(void *)to, _mm_add_epi32(each, _mm_set1_epi32((int32_t)first)));
+    return counts >> (4 * bits) & 15;
+}
+
+static inline uint32_t put_bits(uint32_t *to, uint32_t first, uint32_t bits)
+{
+    const uint32_t count = put_four(to, first, bits & 15);
+    return count + put_four(to + count, first + 4, bits >> 4);
+}
+
 #include "wide_collect.h"
 
 uint32_t tahr__wide_items_8(const tahr__wide *tree, const tahr__wide_box *box, uint32_t *items, uint32_t capacity)

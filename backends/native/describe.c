@@ -150,15 +150,15 @@ static uint32_t count_in(const tahr__query *query, const tahr_bounds *box)
 static void find_margin(const tahr__query *query, const tahr_bounds *box, dense *d)
 {
     const tahr__native *world = query->world;
-    double width = box->max.x - box->min.x, density = 0, next = tahr__margin_best(world, width, density);
+    double next = world->cache_margin;
     uint32_t count;
     do {
         d->margin = next;
         const tahr_vec3 m = {next, next, next};
         count = count_in(query, &(tahr_bounds){v_sub(box->min, m), v_add(box->max, m)});
-        next = tahr__margin_next(world, width, d->margin, count, &density);
-    } while (next < d->margin);
+    } while (tahr__margin_choose(world, box->max.x - box->min.x, count, &next));
     d->fits = count <= world->capacity;
+    if (d->fits) d->margin = next;
 }
 
 static dense find_densest(const tahr__native *world, uint32_t id)

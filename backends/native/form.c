@@ -13,11 +13,25 @@
 /* The corners of this many triangles later are fetched while one is formed: some 100 ns ahead. */
 enum { AHEAD = 8 };
 
+#if defined(__GNUC__)
+static void fetch_names(const tahr__body *body, uint32_t item)
+{
+    if (body->mesh.triangles) __builtin_prefetch(&body->mesh.triangles[item]);
+}
+#else
+static void fetch_names(const tahr__body *body, uint32_t item)
+{
+    (void)body;
+    (void)item;
+}
+#endif
+
 void tahr__form_heads(const tahr__body *body, uint32_t id, const uint32_t *items, uint32_t count, tahr__prim *prims)
 {
     tahr__prim head;
     tahr__prim_begin(body, id, &head);
     for (uint32_t i = 0; i < count; i++) {
+        fetch_names(body, items[i]);
         prims[i].item = items[i];
         prims[i].kind = head.kind | TAHR__UNFORMED;
         prims[i].body = id;

@@ -183,10 +183,11 @@ typedef struct tahr__cache {
     tahr_bounds bounds; /* world: what was announced, grown by the margin */
     tahr_bounds local;  /* everything static in it has been gathered */
     double volume;      /* m3, of what was announced */
+    tahr_vec3 place;    /* world: where the character was then */
     uint32_t announced, gathered, overflow, mask, count;
     uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
     uint64_t revision;  /* of the user's triangles in it */
-    double density;     /* of what was gathered last, see tahr__margin_best */
+    double margin;      /* to gather with the next time, 0: the most */
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
     tahr__vicinity vicinity;
 } tahr__cache;
@@ -284,12 +285,9 @@ tahr__lanes tahr__cache_lanes(tahr__cache *cache);
 uint32_t tahr__corner_bucket(const tahr__corners *corners, tahr_vec3 corner);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
 
-/* margin.c: how far around what was announced to gather, by how many primitives there are for each m2 of the width
- * around it; 0: it is not known. */
-double tahr__margin_best(const tahr__native *world, double width, double density);
-/* So many have been found within a margin: the density there, and the margin to gather anew with; the same: it will do,
- * or what is too much is so within the least. */
-double tahr__margin_next(const tahr__native *world, double width, double margin, uint32_t count, double *density);
+/* margin.c: count primitives were found within a margin of a box of that width. Returns 1, if it should be gathered
+ * anew. margin: [in, out] the best there is: for that, or for the next time. */
+int tahr__margin_choose(const tahr__native *world, double width, uint32_t count, double *margin);
 
 /* vicinity.c: what a sweep need not ask. */
 /* Is it worth trying? */
