@@ -70,40 +70,46 @@ typedef struct run {
     uint32_t end;
     /* Of a field: the row of the last cell, and the first cell of it. */
     uint32_t row, row_cell;
-    tahr_vec3 corners[TAHR__FORMED][3];
+    tahr_vec3 corners[TAHR__FORMED][4];
 } run;
 
-/* Triangles of a field come row by row: to divide each time would cost as much as all the rest. */
-static const tahr_vec3 *field_corners(run *r, uint32_t triangle, tahr_vec3 v[3])
+/* The corners of a cell. Cells come row by row: to divide each time would cost as much as all the rest. */
+static void put_cell(run *r, uint32_t cell, tahr_vec3 corners[4])
 {
     const tahr__heights *h = &r->body->heights;
-    uint32_t cell = triangle / 2, wide = h->columns - 1;
+    const uint32_t wide = h->columns - 1;
     if (cell - r->row_cell >= wide) { /* below zero: far above */
         r->row = cell / wide;
         r->row_cell = r->row * wide;
     }
-    tahr_vec3 corners[4];
     tahr__heights_cell(h, cell - r->row_cell, r->row, corners);
-    v[0] = corners[0];
-    v[1] = corners[1 + triangle % 2];
-    v[2] = corners[2 + triangle % 2];
-    return v;
 }
 
-/* count of them; the last stands for those that there are not. Returns which are thin, one bit each. */
-static uint32_t load_raw(run *r, uint32_t at, uint32_t count, tahr__raw *raw)
+/* count of them; the last stands for those that there are not. Two of one cell share its corners. */
+static void load_field(run *r, uint32_t at, uint32_t count, tahr__raw *raw)
+{
+    uint32_t last = TAHR__NONE;
+    const tahr_vec3 *c = NULL;
+    for (uint32_t i = 0; i < TAHR__FORMED; i++) {
+        const uint32_t item = r->prims[at + (i < count ? i : count - 1)].item, k = item & 1;
+        if (item / 2 != last) {
+            c = r->corners[i];
+            last = item / 2;
+            put_cell(r, last, r->corners[i]);
+        }
+        raw->corner[0][i] = &c[0];
+        raw->corner[1][i] = &c[1 + k];
+        raw->corner[2][i] = &c[2 + k];
+    }
+}
+
+/* The same of a mesh. Returns which are thin, one bit each. */
+static uint32_t load_mesh(const run *r, uint32_t at, uint32_t count, tahr__raw *raw)
 {
     const tahr__mesh *mesh = &r->body->mesh;
     uint32_t thin = 0;
     for (uint32_t i = 0; i < TAHR__FORMED; i++) {
-        uint32_t item = r->prims[at + (i < count ? i : count - 1)].item;
-        if (!mesh->triangles) {
-            const tahr_vec3 *v = field_corners(r, item, r->corners[i]);
-            for (int k = 0; k < 3; k++)
-                raw->corner[k][i] = &v[k];
-            continue;
-        }
-        const tahr__triangle *t = &mesh->triangles[item];
+        const tahr__triangle *t = &mesh->triangles[r->prims[at + (i < count ? i : count - 1)].item];
         for (int k = 0; k < 3; k++)
             raw->corner[k][i] = &mesh->vertices[t->vertex[k]];
         thin |= (t->source >> 31) << i;
@@ -148,7 +154,11 @@ static uint32_t form_group(const tahr__former *former, run *r, float *blocks, ui
     float apart[TAHR__LANE_ROWS * TAHR__LANES], *lanes = blocks + tahr__lane(at, 0);
     uint32_t left = former->width - at % former->width, count = left < r->end - at ? left : r->end - at;
     tahr__raw raw;
-    uint32_t thin = load_raw(r, at, count, &raw);
+    uint32_t thin = 0;
+    if (r->body->mesh.triangles)
+        thin = load_mesh(r, at, count, &raw);
+    else
+        load_field(r, at, count, &raw);
     if (left == former->width && (count == left || last)) {
         former->form(&r->map, &raw, lanes);
     } else {
