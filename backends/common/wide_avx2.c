@@ -51,7 +51,8 @@ static inline uint32_t meets(const tahr__wide_node *n, const tahr__wide_box *box
     /* What is left of a difference that does not go below zero: nothing, where they meet. */
     const __m128i above = _mm_subs_epu8(low_z_high_x, to_z_from_x), below = _mm_subs_epu8(to_z_from_x, low_z_high_x);
     const __m128i mixed = _mm_castpd_si128(_mm_move_sd(_mm_castsi128_pd(below), _mm_castsi128_pd(above)));
-    const __m128i apart = _mm_or_si128(_mm_or_si128(_mm_subs_epu8(low_xy, to_xy), _mm_subs_epu8(from_yz, high_yz)), mixed);
+    const __m128i apart =
+        _mm_or_si128(_mm_or_si128(_mm_subs_epu8(low_xy, to_xy), _mm_subs_epu8(from_yz, high_yz)), mixed);
     const uint32_t met = (uint32_t)_mm_movemask_epi8(_mm_cmpeq_epi8(apart, _mm_setzero_si128()));
     return met & met >> 8 & (0xFFu >> (7 - (n->base[0] >> 29)));
 }
@@ -60,8 +61,8 @@ static inline uint32_t meets(const tahr__wide_node *n, const tahr__wide_box *box
 static inline uint32_t put_four(uint32_t *to, uint32_t first, uint32_t bits)
 {
     /* The numbers of the bits of 0 to 15, a byte each, and how many they are, four bits each. */
-    static const uint32_t numbers[16] = {0,        0,      1,        0x100,   2,        0x200,   0x201,    0x20100,
-                                         3,        0x300,  0x301,    0x30100, 0x302,    0x30200, 0x30201,  0x3020100};
+    static const uint32_t numbers[16] = {0, 0,     1,     0x100,   2,     0x200,   0x201,   0x20100,
+                                         3, 0x300, 0x301, 0x30100, 0x302, 0x30200, 0x30201, 0x3020100};
     const uint64_t counts = 0x4332322132212110;
     const __m128i each = _mm_cvtepu8_epi32(_mm_cvtsi32_si128((int32_t)numbers[bits]));
     _mm_storeu_si128((__m128i *)(void *)to, _mm_add_epi32(each, _mm_set1_epi32((int32_t)first)));

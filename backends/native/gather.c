@@ -240,7 +240,8 @@ static void collect_best(gather *g)
         collect(g);
     } while (tahr__margin_choose(world, width, cache->overflow ? TAHR__NONE : cache->count, &cache->margin));
     /* A little farther on it will not fit either. */
-    if (cache->overflow) set_bounds(cache, announced, 0.5 * world->cache_margin, v_make(0, 0, 0));
+    if (cache->overflow && !world->fixed_margin)
+        set_bounds(cache, announced, 0.5 * world->cache_margin, v_make(0, 0, 0));
 }
 
 static void gather_now(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)

@@ -34,7 +34,8 @@ static void put_planes(float *to, const tahr__facet *f)
     to[(TAHR__LANE_OFFSET - TAHR__LANE_NORMAL) * TAHR__LANES] = (float)v_dot(normal, v[0]);
     to += (TAHR__LANE_EDGE - TAHR__LANE_NORMAL) * TAHR__LANES;
     for (int i = 0; i < 3; i++, to += 4 * TAHR__LANES) {
-        tahr_vec3 e = v_sub(v[i < 2 ? i + 1 : 0], v[i]), out = v_scale(v_cross(e, normal), tahr__lanes_scale(v_dot(e, e)));
+        tahr_vec3 e = v_sub(v[i < 2 ? i + 1 : 0], v[i]),
+                  out = v_scale(v_cross(e, normal), tahr__lanes_scale(v_dot(e, e)));
         put_vec(to, out);
         to[3 * TAHR__LANES] = (float)v_dot(out, v[i]);
     }
@@ -44,7 +45,8 @@ void tahr__lanes_put(float *blocks, uint32_t i, const tahr_bounds *box, const ta
 {
     put_vec(blocks + tahr__lane(i, TAHR__LANE_LOW), v_make(d_down(box->min.x), d_down(box->min.y), d_down(box->min.z)));
     put_vec(blocks + tahr__lane(i, TAHR__LANE_HIGH), v_make(d_up(box->max.x), d_up(box->max.y), d_up(box->max.z)));
-    if (facet && v_dot(facet->cross, facet->cross) > TAHR__LANE_AREA2 && in_range(facet->v[0]) && in_range(facet->v[1]) && in_range(facet->v[2])) {
+    if (facet && v_dot(facet->cross, facet->cross) > TAHR__LANE_AREA2 && in_range(facet->v[0]) &&
+        in_range(facet->v[1]) && in_range(facet->v[2])) {
         put_planes(blocks + tahr__lane(i, TAHR__LANE_NORMAL), facet);
         return;
     }
