@@ -245,6 +245,13 @@ void tahr__tree_search_body(tahr__search *s, uint32_t id)
         search_mesh(s, id, &map);
 }
 
+/* Is a body out of a box? Without branches; bounds of bodies are TAHR__SLACK wider than they are. */
+static int is_apart(const tahr_bounds *a, const tahr_bounds *b)
+{
+    int x = (a->min.x > b->max.x) | (b->min.x > a->max.x), y = (a->min.y > b->max.y) | (b->min.y > a->max.y);
+    return x | y | (a->min.z > b->max.z) | (b->min.z > a->max.z);
+}
+
 void tahr__tree_search(tahr__search *s, const tahr__group *group)
 {
     if (group->count == 0) return;
@@ -256,7 +263,11 @@ void tahr__tree_search(tahr__search *s, const tahr__group *group)
     uint32_t first, count;
     while (tahr__bvh_walk_next(&walk, &first, &count)) {
         for (uint32_t i = first; i < first + count; i++) {
-            if (group->order[i] != s->query->ignore_body) tahr__tree_search_body(s, group->order[i]);
+            uint32_t id = group->order[i];
+            if (id == s->query->ignore_body) continue;
+            /* Worth asking where all that is found is kept for many queries. */
+            if (s->order == TAHR__IN_BULK && is_apart(&s->query->world->bodies[id].bounds, &box)) continue;
+            tahr__tree_search_body(s, id);
         }
         box = tahr__frame_box_to_world(frame, &s->box, TAHR__SLACK);
         tahr__bvh_walk_narrow(&walk, &box);
