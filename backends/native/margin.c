@@ -13,6 +13,7 @@
 /* Steps that a gather lasts for every metre of the margin: a character that wanders at 5 m/s and 60 Hz takes twelve to
  * walk one straight on; measured over margins of 0.25 to 2 m. */
 #define STEPS_PER_METRE 10.7
+
 /* Fractions of the margin that is allowed, and one over each; below an eighth a gather does not last for two steps. */
 static const double FRACTIONS[] = {1, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
 static const double INVERSE[] = {1, 1 / 0.75, 2, 1 / 0.375, 4, 1 / 0.1875, 8};
