@@ -244,6 +244,40 @@ static void collect_best(gather *g)
         set_bounds(cache, announced, 0.5 * world->cache_margin, v_make(0, 0, 0));
 }
 
+/* Which primitives stopped the last motions, by their names: they have another index afterwards. */
+typedef struct stoppers {
+    uint32_t body[2], item[2];
+} stoppers;
+
+static stoppers stoppers_of(const tahr__cache *cache, const tahr__prim *prims)
+{
+    stoppers s = {{TAHR_NO_BODY, TAHR_NO_BODY}, {0, 0}};
+    for (int k = 0; k < 2 && cache->gathered; k++) {
+        const tahr__prim *p = &prims[cache->recent[k]];
+        if (cache->recent[k] >= cache->count || (p->item & TAHR__ITEM_LOOSE)) continue;
+        s.body[k] = p->body;
+        s.item[k] = p->item;
+    }
+    return s;
+}
+
+/* Finds them again. What had stopped the last foot is where a place on the floor begins, which asks no more than that
+ * it has been formed. */
+static void find_stoppers(const gather *g, const stoppers *s)
+{
+    tahr__cache *cache = g->cache;
+    cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
+    for (uint32_t i = 0; i < cache->count; i++) {
+        const tahr__prim *p = &g->prims[i];
+        for (int k = 0; k < 2; k++) {
+            if (p->item == s->item[k] && p->body == s->body[k]) cache->recent[k] = i;
+        }
+    }
+    if (cache->recent[1] >= cache->count) return;
+    tahr__prim *foot = &g->prims[cache->recent[1]];
+    if (foot->kind & TAHR__UNFORMED) tahr__form_rest(g->search.query->world, &cache->frame, foot);
+}
+
 static void gather_now(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
 {
     tahr__cache *cache = context->cache;
@@ -261,8 +295,7 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     g.heading = heading_of(world, cache, p->position);
     cache->place = p->position;
     cache->mask = p->mask;
-    cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
-    tahr__vicinity_forget(&cache->vicinity);
+    const stoppers last = stoppers_of(cache, g.prims);
     g.search.query = &query;
     g.search.order = TAHR__IN_BULK;
     g.search.visit = store;
@@ -273,6 +306,9 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     cache->revision = world->revision;
     if (!cache->overflow) tahr__form_lanes(world, &cache->frame, g.prims, g.blocks, cache->count);
     tahr__lanes_end(g.blocks, cache->count);
+    if (cache->overflow) cache->count = 0;
+    find_stoppers(&g, &last);
+    tahr__vicinity_forget(&cache->vicinity, cache->recent[1] < cache->count);
     context->gathers++;
 }
 

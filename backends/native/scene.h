@@ -315,8 +315,8 @@ static inline void tahr__vicinity_learn(const tahr__query *query, uint64_t tests
 /* m from a place (world) to everything that is static: 0 within the bounds of all of it, and no more than 16. */
 double tahr__outside_of_all(const tahr__native *world, tahr_vec3 position);
 
-/* The cache holds something else now. */
-void tahr__vicinity_forget(tahr__vicinity *vicinity);
+/* The cache holds something else now; has_floor: what stopped the last foot too. */
+void tahr__vicinity_forget(tahr__vicinity *vicinity, int has_floor);
 
 /* source.c: the triangles of the user. */
 /* Fills all but the walkable fields of a loose triangle; 0: it has no area. */

@@ -404,9 +404,10 @@ int tahr__vicinity_answer(const tahr__query *query, tahr_hit *hit, uint32_t *cou
     return 0;
 }
 
-void tahr__vicinity_forget(tahr__vicinity *v)
+void tahr__vicinity_forget(tahr__vicinity *v, int has_floor)
 {
-    const uint32_t until_floor = v->floor.length > 0 ? 0 : 2; /* queries of a step: the second one finds it */
+    const uint32_t until_floor =
+        has_floor || v->floor.length > 0 ? 0 : 2; /* queries of a step: the second one finds it */
     v->clear = -1;
     if (v->needed >= until_floor && v->calm > v->needed - until_floor) v->calm = v->needed - until_floor;
 }
