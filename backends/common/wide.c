@@ -13,6 +13,7 @@
 /* The lattice, and how far beyond it a query may lie: farther is as far. */
 #define PLACES 16777215.0
 #define BEYOND 1073741824.0
+#define FARTHEST 1073741824
 /* The smallest step (m), 2^-30: of what is smaller than a grain a walk may find all. */
 #define FINEST 9.3132257461547852e-10
 
@@ -184,6 +185,7 @@ tahr_status tahr__wide_build(const tahr_host *host, tahr__bvh_box *boxes, uint32
         collapse b = {tree, two.nodes, boxes};
         tree->centre = centre;
         tree->test = tahr__wide_best();
+        tree->items = tree->test == tahr__wide_test_8 ? tahr__wide_items_8 : tahr__wide_items_1;
         set_lattice(tree, two.nodes);
         make_nodes(&b);
     }
@@ -255,60 +257,17 @@ static uint32_t lowest(uint32_t bits)
 }
 #endif
 
-typedef struct looking {
-    const tahr__wide *tree;
-    tahr__wide_box box;
-    uint32_t top, stack[TAHR__WIDE_STACK];
-} looking;
-
-static void look_begin(looking *l, const tahr__wide *tree, const tahr_bounds *box, double reach)
-{
-    l->tree = tree;
-    set_box(tree, box, &l->box);
-    l->box.limit = limit_of(places_of(tree, reach));
-    l->stack[0] = 0;
-    l->top = 1;
-}
-
-/* The next node with items within reach, and which of them are; NULL: there is none. */
-static const tahr__wide_node *look_on(looking *l, uint32_t *near)
-{
-    while (l->top > 0) {
-        const tahr__wide_node *n = &l->tree->nodes[l->stack[--l->top]];
-        *near = l->tree->test(n, &l->box, l->box.lo, NULL);
-        if (has_items(n)) return n;
-        for (uint32_t left = *near; left; left &= left - 1)
-            l->stack[l->top++] = n->first + lowest(left);
-    }
-    return NULL;
-}
-
 uint32_t tahr__wide_collect(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t *items,
                             uint32_t capacity)
 {
-    looking l;
-    uint32_t near, count = 0;
-    const tahr__wide_node *n;
-    look_begin(&l, tree, box, reach);
-    while ((n = look_on(&l, &near)) != NULL) {
-        for (; near; near &= near - 1) {
-            if (count == capacity) return capacity + 1;
-            items[count++] = n->first + lowest(near);
-        }
+    tahr__wide_box b;
+    set_box(tree, box, &b);
+    int32_t grow = (int32_t)d_min((double)places_of(tree, reach), BEYOND - 1) + 1;
+    for (int i = 0; i < 3; i++) {
+        b.lo[i] = b.lo[i] > -FARTHEST + grow ? b.lo[i] - grow : -FARTHEST;
+        b.hi[i] = b.hi[i] < FARTHEST - grow ? b.hi[i] + grow : FARTHEST;
     }
-    return count;
-}
-
-uint32_t tahr__wide_count(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t most)
-{
-    looking l;
-    uint32_t near, count = 0;
-    look_begin(&l, tree, box, reach);
-    while (count <= most && look_on(&l, &near)) {
-        for (; near; near &= near - 1)
-            count++;
-    }
-    return count;
+    return tree->items(tree, &b, items, capacity);
 }
 
 void tahr__wide_walk_narrow(tahr__wide_walk *walk, const tahr_bounds *box)
@@ -428,4 +387,37 @@ uint32_t tahr__wide_test_1(const tahr__wide_node *n, const tahr__wide_box *box, 
         near |= (uint32_t)((to_box[0] + to_box[1]) + to_box[2] <= box->limit) << i;
     }
     return near;
+}
+
+/* Which children of a node a box meets: in its steps, so much of the box as it can tell. */
+static uint32_t meets(const tahr__wide_node *n, const tahr__wide_box *box)
+{
+    uint32_t apart = 0;
+    for (int a = 0; a < 3; a++) {
+        int32_t base = (int32_t)(n->base[a] & 0xFFFFFF), shift = (int32_t)(n->base[a] >> 24 & 31);
+        int32_t from = box->lo[a] - base, to = box->hi[a] - base;
+        from = from > 0 ? (from + (1 << shift) - 1) >> shift : 0;
+        if (to < 0 || from > 255) return 0;
+        to >>= shift;
+        for (uint32_t i = 0; i < TAHR__WIDE; i++)
+            apart |= (uint32_t)((n->lo[a][i] > to) | (n->hi[a][i] < from)) << i;
+    }
+    return ~apart & (0xFFu >> (8 - children_of(n)));
+}
+
+static uint32_t put_bits(uint32_t *to, uint32_t first, uint32_t bits)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < TAHR__WIDE; i++) {
+        to[count] = first + i;
+        count += bits >> i & 1;
+    }
+    return count;
+}
+
+#include "wide_collect.h"
+
+uint32_t tahr__wide_items_1(const tahr__wide *tree, const tahr__wide_box *box, uint32_t *items, uint32_t capacity)
+{
+    return wide_collect(tree, box, items, capacity);
 }

@@ -12,7 +12,8 @@
  * and where there is none there stays none. A query is told from a farther one up to 2^30 places off, 64 times the size
  * of the tree: beyond that it only comes nearer, and a reach of half of it finds all. The gap is computed in floats.
  * Whole numbers below 2^24 are exact in them, and a query's bound farther away is rounded by 2^-24 of it; the limit is
- * larger by 1e-6, more than rounding the difference, three squares and two sums may take off. */
+ * larger by 1e-6, more than rounding the difference, three squares and two sums may take off. What only asks which boxes
+ * meet takes the query's box as much larger as the reach, on the lattice, and compares whole numbers. */
 #ifndef TAHR_COMMON_WIDE_H
 #define TAHR_COMMON_WIDE_H
 
@@ -42,10 +43,19 @@ tahr__wide_fn tahr__wide_test_1, tahr__wide_test_4, tahr__wide_test_8;
 /* The fastest that this machine can run. */
 tahr__wide_fn *tahr__wide_best(void);
 
+struct tahr__wide;
+/* Items that a box meets (its limit is nothing), at most capacity and seven more. Returns how many; more than capacity:
+ * there may be others. */
+typedef uint32_t tahr__wide_items_fn(const struct tahr__wide *tree, const tahr__wide_box *box, uint32_t *items,
+                                     uint32_t capacity);
+/* One child at a time; eight, where the processor has AVX2. All the same items in the same order. */
+tahr__wide_items_fn tahr__wide_items_1, tahr__wide_items_8;
+
 typedef struct tahr__wide {
     tahr__wide_node *nodes;
     uint32_t node_count, node_capacity;
     tahr__wide_fn *test;
+    tahr__wide_items_fn *items;
     tahr_vec3 centre; /* boxes are relative to it */
     double low[3];    /* where the lattice begins, relative to the centre */
     double scale;     /* 1 / step, a power of two */
@@ -57,12 +67,10 @@ tahr_status tahr__wide_build(const tahr_host *host, tahr__bvh_box *boxes, uint32
                              tahr_vec3 centre, tahr__wide *tree);
 void tahr__wide_free(const tahr_host *host, tahr__wide *tree);
 
-/* Items within reach of a box, at most capacity of them, in no order that means anything. Returns how many; more than
- * capacity: there are others. */
+/* Items that come within reach of a box along each axis, in no order that means anything: at most capacity and seven
+ * more, for which there must be room. Returns how many; more than capacity: there may be others. */
 uint32_t tahr__wide_collect(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t *items,
                             uint32_t capacity);
-/* How many there are; beyond most it stops. */
-uint32_t tahr__wide_count(const tahr__wide *tree, const tahr_bounds *box, double reach, uint32_t most);
 
 /* Every level of the tree leaves at most seven others to look at; 80 levels: see TAHR__BVH_STACK. So many as are SORTED
  * a walk keeps in the order of their distances; if there are more it goes down to the bottom of each at once. */

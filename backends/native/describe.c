@@ -115,6 +115,52 @@ typedef struct dense {
     int fits;
 } dense;
 
+/* A search that counts. */
+typedef struct counting {
+    tahr__search search;
+    uint32_t count;
+    uint32_t reserved;
+} counting;
+
+static void count_one(tahr__search *search, const tahr__prim *prim)
+{
+    (void)prim;
+    ((counting *)search)->count++;
+}
+
+static void count_many(tahr__search *search, uint32_t body, const uint32_t *items, uint32_t count)
+{
+    (void)body;
+    (void)items;
+    ((counting *)search)->count += count;
+}
+
+/* How many a box (world) concerns, about; more than a cache may hold: at least so many. */
+static uint32_t count_in(const tahr__query *query, const tahr_bounds *box)
+{
+    counting c = {.search = {.query = query, .order = TAHR__IN_BULK, .room = TAHR__CACHE_MOST}};
+    c.search.box = tahr__frame_box_to_local(query->frame, box);
+    c.search.visit = count_one;
+    c.search.take = count_many;
+    tahr__tree_search(&c.search, &query->world->fixed);
+    return c.count;
+}
+
+/* How far around a gather would go there. */
+static void find_margin(const tahr__query *query, const tahr_bounds *box, dense *d)
+{
+    const tahr__native *world = query->world;
+    double next = world->cache_margin;
+    uint32_t count;
+    do {
+        d->margin = next;
+        const tahr_vec3 m = {next, next, next};
+        count = count_in(query, &(tahr_bounds){v_sub(box->min, m), v_add(box->max, m)});
+    } while (tahr__margin_choose(world, box->max.x - box->min.x, count, &next));
+    d->fits = count <= world->capacity;
+    if (d->fits) d->margin = next;
+}
+
 static dense find_densest(const tahr__native *world, uint32_t id)
 {
     const tahr__body *body = &world->bodies[id];
@@ -133,11 +179,12 @@ static dense find_densest(const tahr__native *world, uint32_t id)
         query.own_frame = tahr__frame_make(at, v_make(0, 0, 1));
         query.frame = &query.own_frame;
         query.mask = 0xFFFFFFFFu;
-        uint32_t count = tahr__tree_count(&query, &world->fixed, &box, TAHR__CACHE_MOST);
+        query.ignore_body = TAHR_NO_BODY;
+        query.sensors = TAHR__SENSORS_TOO;
+        uint32_t count = count_in(&query, &box);
         if (count <= d.most) continue;
-        double counted = 0;
         d.most = count;
-        d.fits = tahr__margin_choose(&query, &box, &counted, &d.margin);
+        find_margin(&query, &box, &d);
     }
     return d;
 }

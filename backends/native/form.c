@@ -13,11 +13,25 @@
 /* The corners of this many triangles later are fetched while one is formed: some 100 ns ahead. */
 enum { AHEAD = 8 };
 
+#if defined(__GNUC__)
+static void fetch_names(const tahr__body *body, uint32_t item)
+{
+    if (body->mesh.triangles) __builtin_prefetch(&body->mesh.triangles[item]);
+}
+#else
+static void fetch_names(const tahr__body *body, uint32_t item)
+{
+    (void)body;
+    (void)item;
+}
+#endif
+
 void tahr__form_heads(const tahr__body *body, uint32_t id, const uint32_t *items, uint32_t count, tahr__prim *prims)
 {
     tahr__prim head;
     tahr__prim_begin(body, id, &head);
     for (uint32_t i = 0; i < count; i++) {
+        fetch_names(body, items[i]);
         prims[i].item = items[i];
         prims[i].kind = head.kind | TAHR__UNFORMED;
         prims[i].body = id;
@@ -48,83 +62,140 @@ static void form_one(const tahr__native *world, const tahr__frame *frame, tahr__
     tahr__lanes_put(blocks, at, &box, prim->kind & TAHR__PLANELESS ? NULL : &prim->facet);
 }
 
-static void load_raw(const tahr__body *body, const tahr__prim *prims, uint32_t width, tahr__raw *raw)
+/* Triangles one after the other in the cache that have heads of one body. */
+typedef struct run {
+    const tahr__body *body;
+    tahr__map map;
+    const tahr__prim *prims;
+    uint32_t end;
+    /* Of a field: the row of the last cell, and the first cell of it. */
+    uint32_t row, row_cell;
+    tahr_vec3 corners[TAHR__FORMED][4];
+} run;
+
+/* The corners of a cell. Cells come row by row: to divide each time would cost as much as all the rest. */
+static void put_cell(run *r, uint32_t cell, tahr_vec3 corners[4])
 {
-    for (uint32_t i = 0; i < width; i++) {
-        tahr_vec3 v[3];
-        uint32_t item = prims[i].item;
-        if (body->type == TAHR_BODY_HEIGHTS) {
-            tahr__heights_triangle(&body->heights, item, v);
-            raw->thin[i] = 0;
-        } else {
-            const tahr__triangle *t = &body->mesh.triangles[item];
-            for (int k = 0; k < 3; k++)
-                v[k] = body->mesh.vertices[t->vertex[k]];
-            raw->thin[i] = t->source & TAHR__MESH_THIN ? 1 : 0;
+    const tahr__heights *h = &r->body->heights;
+    const uint32_t wide = h->columns - 1;
+    if (cell - r->row_cell >= wide) { /* below zero: far above */
+        r->row = cell / wide;
+        r->row_cell = r->row * wide;
+    }
+    tahr__heights_cell(h, cell - r->row_cell, r->row, corners);
+}
+
+/* count of them; the last stands for those that there are not. Two of one cell share its corners. */
+static void load_field(run *r, uint32_t at, uint32_t count, tahr__raw *raw)
+{
+    uint32_t last = TAHR__NONE;
+    const tahr_vec3 *c = NULL;
+    for (uint32_t i = 0; i < TAHR__FORMED; i++) {
+        const uint32_t item = r->prims[at + (i < count ? i : count - 1)].item, k = item & 1;
+        if (item / 2 != last) {
+            c = r->corners[i];
+            last = item / 2;
+            put_cell(r, last, r->corners[i]);
         }
-        for (int k = 0; k < 3; k++) {
-            raw->corner[k][0][i] = v[k].x;
-            raw->corner[k][1][i] = v[k].y;
-            raw->corner[k][2][i] = v[k].z;
-        }
+        raw->corner[0][i] = &c[0];
+        raw->corner[1][i] = &c[1 + k];
+        raw->corner[2][i] = &c[2 + k];
     }
 }
 
-/* Do as many from there on come from one body, with no lane across two blocks? Fields with triangles that may be thin
- * find out one by one. */
-static int alike(const tahr__native *world, const tahr__prim *prims, uint32_t at, uint32_t count, uint32_t width)
+/* The same of a mesh. Returns which are thin, one bit each. */
+static uint32_t load_mesh(const run *r, uint32_t at, uint32_t count, tahr__raw *raw)
 {
-    if (world->bodies[prims[at].body].heights.may_be_thin || width == 1 || at % width != 0 || at + width > count)
-        return 0;
-    for (uint32_t i = at; i < at + width; i++) {
-        if (!(prims[i].kind & TAHR__UNFORMED) || prims[i].body != prims[at].body) return 0;
+    const tahr__mesh *mesh = &r->body->mesh;
+    uint32_t thin = 0;
+    for (uint32_t i = 0; i < TAHR__FORMED; i++) {
+        const tahr__triangle *t = &mesh->triangles[r->prims[at + (i < count ? i : count - 1)].item];
+        for (int k = 0; k < 3; k++)
+            raw->corner[k][i] = &mesh->vertices[t->vertex[k]];
+        thin |= (t->source >> 31) << i;
     }
-    return 1;
+    return thin;
 }
 
 #if defined(__GNUC__)
-static void fetch(const tahr__native *world, const tahr__prim *prim)
+static void fetch(const run *r, uint32_t at)
 {
-    if (!(prim->kind & TAHR__UNFORMED)) return; /* its body may be the user's */
-    const tahr__mesh *mesh = &world->bodies[prim->body].mesh;
-    if (!mesh->triangles) return;
-    __builtin_prefetch(&mesh->vertices[mesh->triangles[prim->item].vertex[0]]);
-    __builtin_prefetch(&mesh->vertices[mesh->triangles[prim->item].vertex[2]]);
+    const tahr__mesh *mesh = &r->body->mesh;
+    if (!mesh->triangles || at >= r->end) return;
+    const tahr__triangle *t = &mesh->triangles[r->prims[at].item];
+    __builtin_prefetch(&mesh->vertices[t->vertex[0]]);
+    __builtin_prefetch(&mesh->vertices[t->vertex[2]]);
 }
 #else
-static void fetch(const tahr__native *world, const tahr__prim *prim)
+static void fetch(const run *r, uint32_t at)
 {
-    (void)world;
-    (void)prim;
+    (void)r;
+    (void)at;
 }
 #endif
+
+/* Of one place in a block to another. */
+static void copy_lanes(float *to, const float *from, uint32_t count)
+{
+    for (uint32_t row = 0; row < TAHR__LANE_ROWS; row++)
+        memcpy(to + row * TAHR__LANES, from + row * TAHR__LANES, count * sizeof *to);
+}
+
+static void clear_planes(float *lanes)
+{
+    for (uint32_t row = TAHR__LANE_NORMAL; row < TAHR__LANE_ROWS; row++)
+        lanes[row * TAHR__LANES] = 0;
+}
+
+/* Forms all that is left of a group that lies at the same places of a block. What lies beyond them is somebody
+ * else's, unless it is the end. */
+static uint32_t form_group(const tahr__former *former, run *r, float *blocks, uint32_t at, int last)
+{
+    float apart[TAHR__LANE_ROWS * TAHR__LANES], *lanes = blocks + tahr__lane(at, 0);
+    uint32_t left = former->width - at % former->width, count = left < r->end - at ? left : r->end - at;
+    tahr__raw raw;
+    uint32_t thin = 0;
+    if (r->body->mesh.triangles)
+        thin = load_mesh(r, at, count, &raw);
+    else
+        load_field(r, at, count, &raw);
+    if (left == former->width && (count == left || last)) {
+        former->form(&r->map, &raw, lanes);
+    } else {
+        former->form(&r->map, &raw, apart);
+        copy_lanes(lanes, apart, count);
+    }
+    for (uint32_t i = 0; thin != 0 && i < count; i++) {
+        if (thin >> i & 1) clear_planes(lanes + i);
+    }
+    return count;
+}
 
 void tahr__form_lanes(const tahr__native *world, const tahr__frame *frame, tahr__prim *prims, float *blocks,
                       uint32_t count)
 {
     const tahr__former *former = &world->former;
-    uint32_t of = TAHR__NONE;
-    tahr__map map;
-    tahr__raw raw;
+    run r;
+    r.prims = prims;
+    r.row = r.row_cell = 0;
     for (uint32_t at = 0; at < count;) {
-        for (uint32_t i = at + AHEAD; i < at + AHEAD + former->width && i < count; i++)
-            fetch(world, &prims[i]);
+        uint32_t id = prims[at].body;
+        r.body = &world->bodies[id];
         if (!(prims[at].kind & TAHR__UNFORMED)) {
-            at++;
-            continue;
-        }
-        if (!alike(world, prims, at, count, former->width)) {
+            at++; /* its body may be the user's */
+        } else if (former->width == 1 || r.body->heights.may_be_thin) {
             form_one(world, frame, &prims[at], blocks, at);
             at++;
-            continue;
+        } else {
+            r.map = tahr__map_make(frame, r.body);
+            for (r.end = at; r.end < count && prims[r.end].body == id && prims[r.end].kind & TAHR__UNFORMED;)
+                r.end++;
+            while (at < r.end) {
+                for (uint32_t i = 0; i < former->width; i++)
+                    fetch(&r, at + AHEAD + i);
+                at += form_group(former, &r, blocks, at, r.end == count);
+            }
         }
-        if (prims[at].body != of) {
-            of = prims[at].body;
-            map = tahr__map_make(frame, &world->bodies[of]);
-        }
-        load_raw(&world->bodies[of], &prims[at], former->width, &raw);
-        former->form(&map, &raw, blocks + tahr__lane(at, 0));
-        at += former->width;
     }
 }
 
@@ -140,12 +211,16 @@ typedef double lane __attribute__((vector_size(16)));
 typedef int64_t mask __attribute__((vector_size(16)));
 typedef float half __attribute__((vector_size(8)));
 
-static inline lane root(lane a)
+typedef struct vec {
+    lane x, y, z;
+} vec;
+
+static inline lane one_over_root(lane a)
 {
 #if defined(__SSE2__)
-    return (lane)_mm_sqrt_pd((__m128d)a);
+    return (lane)_mm_cvtps_pd(_mm_div_ps(_mm_set1_ps(1), _mm_sqrt_ps(_mm_cvtpd_ps((__m128d)a))));
 #else
-    return (lane){sqrt(a[0]), sqrt(a[1])};
+    return (lane){tahr__lanes_scale(a[0]), tahr__lanes_scale(a[1])};
 #endif
 }
 
@@ -170,9 +245,9 @@ static inline void put(float *to, lane x)
     memcpy(to, &h, sizeof h);
 }
 
-static inline lane load(const double *a)
+static inline vec load(const tahr_vec3 *const v[TAHR__FORMED])
 {
-    return (lane){a[0], a[1]};
+    return (vec){{v[0]->x, v[1]->x}, {v[0]->y, v[1]->y}, {v[0]->z, v[1]->z}};
 }
 
 #include "form_kernel.h"

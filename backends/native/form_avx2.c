@@ -16,9 +16,13 @@ enum { WIDTH = 4 };
 typedef double lane __attribute__((vector_size(32)));
 typedef int64_t mask __attribute__((vector_size(32)));
 
-static inline lane root(lane a)
+typedef struct vec {
+    lane x, y, z;
+} vec;
+
+static inline lane one_over_root(lane a)
 {
-    return (lane)_mm256_sqrt_pd((__m256d)a);
+    return (lane)_mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1), _mm_sqrt_ps(_mm256_cvtpd_ps((__m256d)a))));
 }
 
 static inline lane lower(lane a, lane b)
@@ -36,9 +40,16 @@ static inline void put(float *to, lane x)
     _mm_storeu_ps(to, _mm256_cvtpd_ps((__m256d)x));
 }
 
-static inline lane load(const double *a)
+static inline __m256d both(const double *low, const double *high)
 {
-    return (lane){a[0], a[1], a[2], a[3]};
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(low)), _mm_loadu_pd(high), 1);
+}
+
+static inline vec load(const tahr_vec3 *const v[TAHR__FORMED])
+{
+    const __m256d even = both(&v[0]->x, &v[2]->x), odd = both(&v[1]->x, &v[3]->x);
+    const __m256d z = {v[0]->z, v[1]->z, v[2]->z, v[3]->z};
+    return (vec){(lane)_mm256_unpacklo_pd(even, odd), (lane)_mm256_unpackhi_pd(even, odd), (lane)z};
 }
 
 #include "form_kernel.h"

@@ -1,11 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * form_kernel.h: boxes and planes of WIDTH triangles in vectors of doubles, for a file that has said how wide they
- * are: WIDTH, lane, mask, root, lower (a < b ? a : b), higher (a > b ? a : b), put, load. The operations of
- * tahr__map_point, tahr__facet_finish and tahr__lanes_put in their order. */
-
-typedef struct vec {
-    lane x, y, z;
-} vec;
+ * are: WIDTH, lane, mask, vec, one_over_root (tahr__lanes_scale), lower (a < b ? a : b), higher (a > b ? a : b), put,
+ * load. The operations of tahr__map_point, tahr__facet_finish and tahr__lanes_put in their order. */
 
 static inline lane size(lane a)
 {
@@ -42,9 +38,9 @@ static inline mask near(vec p)
     return (mask)(size(p.x) <= 32.0) & (mask)(size(p.y) <= 32.0) & (mask)(size(p.z) <= 32.0);
 }
 
-static inline vec corner(const tahr__map *map, const double at[3][TAHR__FORMED])
+static inline vec corner(const tahr__map *map, const tahr_vec3 *const at[TAHR__FORMED])
 {
-    vec v = {load(at[0]), load(at[1]), load(at[2])};
+    vec v = load(at);
     if (map->turned) v = (vec){row(map->turn.row[0], v), row(map->turn.row[1], v), row(map->turn.row[2], v)};
     return (vec){map->offset.x + v.x, map->offset.y + v.y, map->offset.z + v.z};
 }
@@ -75,9 +71,9 @@ static inline void put_plane(float *to, mask m, vec n, vec at)
     put_if(to + 3 * TAHR__LANES, m, dot(n, at));
 }
 
-static inline mask has_plane(const double thin[TAHR__FORMED], const vec v[3], lane length)
+static inline mask has_plane(const vec v[3], lane length2)
 {
-    return (mask)(length > 1e-6) & near(v[0]) & near(v[1]) & near(v[2]) & (mask)(load(thin) == 0.0);
+    return (mask)(length2 > TAHR__LANE_AREA2) & near(v[0]) & near(v[1]) & near(v[2]);
 }
 
 static inline void form(const tahr__map *map, const tahr__raw *raw, float *lanes)
@@ -93,12 +89,12 @@ static inline void form(const tahr__map *map, const tahr__raw *raw, float *lanes
     put_up(high + TAHR__LANES, v[0].y, v[1].y, v[2].y);
     put_up(high + 2 * TAHR__LANES, v[0].z, v[1].z, v[2].z);
     vec n = cross(sub(v[1], v[0]), sub(v[2], v[0]));
-    lane length = root(dot(n, n));
-    mask m = has_plane(raw->thin, v, length);
-    n = times(n, 1.0 / length);
+    lane length2 = dot(n, n);
+    mask m = has_plane(v, length2);
+    n = times(n, one_over_root(length2));
     put_plane(lanes + TAHR__LANE_NORMAL * TAHR__LANES, m, n, v[0]);
     for (int k = 0; k < 3; k++) {
-        vec e = sub(v[k < 2 ? k + 1 : 0], v[k]), out = times(cross(e, n), 1.0 / root(dot(e, e)));
+        vec e = sub(v[k < 2 ? k + 1 : 0], v[k]), out = times(cross(e, n), one_over_root(dot(e, e)));
         put_plane(lanes + (TAHR__LANE_EDGE + 4 * k) * TAHR__LANES, m, out, v[k]);
     }
 }

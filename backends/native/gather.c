@@ -49,6 +49,8 @@ typedef struct gather {
     float *blocks;
     tahr__prim *prims;
     tahr__cache *cache;
+    tahr_bounds announced;
+    tahr_vec3 heading;
 } gather;
 
 /* Nothing more to find: what does not fit is never kept in part. */
@@ -71,6 +73,7 @@ static void take(tahr__search *search, uint32_t body, const uint32_t *items, uin
         give_up(g);
         return;
     }
+    g->search.room = world->capacity - n - count;
     tahr__form_heads(&world->bodies[body], body, items, count, &g->prims[n]);
     g->cache->plain &= !(g->prims[n].kind & TAHR__SENSOR);
     g->cache->count = n + count;
@@ -145,51 +148,126 @@ static double volume(const tahr_bounds *b)
     return side.x * side.y * side.z;
 }
 
+/* How much farther a gather goes the way the character is going, and less far behind it, as a part of the margin: the
+ * same volume lasts for a quarter more steps of wanderers (measured over 0, 0.5, 0.75 and 1; with 1 nothing is left for
+ * who turns around). */
+#define AHEAD 0.75
+
+static void set_bounds(tahr__cache *cache, const tahr_bounds *announced, double margin, tahr_vec3 heading)
+{
+    const tahr_vec3 m = {margin, margin, margin}, shift = v_scale(heading, AHEAD * margin);
+    cache->bounds.min = v_add(v_sub(announced->min, m), shift);
+    cache->bounds.max = v_add(v_add(announced->max, m), shift);
+    cache->local = tahr__frame_box_to_local(&cache->frame, &cache->bounds);
+}
+
+/* Who has come so far (m) since the last gather goes on that way; from farther off nobody walked. */
+#define LEAST_WAY 0.05
+#define MOST_WAY 8.0
+
+/* The way a character is going, a unit vector; zero: it is not known, or the margin is the user's. */
+static tahr_vec3 heading_of(const tahr__native *world, const tahr__cache *cache, tahr_vec3 position)
+{
+    tahr_vec3 way = v_sub(position, cache->place);
+    double length = v_length(way);
+    int known = cache->gathered && !world->fixed_margin && length > LEAST_WAY && length < MOST_WAY;
+    return known ? v_scale(way, 1 / length) : v_make(0, 0, 0);
+}
+
+/* Collects all that is within a margin. */
+static void collect(gather *g)
+{
+    tahr__cache *cache = g->cache;
+    const tahr__native *world = g->search.query->world;
+    set_bounds(cache, &g->announced, cache->margin, g->heading);
+    cache->overflow = cache->count = 0;
+    cache->plain = 1;
+    g->search.box = cache->local;
+    g->search.narrowed = 0;
+    g->search.room = world->capacity;
+    tahr__tree_search(&g->search, &world->fixed);
+}
+
+/* Collects within the margin that was best last time, or less. */
+static void collect_best(gather *g)
+{
+    tahr__cache *cache = g->cache;
+    const tahr__native *world = g->search.query->world;
+    const tahr_bounds *announced = &g->announced;
+    double width = announced->max.x - announced->min.x;
+    if (cache->margin <= 0) cache->margin = world->cache_margin;
+    do {
+        collect(g);
+    } while (tahr__margin_choose(world, width, cache->overflow ? TAHR__NONE : cache->count, &cache->margin));
+    /* A little farther on it will not fit either. */
+    if (cache->overflow && !world->fixed_margin)
+        set_bounds(cache, announced, 0.5 * world->cache_margin, v_make(0, 0, 0));
+}
+
+/* Which primitives stopped the last motions, by their names: they have another index afterwards. */
+typedef struct stoppers {
+    uint32_t body[2], item[2];
+} stoppers;
+
+static stoppers stoppers_of(const tahr__cache *cache, const tahr__prim *prims)
+{
+    stoppers s = {{TAHR_NO_BODY, TAHR_NO_BODY}, {0, 0}};
+    for (int k = 0; k < 2 && cache->gathered; k++) {
+        const tahr__prim *p = &prims[cache->recent[k]];
+        if (cache->recent[k] >= cache->count || (p->item & TAHR__ITEM_LOOSE)) continue;
+        s.body[k] = p->body;
+        s.item[k] = p->item;
+    }
+    return s;
+}
+
+/* Finds them again. What had stopped the last foot is where a place on the floor begins, which asks no more than that
+ * it has been formed. */
+static void find_stoppers(const gather *g, const stoppers *s)
+{
+    tahr__cache *cache = g->cache;
+    cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
+    for (uint32_t i = 0; i < cache->count; i++) {
+        const tahr__prim *p = &g->prims[i];
+        for (int k = 0; k < 2; k++) {
+            if (p->item == s->item[k] && p->body == s->body[k]) cache->recent[k] = i;
+        }
+    }
+    if (cache->recent[1] >= cache->count) return;
+    tahr__prim *foot = &g->prims[cache->recent[1]];
+    if (foot->kind & TAHR__UNFORMED) tahr__form_rest(g->search.query->world, &cache->frame, foot);
+}
+
 static void gather_now(tahr__native *world, tahr_query_context *context, const tahr_prepare *p)
 {
     tahr__cache *cache = context->cache;
     tahr__query query;
-    gather g;
+    gather g = {.blocks = tahr__cache_blocks(world, cache), .prims = tahr__cache_prims(world, cache), .cache = cache};
     tahr_status failed = TAHR_OK;
-    memset(&query, 0, sizeof query);
+    tahr__query_begin(&query, world, context, p->position, cache->frame.up);
+    query.cache = NULL;
     query.failed = &failed;
-    query.world = world;
-    query.context = context;
-    query.frame = &cache->frame;
     query.mask = p->mask;
     query.ignore_body = TAHR_NO_BODY;
     query.sensors = TAHR__SENSORS_TOO;
-    query.start = tahr__frame_box_to_local(&cache->frame, &(tahr_bounds){p->position, p->position}).min;
-    double margin;
-    int fits = tahr__margin_choose(&query, &p->bounds, &cache->counted, &margin);
-    tahr_vec3 m = v_make(margin, margin, margin);
-    cache->bounds.min = v_sub(p->bounds.min, m);
-    cache->bounds.max = v_add(p->bounds.max, m);
-    cache->local = tahr__frame_box_to_local(&cache->frame, &cache->bounds);
     cache->volume = volume(&p->bounds);
+    g.announced = p->bounds;
+    g.heading = heading_of(world, cache, p->position);
+    cache->place = p->position;
     cache->mask = p->mask;
-    cache->gathered = 1;
-    cache->overflow = cache->count = 0;
-    cache->plain = 1;
-    cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
+    const stoppers last = stoppers_of(cache, g.prims);
     g.search.query = &query;
-    g.search.box = cache->local;
-    g.search.reach = 0;
-    g.search.narrowed = 0;
     g.search.order = TAHR__IN_BULK;
     g.search.visit = store;
     g.search.take = take;
-    g.blocks = tahr__cache_blocks(world, cache);
-    g.prims = tahr__cache_prims(world, cache);
-    g.cache = cache;
-    if (fits)
-        tahr__tree_search(&g.search, &world->fixed);
-    else
-        cache->overflow = 1;
+    cache->gathered = 1;
+    collect_best(&g);
     if (world->gather) gather_loose(world, &g);
     cache->revision = world->revision;
     if (!cache->overflow) tahr__form_lanes(world, &cache->frame, g.prims, g.blocks, cache->count);
     tahr__lanes_end(g.blocks, cache->count);
+    if (cache->overflow) cache->count = 0;
+    find_stoppers(&g, &last);
     tahr__vicinity_forget(world, cache);
     context->gathers++;
 }

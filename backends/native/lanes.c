@@ -29,12 +29,13 @@ static int in_range(tahr_vec3 v)
 
 static void put_planes(float *to, const tahr__facet *f)
 {
-    const tahr_vec3 *v = f->v, normal = v_scale(f->cross, 1 / f->length);
+    const tahr_vec3 *v = f->v, normal = v_scale(f->cross, tahr__lanes_scale(v_dot(f->cross, f->cross)));
     put_vec(to, normal);
     to[(TAHR__LANE_OFFSET - TAHR__LANE_NORMAL) * TAHR__LANES] = (float)v_dot(normal, v[0]);
     to += (TAHR__LANE_EDGE - TAHR__LANE_NORMAL) * TAHR__LANES;
     for (int i = 0; i < 3; i++, to += 4 * TAHR__LANES) {
-        tahr_vec3 e = v_sub(v[i < 2 ? i + 1 : 0], v[i]), out = v_scale(v_cross(e, normal), 1 / v_length(e));
+        tahr_vec3 e = v_sub(v[i < 2 ? i + 1 : 0], v[i]),
+                  out = v_scale(v_cross(e, normal), tahr__lanes_scale(v_dot(e, e)));
         put_vec(to, out);
         to[3 * TAHR__LANES] = (float)v_dot(out, v[i]);
     }
@@ -44,8 +45,8 @@ void tahr__lanes_put(float *blocks, uint32_t i, const tahr_bounds *box, const ta
 {
     put_vec(blocks + tahr__lane(i, TAHR__LANE_LOW), v_make(d_down(box->min.x), d_down(box->min.y), d_down(box->min.z)));
     put_vec(blocks + tahr__lane(i, TAHR__LANE_HIGH), v_make(d_up(box->max.x), d_up(box->max.y), d_up(box->max.z)));
-    /* 1e-6 m2: of less area the direction may be rounding. */
-    if (facet && facet->length > 1e-6 && in_range(facet->v[0]) && in_range(facet->v[1]) && in_range(facet->v[2])) {
+    if (facet && v_dot(facet->cross, facet->cross) > TAHR__LANE_AREA2 && in_range(facet->v[0]) &&
+        in_range(facet->v[1]) && in_range(facet->v[2])) {
         put_planes(blocks + tahr__lane(i, TAHR__LANE_NORMAL), facet);
         return;
     }
@@ -55,9 +56,11 @@ void tahr__lanes_put(float *blocks, uint32_t i, const tahr_bounds *box, const ta
 
 void tahr__lanes_end(float *blocks, uint32_t count)
 {
-    const tahr_vec3 far = {NOWHERE, NOWHERE, NOWHERE};
-    for (; count % TAHR__LANES != 0; count++)
-        tahr__lanes_put(blocks, count, &(tahr_bounds){far, far}, NULL);
+    for (; count % TAHR__LANES != 0; count++) {
+        float *at = blocks + tahr__lane(count, 0);
+        for (uint32_t row = 0; row < TAHR__LANE_ROWS; row++)
+            at[row * TAHR__LANES] = row < TAHR__LANE_NORMAL ? NOWHERE : 0;
+    }
 }
 
 static float larger_1(float a, float b)

@@ -9,6 +9,15 @@
  * its reach. */
 #define TAHR__LANE_SLACK 4e-5
 
+/* What is called unit in lanes is so within single precision: a distance is off by as small a part of itself. */
+static inline double tahr__lanes_scale(double square)
+{
+    return (double)(1.0f / sqrtf((float)square));
+}
+
+/* Square of twice the area (m4) below which the direction of a triangle may be rounding. */
+#define TAHR__LANE_AREA2 1e-12
+
 /* Blocks of eight primitives, each 22 rows of eight floats: low corner, high corner, plane normal . x = offset, and the
  * planes through the three edges across it, x, y, z, offset each, outward and unit (all zero: none). The lanes of the
  * last block that are not in use lie at 1e30. */

@@ -35,11 +35,10 @@ typedef struct tahr__body {
     tahr_bounds bounds; /* world */
 } tahr__body;
 
-/* Exact corners of some triangles, side by side; thin: 1 where the plane is not to be trusted. */
+/* Exact corners of some triangles. */
 enum { TAHR__FORMED = 4 };
 typedef struct tahr__raw {
-    double corner[3][3][TAHR__FORMED]; /* which, coordinate, triangle */
-    double thin[TAHR__FORMED];
+    const tahr_vec3 *corner[3][TAHR__FORMED];
 } tahr__raw;
 
 /* Forms the lanes of some triangles at a time (form.c). width 1: there is none. */
@@ -184,10 +183,11 @@ typedef struct tahr__cache {
     tahr_bounds bounds; /* world: what was announced, grown by the margin */
     tahr_bounds local;  /* everything static in it has been gathered */
     double volume;      /* m3, of what was announced */
+    tahr_vec3 place;    /* world: where the character was then */
     uint32_t announced, gathered, overflow, mask, count;
     uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
     uint64_t revision;  /* of the user's triangles in it */
-    double counted;     /* see tahr__margin_choose */
+    double margin;      /* to gather with the next time, 0: the most */
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
     tahr__vicinity vicinity;
 } tahr__cache;
@@ -254,8 +254,10 @@ typedef struct tahr__search {
     double reach;
     uint32_t narrowed;
     uint32_t order; /* TAHR__NEAREST_FIRST, ... */
+    uint32_t room;  /* IN_BULK: so many of a body can be taken, at most TAHR__CACHE_MOST */
+    uint32_t reserved;
     void (*visit)(struct tahr__search *search, const tahr__prim *prim);
-    /* IN_BULK: takes triangles of a mesh by their names; more than TAHR__CACHE_MOST: not all of them are there. */
+    /* IN_BULK: takes triangles of a mesh by their names; more than there is room for: not all of them are there. */
     void (*take)(struct tahr__search *search, uint32_t body, const uint32_t *items, uint32_t count);
 } tahr__search;
 
@@ -313,9 +315,9 @@ tahr__corners tahr__cache_corners(const tahr__native *world, tahr__cache *cache)
 uint32_t tahr__corner_bucket(const tahr__corners *corners, tahr_vec3 corner);
 tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context, const tahr_prepare *announcement);
 
-/* margin.c: how far around what was announced to gather; 0: there is too much for the cache: not within [out] margin.
- * counted: [in, out] where to begin counting, which was best last time; 0: anywhere. */
-int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *counted, double *margin);
+/* margin.c: count primitives were found within a margin of a box of that width. Returns 1, if it should be gathered
+ * anew. margin: [in, out] the best there is: for that, or for the next time. */
+int tahr__margin_choose(const tahr__native *world, double width, uint32_t count, double *margin);
 
 /* vicinity.c: what a sweep need not ask. Where a motion leads: UNKNOWN: the cache or more is to be asked; AROUND: all
  * that is near; OVER: of that, what is above the floor; DOWN: the floor too. */
@@ -367,8 +369,6 @@ uint32_t tahr__hull_face(const tahr__mesh *mesh, tahr_vec3 direction);
 
 /* tree.c: primitives of a group of bodies, straight from their trees. */
 void tahr__tree_search(tahr__search *search, const tahr__group *group);
-/* About how many primitives a box (world) concerns, at least as many as a search finds; beyond most it may stop. */
-uint32_t tahr__tree_count(const tahr__query *query, const tahr__group *group, const tahr_bounds *box, uint32_t most);
 /* And of one body alone. */
 void tahr__tree_search_body(tahr__search *search, uint32_t body);
 

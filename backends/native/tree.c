@@ -35,11 +35,10 @@ static int within(const tahr_bounds *b, double reach, tahr_vec3 v0, tahr_vec3 v1
 /* All of a mesh at once. */
 static void take_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
 {
-    uint32_t items[TAHR__CACHE_MOST];
+    uint32_t items[TAHR__CACHE_MOST + TAHR__WIDE];
     tahr_bounds box = to_mesh(map, &s->box);
-    uint32_t count = tahr__wide_collect(&s->query->world->bodies[id].mesh.tree, &box, s->reach + TAHR__SLACK, items,
-                                        TAHR__CACHE_MOST);
-    s->take(s, id, items, count);
+    s->take(s, id, items,
+            tahr__wide_collect(&s->query->world->bodies[id].mesh.tree, &box, s->reach + TAHR__SLACK, items, s->room));
 }
 
 static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
@@ -196,15 +195,16 @@ static void take_heights(tahr__search *s, uint32_t id, const tahr__map *map)
     f.reach = s->reach + TAHR__SLACK;
     set_field_box(&f);
     const tahr__heights *h = &f.body->heights;
+    const uint64_t wide = f.range.column_end - f.range.column;
+    if (2 * wide * (f.range.row_end - f.range.row) > s->room) {
+        s->take(s, id, items, s->room + 1);
+        return;
+    }
     for (uint32_t row = f.range.row; row < f.range.row_end; row++) {
         for (uint32_t column = f.range.column; column < f.range.column_end; column++) {
             const double *low = h->z + (size_t)row * h->columns + column;
             uint32_t first = 2 * (row * (h->columns - 1) + column);
             if (cell_beside(low, low + h->columns, &f.around)) continue;
-            if (count + 2 > TAHR__CACHE_MOST) {
-                s->take(s, id, items, TAHR__CACHE_MOST + 1);
-                return;
-            }
             for (uint32_t k = 0; k < 2; k++) {
                 tahr_vec3 v[3];
                 if ((h->has_holes || h->may_be_thin) && !tahr__heights_triangle(h, first + k, v)) continue;
@@ -245,41 +245,11 @@ void tahr__tree_search_body(tahr__search *s, uint32_t id)
         search_mesh(s, id, &map);
 }
 
-/* Without branches; bounds of bodies are TAHR__SLACK wider than they are. */
-static int meets(const tahr_bounds *a, const tahr_bounds *b)
+/* Is a body out of a box? Without branches; bounds of bodies are TAHR__SLACK wider than they are. */
+static int is_apart(const tahr_bounds *a, const tahr_bounds *b)
 {
-    int x = (a->min.x <= b->max.x) & (b->min.x <= a->max.x), y = (a->min.y <= b->max.y) & (b->min.y <= a->max.y);
-    return x & y & (a->min.z <= b->max.z) & (b->min.z <= a->max.z);
-}
-
-static uint32_t count_body(const tahr__query *query, uint32_t id, const tahr_bounds *local, uint32_t most)
-{
-    const tahr__body *body = &query->world->bodies[id];
-    if (!(body->mask & query->mask)) return 0;
-    if (body->type == TAHR_BODY_SPHERE || body->type == TAHR_BODY_CAPSULE) return 1;
-    tahr__map map = tahr__map_make(query->frame, body);
-    tahr_bounds box = to_mesh(&map, local);
-    if (body->type == TAHR_BODY_HEIGHTS) {
-        tahr__heights_range r = tahr__heights_cells(&body->heights, &box);
-        return 2 * (r.column_end - r.column) * (r.row_end - r.row);
-    }
-    return tahr__wide_count(&body->mesh.tree, &box, TAHR__SLACK, most) + (body->type != TAHR_BODY_MESH);
-}
-
-uint32_t tahr__tree_count(const tahr__query *query, const tahr__group *group, const tahr_bounds *box, uint32_t most)
-{
-    tahr_bounds local = tahr__frame_box_to_local(query->frame, box);
-    tahr__bvh_walk walk;
-    uint32_t first, items, count = 0;
-    if (group->count == 0) return 0;
-    tahr__bvh_walk_begin(&walk, &group->tree, box, TAHR__SLACK, query->start);
-    while (count <= most && tahr__bvh_walk_next(&walk, &first, &items)) {
-        for (uint32_t i = first; i < first + items; i++) {
-            if (meets(&query->world->bodies[group->order[i]].bounds, box))
-                count += count_body(query, group->order[i], &local, most);
-        }
-    }
-    return count;
+    int x = (a->min.x > b->max.x) | (b->min.x > a->max.x), y = (a->min.y > b->max.y) | (b->min.y > a->max.y);
+    return x | y | (a->min.z > b->max.z) | (b->min.z > a->max.z);
 }
 
 void tahr__tree_search(tahr__search *s, const tahr__group *group)
@@ -293,7 +263,11 @@ void tahr__tree_search(tahr__search *s, const tahr__group *group)
     uint32_t first, count;
     while (tahr__bvh_walk_next(&walk, &first, &count)) {
         for (uint32_t i = first; i < first + count; i++) {
-            if (group->order[i] != s->query->ignore_body) tahr__tree_search_body(s, group->order[i]);
+            uint32_t id = group->order[i];
+            if (id == s->query->ignore_body) continue;
+            /* Worth asking where all that is found is kept for many queries. */
+            if (s->order == TAHR__IN_BULK && is_apart(&s->query->world->bodies[id].bounds, &box)) continue;
+            tahr__tree_search_body(s, id);
         }
         box = tahr__frame_box_to_world(frame, &s->box, TAHR__SLACK);
         tahr__bvh_walk_narrow(&walk, &box);

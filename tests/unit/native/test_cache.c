@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "native/scene.h"
 #include "native_world.h"
 
 typedef struct answers {
@@ -217,9 +218,57 @@ static void only_what_was_gathered_for_fewer_bodies_is_gathered_anew(void **stat
     native_close(&f);
 }
 
+/* The triangle that stopped the last foot, by its name; TAHR__NONE: it is not in the cache. */
+static uint32_t stopper(const fixture *f)
+{
+    tahr__cache *cache = f->context.cache;
+    if (cache->recent[1] >= cache->count) return TAHR__NONE;
+    const tahr__prim *p = &tahr__cache_prims(f->self, cache)[cache->recent[1]];
+    assert_false(p->kind & TAHR__UNFORMED);
+    assert_int_equal(p->body, 0);
+    return p->item;
+}
+
+/* Over squares of 1 m: as long as its square is gathered, in the same cell of 4 m and in others. */
+static void what_stopped_the_last_foot_is_known_after_a_gather(void **state)
+{
+    (void)state;
+    static native_grid grid;
+    tahr_body_desc body = native_grid_body(&grid, NATIVE_CELLS, 1, NULL);
+    tahr_native_desc o = fixture_options();
+    const tahr_vec3 up = {0, 0, 1};
+    o.cache_margin = 0.5;
+    for (int fields = 0; fields < 2; fields++) {
+        fixture f;
+        o.no_fields = (uint32_t)fields;
+        fixture_init(&f);
+        assert_int_equal(fixture_open(&f, &body, 1, &o, 1), TAHR_OK);
+        tahr_sweep down =
+            fixture_sweep(fixture_shape(TAHR_SHAPE_SPHERE, 0.3, 0.3), v_make(9.7, 9.2, 1), v_make(0, 0, -1), 0.01);
+        announce(&f, down.position, up, 0xFFFFFFFFu);
+        assert_int_equal(stopper(&f), TAHR__NONE);
+        assert_int_equal(fixture_hit(&f, &down).blocking, 1);
+        const uint32_t under = stopper(&f);
+        assert_int_not_equal(under, TAHR__NONE);
+        /* Boxes of 4.2 m: 1 m on it is in the next one, and beyond x = 12 in that of another cell; at 13 m it begins at
+         * x = 10.9. */
+        const double places[] = {10.7, 11.7, 12.05};
+        for (int i = 0; i < 3; i++) {
+            announce(&f, v_make(places[i], 9.2, 1), up, 0xFFFFFFFFu);
+            assert_int_equal(f.context.gathers, i + 2);
+            assert_int_equal(stopper(&f), under);
+        }
+        announce(&f, v_make(13, 9.2, 1), up, 0xFFFFFFFFu);
+        assert_int_equal(f.context.gathers, 5);
+        assert_int_equal(stopper(&f), TAHR__NONE);
+        fixture_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_stopped_the_last_foot_is_known_after_a_gather),
         cmocka_unit_test(caches_and_lanes_change_no_bit),
         cmocka_unit_test(without_a_cache_a_query_is_its_own_announcement),
         cmocka_unit_test(only_the_place_last_announced_counts),

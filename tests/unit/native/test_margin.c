@@ -103,26 +103,34 @@ static uint32_t count(const native_grid *grid, const tahr_body_desc *body, const
     return found;
 }
 
+static tahr_prepare announcement(tahr_vec3 at)
+{
+    tahr_prepare p;
+    const tahr_vec3 half = {0.5, 0.5, 1};
+    memset(&p, 0, sizeof p);
+    p.position = at;
+    p.bounds = (tahr_bounds){v_sub(at, half), v_add(at, half)};
+    p.up = v_make(0, 0, 1);
+    p.mask = 0xFFFFFFFFu;
+    return p;
+}
+
 static choice choose(double cell, const tahr_native_desc *options)
 {
     static native_grid grid;
     fixture f;
     tahr_body_desc body = native_grid_body(&grid, NATIVE_CELLS, cell, waves);
-    double middle = cell * NATIVE_CELLS / 2, counted = 0;
-    tahr_bounds box = {{middle - 0.5, middle - 0.5, -0.5}, {middle + 0.5, middle + 0.5, 1.5}};
-    tahr__query query;
+    double middle = cell * NATIVE_CELLS / 2;
+    tahr_prepare p = announcement(v_make(middle, middle, 0.5));
     choice c;
     fixture_init(&f);
-    assert_int_equal(fixture_open(&f, &body, 1, options, 0), TAHR_OK);
-    memset(&query, 0, sizeof query);
-    query.world = f.self;
-    query.own_frame = tahr__frame_make(box.min, v_make(0, 0, 1));
-    query.frame = &query.own_frame;
-    query.mask = 0xFFFFFFFFu;
-    c.fits = tahr__margin_choose(&query, &box, &counted, &c.margin);
-    const tahr_vec3 m = {c.margin, c.margin, c.margin};
-    tahr_bounds grown = {v_sub(box.min, m), v_add(box.max, m)};
-    c.counted = count(&grid, &body, &grown);
+    assert_int_equal(fixture_open(&f, &body, 1, options, 1), TAHR_OK);
+    assert_int_equal(tahr_backend_v1_native()->prepare(f.self, &f.context, &p), TAHR_OK);
+    const tahr__cache *cache = f.context.cache;
+    c.fits = !cache->overflow;
+    c.margin = p.bounds.min.x - cache->bounds.min.x;
+    c.counted = count(&grid, &body, &cache->bounds);
+    assert_true(!c.fits || c.counted <= cache->count);
     fixture_close(&f);
     return c;
 }
@@ -153,8 +161,52 @@ static void a_margin_that_is_given_is_taken(void **state)
     options.cache_margin = 0.7;
     for (int d = 0; d < DENSITIES; d++) {
         choice c = choose(CELLS[d], &options);
-        assert_int_equal(c.fits, 1);
-        assert_true(c.margin == 0.7);
+        assert_true(fabs(c.margin - 0.7) < 1e-12);
+    }
+}
+
+/* How far the box of what has been gathered reaches beyond what was announced. */
+typedef struct sides {
+    tahr_vec3 low, high;
+} sides;
+
+static sides gather_at(fixture *f, tahr_vec3 at)
+{
+    const tahr_prepare p = announcement(at);
+    const tahr__cache *cache = f->context.cache;
+    assert_int_equal(tahr_backend_v1_native()->prepare(f->self, &f->context, &p), TAHR_OK);
+    return (sides){v_sub(p.bounds.min, cache->bounds.min), v_sub(cache->bounds.max, p.bounds.max)};
+}
+
+static void assert_sides(sides s, tahr_vec3 low, tahr_vec3 high)
+{
+    assert_true(v_length(v_sub(s.low, low)) < 1e-12);
+    assert_true(v_length(v_sub(s.high, high)) < 1e-12);
+}
+
+/* Over squares of 4 m the margin is all that is allowed. */
+static void a_gather_reaches_farther_the_way_that_was_gone(void **state)
+{
+    (void)state;
+    static native_grid grid;
+    tahr_body_desc body = native_grid_body(&grid, NATIVE_CELLS, 4, waves);
+    const tahr_vec3 even = {1, 1, 1};
+    for (int given = 0; given < 2; given++) {
+        fixture f;
+        tahr_native_desc options = fixture_options();
+        options.cache_margin = given;
+        fixture_init(&f);
+        assert_int_equal(fixture_open(&f, &body, 1, &options, 1), TAHR_OK);
+        assert_sides(gather_at(&f, v_make(40.5, 40.5, 0.5)), even, even);
+        sides s = gather_at(&f, v_make(43.5, 40.5, 0.5));
+        assert_sides(s, given ? even : v_make(0.25, 1, 1), given ? even : v_make(1.75, 1, 1));
+        /* 3 m that way and 4 m across it: three fifths and four of 0.75. */
+        s = gather_at(&f, v_make(40.5, 36.5, 0.5));
+        assert_sides(s, given ? even : v_make(1.45, 1.6, 1), given ? even : v_make(0.55, 0.4, 1));
+        /* Nobody walked here. */
+        assert_sides(gather_at(&f, v_make(60.5, 36.5, 0.5)), even, even);
+        assert_int_equal(f.context.gathers, 4);
+        fixture_close(&f);
     }
 }
 
@@ -164,6 +216,7 @@ int main(void)
         cmocka_unit_test(no_margin_changes_a_bit),
         cmocka_unit_test(what_is_gathered_fits_the_cache),
         cmocka_unit_test(a_margin_that_is_given_is_taken),
+        cmocka_unit_test(a_gather_reaches_farther_the_way_that_was_gone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

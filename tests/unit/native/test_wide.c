@@ -194,31 +194,91 @@ static void the_nearest_come_first(void **state)
     discard(&s);
 }
 
-static void collecting_and_counting_find_what_a_walk_finds(void **state)
+/* How far two boxes are apart along the axis where that is most. */
+static double most_apart(const tahr_bounds *a, const tahr_bounds *b)
+{
+    tahr_vec3 apart = v_max(v_sub(a->min, b->max), v_sub(b->min, a->max));
+    return d_max(apart.x, d_max(apart.y, apart.z));
+}
+
+static void check_collected(const scene *s, const tahr_bounds *box, double reach)
+{
+    static uint32_t items[MOST + TAHR__WIDE], others[MOST + TAHR__WIDE], times[MOST];
+    uint32_t count = tahr__wide_collect(&s->tree, box, reach, items, MOST);
+    assert_true(count <= MOST);
+    memset(times, 0, sizeof times);
+    for (uint32_t i = 0; i < count; i++) {
+        assert_true(items[i] < s->count);
+        times[s->order[items[i]]]++;
+    }
+    for (uint32_t i = 0; i < s->count; i++) {
+        double away = most_apart(&s->boxes[i], box);
+        assert_true(times[i] <= 1);
+        if (away <= reach) assert_int_equal(times[i], 1);
+        if (away > reach + slack(s) && away < 60 * s->size) assert_int_equal(times[i], 0);
+    }
+    if (count < 2) return;
+    /* Of what there is no room for as much is said, and no more than seven are written beyond it. */
+    memset(others, 0xff, sizeof others);
+    assert_true(tahr__wide_collect(&s->tree, box, reach, others, count - 2) > count - 2);
+    assert_memory_equal(items, others, (count - 2) * sizeof items[0]);
+    for (uint32_t i = count - 2 + TAHR__WIDE; i < MOST + TAHR__WIDE; i++)
+        assert_int_equal(others[i], 0xFFFFFFFFu);
+}
+
+static void collecting_finds_every_item_within_reach_once(void **state)
 {
     (void)state;
     static scene s;
-    static uint32_t items[MOST], seen[MOST];
     oracle_random r = {8};
-    make(&s, 0, MOST, v_make(0, 0, 0), &r);
-    for (int q = 0; q < 300; q++) {
-        tahr_bounds box = random_box(&s, &r);
-        double reach = oracle_uniform(&r, 0, 2);
-        uint32_t item, walked = 0, count = tahr__wide_collect(&s.tree, &box, reach, items, MOST);
-        tahr__wide_walk walk;
-        memset(seen, 0, sizeof seen);
-        for (uint32_t i = 0; i < count; i++)
-            seen[items[i]]++;
-        tahr__wide_walk_begin(&walk, &s.tree, &box, reach, &box.min);
-        for (; tahr__wide_walk_next(&walk, &item); walked++)
-            assert_int_equal(seen[item], 1);
-        assert_int_equal(walked, count);
-        assert_int_equal(tahr__wide_count(&s.tree, &box, reach, MOST), count);
-        if (count < 2) continue;
-        assert_int_equal(tahr__wide_collect(&s.tree, &box, reach, items, count - 1), count);
-        assert_true(tahr__wide_count(&s.tree, &box, reach, count - 2) > count - 2);
+    const uint32_t counts[] = {1, 2, 8, 9, 65, 1000, MOST};
+    const tahr_vec3 offsets[] = {{0, 0, 0}, {1e6, -2e6, 3e5}};
+    for (uint32_t n = 0; n < KINDS * 14; n++) {
+        make(&s, n % KINDS, counts[n / KINDS % 7], offsets[n / KINDS / 7], &r);
+        for (int q = 0; q < 60; q++) {
+            tahr_bounds box = random_box(&s, &r);
+            if (q % 20 == 0) box.max.x += 1e12; /* farther than is told apart */
+            if (q % 30 == 0) box.min.y -= 1e12;
+            check_collected(&s, &box, q % 10 == 5 ? 1e12 : q % 3 ? oracle_uniform(&r, 0, 1.5) : 0);
+        }
+        discard(&s);
     }
-    discard(&s);
+}
+
+static void every_width_collects_the_same_items(void **state)
+{
+    (void)state;
+    static scene s;
+    static uint32_t one[MOST + TAHR__WIDE], eight[MOST + TAHR__WIDE];
+    oracle_random r = {13};
+    if (tahr__wide_best() != tahr__wide_test_8) {
+        printf("SKIP: every_width_collects_the_same_items: this processor has no AVX2\n");
+        return;
+    }
+    uint32_t found = 0, passed = 0;
+    for (uint32_t kind = 0; kind < KINDS; kind++) {
+        make(&s, kind, MOST, v_make(0, 0, 0), &r);
+        for (int q = 0; q < 4000; q++) {
+            /* Of all sizes, around a node, up to the last place that a query may have. */
+            const tahr__wide_node *n = &s.tree.nodes[oracle_below(&r, s.tree.node_count)];
+            const double width = pow(2, oracle_uniform(&r, 0, 24));
+            tahr__wide_box box = {.limit = 0};
+            for (int a = 0; a < 3; a++) {
+                double at = (int32_t)(n->base[a] & 0xFFFFFF) + width * oracle_uniform(&r, -1.5, 0.5);
+                box.lo[a] = q % 16 == a ? -(1 << 30) : (int32_t)at;
+                box.hi[a] = q % 32 == a ? 1 << 30 : (int32_t)(at + width);
+                if (q % 64 == 4 * a) box.lo[a] = box.hi[a] = 1 << 30;
+            }
+            const uint32_t room = q % 8 ? MOST : oracle_below(&r, 40);
+            const uint32_t count = tahr__wide_items_1(&s.tree, &box, one, room);
+            assert_int_equal(tahr__wide_items_8(&s.tree, &box, eight, room), count);
+            assert_memory_equal(one, eight, (count < room ? count : room) * sizeof one[0]);
+            found += count > 0;
+            passed += count > room;
+        }
+        discard(&s);
+    }
+    assert_true(found > 2000 && found < KINDS * 4000 - 2000 && passed > 200);
 }
 
 static void check_width(tahr__wide_fn *test, const tahr__wide_node *n, const tahr__wide_box *box, const int32_t at[4])
@@ -342,7 +402,8 @@ int main(void)
         cmocka_unit_test(a_walk_that_is_narrowed_misses_nothing_in_the_narrower_box),
         cmocka_unit_test(a_walk_finds_all_of_a_tree_that_is_within_reach),
         cmocka_unit_test(the_nearest_come_first),
-        cmocka_unit_test(collecting_and_counting_find_what_a_walk_finds),
+        cmocka_unit_test(collecting_finds_every_item_within_reach_once),
+        cmocka_unit_test(every_width_collects_the_same_items),
         cmocka_unit_test(every_width_sees_the_same_bits),
         cmocka_unit_test(a_walk_looks_at_few_more_nodes_in_a_tree_64_times_larger),
         cmocka_unit_test(what_cannot_be_had_is_given_back),
