@@ -97,18 +97,12 @@ static int comes_to_rest(const tahr__step *step)
     return step->state.mode == TAHR_MODE_FALLING || (step->state.floor.flags & TAHR_FLOOR_WEDGED);
 }
 
-static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor)
+void tahr__find_floor_met(tahr__step *step, double reach, const tahr_hit *met, tahr_floor *floor)
 {
     const tahr_config *c = step->config;
     double range = foot_range(c, reach);
-    tahr_hit hit;
+    tahr_hit hit = *met;
     uint32_t flags = TAHR_FLOOR_BLOCKING;
-    if (supplied) {
-        hit = *supplied;
-        hit.fraction = 0; /* it ended here */
-    } else {
-        foot_sweep(step, &step->limits->foot, range, &hit);
-    }
     double inside = hit.blocking ? inside_rim(step, &hit) : 0;
     if (hit.blocking && !hit.start_overlap && inside < c->edge_tolerance) {
         tahr__decide(step, TAHR_RULE_EDGE_TOLERANCE, 0, &hit, inside, c->edge_tolerance, "touches the rim");
@@ -143,6 +137,18 @@ static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied,
     }
     floor->flags |= ok ? TAHR_FLOOR_WALKABLE : 0u;
     tahr__decide(step, TAHR_RULE_FLOOR, ok, &hit, floor->distance, range, "floor distance");
+}
+
+static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor)
+{
+    tahr_hit hit;
+    if (supplied) {
+        hit = *supplied;
+        hit.fraction = 0; /* it ended here */
+    } else {
+        foot_sweep(step, &step->limits->foot, foot_range(step->config, reach), &hit);
+    }
+    tahr__find_floor_met(step, reach, &hit, floor);
 }
 
 /* The field's dynamic base. Of a body that the core was not told of it is enough that bodies of its world move. */

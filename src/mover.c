@@ -13,6 +13,7 @@
 #include "message.h"
 #include "modes.h"
 #include "neighbours.h"
+#include "onward.h"
 #include "overlap.h"
 #include "plane.h"
 #include "query.h"
@@ -266,7 +267,9 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
             return status;
         }
     }
-    if (blank && usual && !around && tahr__go_short_way(mover, input, dt, state, report)) {
+    const int simple = blank && usual && !around;
+    mover->asked_short_way = 0;
+    if (simple && tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
     }
     tahr__step step;
@@ -291,6 +294,7 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     }
     step.ignore_body = TAHR_NO_BODY;
     step.passes = step.just_teleported = 0;
+    step.looks_onward = simple && may_look_onward(mover, report) ? TAHR__ONWARD + mover->asked_short_way : 0;
     step.dt = dt;
     step.push_left = mover->config.max_depenetration;
     step.time = step.ahead = 0;
