@@ -142,7 +142,6 @@ struct tahr_mover {
     uint32_t is_recorded; /* 1: the step under way has been told of */
     uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t may_go_short_way;
-    uint32_t asked_short_way; /* 1: by this step: the backend did not know the way and the floor under its end */
     uint32_t rest;   /* steps that go the long way before the short one is tried again, */
     uint32_t failed; /* and how often in a row it was of no use */
     tahr__sleep sleep;
@@ -175,7 +174,7 @@ struct tahr__step {
     vec3 began;               /* and where the character was before */
     uint32_t ignore_body;     /* not there for this step's queries now, or TAHR_NO_BODY */
     uint32_t passes;          /* 1: no one-way body is there for this step's sweeps now */
-    uint32_t looks_onward;    /* TAHR__ONWARD: its last piece may be asked for with the floor (onward.h); or 0 */
+    uint32_t looks_onward;    /* 1: the last piece along a wall may be asked for with the floor (onward.h) */
     uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */
     uint32_t frame_body;      /* what state.velocity is relative to in this step, or TAHR_NO_BODY (base_motion.c) */
     uint32_t frame_is_base;   /* 1: it stood on it; 0: it meets it in the air */
@@ -193,8 +192,6 @@ struct tahr__step {
     /* For what a perch meets (perch.h), or NULL. */
     struct tahr__inner *inner;
 };
-
-enum { TAHR__ONWARD = 1, TAHR__ASKED_ONWARD = 2 };
 
 /* Walking and falling may hand a step to each other this often (an edge that holds for a hair's breadth); then it ends.
  * Each time costs 10 to 50 queries to find where the floor ended. */

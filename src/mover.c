@@ -268,7 +268,6 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
         }
     }
     const int simple = blank && usual && !around;
-    mover->asked_short_way = 0;
     if (simple && tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
     }
@@ -294,7 +293,7 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     }
     step.ignore_body = TAHR_NO_BODY;
     step.passes = step.just_teleported = 0;
-    step.looks_onward = simple && may_look_onward(mover, report) ? TAHR__ONWARD + mover->asked_short_way : 0;
+    step.looks_onward = simple && may_look_onward(mover, report);
     step.dt = dt;
     step.push_left = mover->config.max_depenetration;
     step.time = step.ahead = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * onward.h: the last straight piece of a slice and the floor under its end in one look (the walk slot), where the
- * backend has it and knows: after a wall as on free ground. */
+ * onward.h: the last straight piece of a slice, along what was met in it, and the floor under its end in one look (the
+ * walk slot), where the backend has it and knows. */
 #ifndef TAHR_ONWARD_H
 #define TAHR_ONWARD_H
 
@@ -11,13 +11,6 @@
 static inline int may_look_onward(const tahr_mover *mover, const tahr_report *report)
 {
     return mover->may_go_short_way && mover->world->backend->walk && !(report && (report->decisions || report->queries));
-}
-
-/* Has the short way (stroll.c) asked for this motion already, and was not told? Then it begins on a face that holds. No
- * query. */
-static inline int was_asked_onward(const tahr__step *step)
-{
-    return step->looks_onward == TAHR__ASKED_ONWARD;
 }
 
 /* Moves the character by `motion`, to where a floor has not been looked for, if nothing is in the way and it is known

@@ -94,7 +94,6 @@ int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_sta
     tahr_query_context context = {.cache = mover->cache};
     tahr_hit hit;
     uint32_t known = 0;
-    mover->asked_short_way = 1;
     tahr_status status = mover->world->backend->walk(mover->world->self, &context, &walk, &hit, &known);
     if (status != TAHR_OK || !known || !hit_is_flawless(&hit)) {
         return 0;
