@@ -132,6 +132,12 @@ typedef struct tahr__custom {
 /* What a state remembers, from base on, that has nothing to remember. */
 extern const tahr_state tahr__blank;
 
+/* What became of the looks onward (onward.h). */
+typedef struct tahr__onward {
+    uint32_t rest;   /* times that none is taken, */
+    uint32_t failed; /* and how often in a row one was of no use */
+} tahr__onward;
+
 struct tahr_mover {
     tahr_world *world;
     struct tahr__company *company; /* in a step of a crowd: who else is there (neighbours.h), else NULL */
@@ -147,6 +153,7 @@ struct tahr_mover {
     tahr__sleep sleep;
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
+    tahr__onward onward;
     tahr_config config;
     tahr__limits limits;
 };
@@ -174,7 +181,6 @@ struct tahr__step {
     vec3 began;               /* and where the character was before */
     uint32_t ignore_body;     /* not there for this step's queries now, or TAHR_NO_BODY */
     uint32_t passes;          /* 1: no one-way body is there for this step's sweeps now */
-    uint32_t looks_onward;    /* 1: the last piece along a wall may be asked for with the floor (onward.h) */
     uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */
     uint32_t frame_body;      /* what state.velocity is relative to in this step, or TAHR_NO_BODY (base_motion.c) */
     uint32_t frame_is_base;   /* 1: it stood on it; 0: it meets it in the air */
@@ -189,6 +195,8 @@ struct tahr__step {
     tahr_status error;        /* sticky: after it every query answers "blocked here" */
     uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
     uint32_t apexes;          /* of them cut short at an apex */
+    /* The mover's, if the last piece along a wall may be asked for with the floor under its end (onward.h), or NULL. */
+    tahr__onward *onward;
     /* For what a perch meets (perch.h), or NULL. */
     struct tahr__inner *inner;
 };

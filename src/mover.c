@@ -293,7 +293,6 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     }
     step.ignore_body = TAHR_NO_BODY;
     step.passes = step.just_teleported = 0;
-    step.looks_onward = simple && may_look_onward(mover, report);
     step.dt = dt;
     step.push_left = mover->config.max_depenetration;
     step.time = step.ahead = 0;
@@ -302,6 +301,7 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     step.iterations = step.apexes = 0;
     step.trail = NULL;
     step.inner = NULL;
+    step.onward = simple && may_look_onward(mover, report) ? &mover->onward : NULL;
     step.around = around;
     step.neighbours = NULL;
     if (step.world->has & TAHR__HAS_SENSORS) {

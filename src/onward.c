@@ -3,9 +3,29 @@
 #include "onward.h"
 
 #include "answer.h"
+#include "floor.h"
 #include "foot.h"
 
-int tahr__go_onward(tahr__step *step, vec3 motion, tahr_hit *below)
+/* Where it was of no use it is not tried for a while: twice as long each time, up to 15 times. Of no bearing on any
+ * bit. */
+static int tries(tahr__onward *o)
+{
+    if (o->rest > 0) {
+        o->rest--;
+        return 0;
+    }
+    return 1;
+}
+
+static int note(tahr__onward *o, int done)
+{
+    const uint32_t most = 5;
+    o->failed = done ? 0 : o->failed < most ? o->failed + 1 : most;
+    o->rest = (1u << o->failed) / 2 - (o->failed > 0);
+    return done;
+}
+
+static int look(tahr__step *step, vec3 motion, tahr_hit *below)
 {
     const tahr_config *c = step->config;
     const tahr__foot *foot = &step->limits->foot;
@@ -32,4 +52,16 @@ int tahr__go_onward(tahr__step *step, vec3 motion, tahr_hit *below)
     step->queries += 2;
     step->report.sweeps += 2;
     return 1;
+}
+
+/* From the inside of a face that holds; where it is more than that, there is more around than one look tells. */
+static int is_plain(const tahr_floor *f)
+{
+    const uint32_t face = TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE;
+    return (f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) == face && dot(f->normal, f->surface_normal) >= TAHR__ON_FACE;
+}
+
+int tahr__go_onward(tahr__step *step, vec3 motion, tahr_hit *below)
+{
+    return is_plain(&step->state.floor) && tries(step->onward) && note(step->onward, look(step, motion, below));
 }
