@@ -449,10 +449,10 @@ static int is_under_way(const tahr__step *step, const tahr__path *w, uint32_t sw
            step->error >= 0;
 }
 
-/* Goes the rest of the slice with one look ahead and down. */
+/* Goes the rest of the slice with one look ahead and down. The first piece was asked for so before (stroll.c). */
 static int go_onward(tahr__step *step, tahr__path *w, vec3 motion)
 {
-    if (!step->onward || w->rest > 0 || w->turns == 0) { /* the first piece was asked for so before (stroll.c) */
+    if (w->turns == 0 || w->rest > 0 || !step->onward) {
         return 0;
     }
     w->knows_below = (uint32_t)tahr__go_onward(step, motion, &w->below);
