@@ -10,7 +10,8 @@
  * then its sweeps are no more than the slot answers. decisions, queries: is somebody there to see them one by one? */
 static inline int may_look_onward(const tahr_mover *mover, const tahr_report *report)
 {
-    return mover->may_go_short_way && mover->world->backend->walk && !(report && (report->decisions || report->queries));
+    return mover->may_go_short_way && mover->world->backend->walk &&
+           !(report && (report->decisions || report->queries));
 }
 
 /* Moves the character by `motion`, to where a floor has not been looked for, if nothing is in the way and it is known

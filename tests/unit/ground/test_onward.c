@@ -64,14 +64,16 @@ static tahr_status walk(void *self, tahr_query_context *context, const tahr_walk
     return TAHR_OK;
 }
 
-/* A level ground with walls, pillars and slopes on it that stand close enough to be met all the time. */
+/* A platform in the middle of a level ground, and on both walls, pillars and slopes that stand close enough to be met
+ * all the time, also at the border. */
 static void make_yard(tahr_body_desc bodies[BODIES])
 {
     oracle_random random = {.state = 11};
-    bodies[0] = native_box(v_make(0, 0, -1), v_make(40, 40, 1));
-    for (int i = 1; i < BODIES; i++) {
+    bodies[0] = native_box(v_make(0, 0, -2), v_make(4, 4, 2));
+    bodies[1] = native_box(v_make(0, 0, -2.2), v_make(40, 40, 1));
+    for (int i = 2; i < BODIES; i++) {
         const double turn = oracle_uniform(&random, 0, 3.1), tilt = i % 3 == 0 ? oracle_uniform(&random, 0.2, 1.2) : 0;
-        const tahr_vec3 at = {oracle_uniform(&random, -7, 7), oracle_uniform(&random, -7, 7), 0.4};
+        const tahr_vec3 at = {oracle_uniform(&random, -7, 7), oracle_uniform(&random, -7, 7), i % 2 ? 0.4 : -0.8};
         bodies[i] = native_box(at, v_make(0.2 + 0.1 * (i % 4), oracle_uniform(&random, 0.5, 2.5), i % 5 ? 1.6 : 0.3));
         const tahr_quat yaw = {0, 0, sin(turn / 2), cos(turn / 2)};
         const double s = sin(tilt / 2), c = cos(tilt / 2);

@@ -30,8 +30,8 @@ static tahr_hit meet(const tahr_vec3 corner[3], double y)
     tahr_body_desc body = fixture_mesh(vertices, 3, indices, 1);
     body.flags = TAHR_BODY_TWO_SIDED;
     native_open(&f, &body, 1, 0);
-    const tahr_sweep sweep = fixture_sweep(fixture_shape(TAHR_SHAPE_CAPSULE, RADIUS, HALF), v_make(0, y, MIDDLE),
-                                           v_make(2, 0, 0), MARGIN);
+    const tahr_sweep sweep =
+        fixture_sweep(fixture_shape(TAHR_SHAPE_CAPSULE, RADIUS, HALF), v_make(0, y, MIDDLE), v_make(2, 0, 0), MARGIN);
     const tahr_hit hit = fixture_hit(&f, &sweep);
     native_close(&f);
     assert_int_equal(hit.blocking, 1);
