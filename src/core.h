@@ -185,6 +185,12 @@ extern const tahr_state tahr__blank;
         .wall_body = TAHR_NO_BODY, .drop_body = TAHR_NO_BODY                                                         \
     }
 
+/* What became of the looks onward (onward.h). */
+typedef struct tahr__onward {
+    uint32_t rest;   /* times that none is taken, */
+    uint32_t failed; /* and how often in a row one was of no use */
+} tahr__onward;
+
 /* In the order in which a step reads it: the short way (short_way.h) costs the lines of memory up to the limits' foot. */
 struct tahr_mover {
     tahr_world *world;
@@ -202,6 +208,7 @@ struct tahr_mover {
     uint32_t record_number; /* and the number */
     tahr__pace pace;
     tahr__dive dive;
+    tahr__onward onward;
     tahr__limits limits;
     tahr_config config;
     size_t cache_size;
@@ -256,6 +263,8 @@ struct tahr__step {
     tahr_status error;        /* sticky: after it every query answers "blocked here" */
     uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
     uint32_t apexes;          /* of them cut short at an apex */
+    /* The mover's, if the last piece along a wall may be asked for with the floor under its end (onward.h), or NULL. */
+    tahr__onward *onward;
     /* For what a perch meets (perch.h), or NULL. */
     struct tahr__inner *inner;
 };

@@ -97,52 +97,64 @@ static int comes_to_rest(const tahr__step *step)
     return step->state.mode == TAHR_MODE_FALLING || (step->state.floor.flags & TAHR_FLOOR_WEDGED);
 }
 
-static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor)
+/* [in,out] hit: of the whole foot; a thinner one may have to look again. */
+static void judge_whole(tahr__step *step, double reach, tahr_hit *hit, tahr_floor *floor)
 {
     const tahr_config *c = step->config;
     double range = foot_range(c, reach);
-    tahr_hit hit;
     uint32_t flags = TAHR_FLOOR_BLOCKING;
-    if (supplied) {
-        hit = *supplied;
-        hit.fraction = 0; /* it ended here */
-    } else {
-        foot_sweep(step, &step->limits->foot, range, &hit);
-    }
-    double inside = hit.blocking ? inside_rim(step, &hit) : 0;
-    if (hit.blocking && !hit.start_overlap && inside < c->edge_tolerance) {
-        tahr__decide(step, TAHR_RULE_EDGE_TOLERANCE, 0, &hit, inside, c->edge_tolerance, "touches the rim");
+    double inside = hit->blocking ? inside_rim(step, hit) : 0;
+    if (hit->blocking && !hit->start_overlap && inside < c->edge_tolerance) {
+        tahr__decide(step, TAHR_RULE_EDGE_TOLERANCE, 0, hit, inside, c->edge_tolerance, "touches the rim");
         tahr__foot inner = tahr__thinner_foot(step, 2 * c->edge_tolerance);
-        foot_sweep(step, &inner, range, &hit);
-        inside = hit.blocking ? inside_rim(step, &hit) : 0;
+        foot_sweep(step, &inner, range, hit);
+        inside = hit->blocking ? inside_rim(step, hit) : 0;
         flags |= TAHR_FLOOR_RIM;
     }
-    if (!hit.blocking || step->error < 0) {
+    if (!hit->blocking || step->error < 0) {
         *floor = (tahr_floor){.distance = range + c->skin, .body = TAHR_NO_BODY};
         tahr__decide(step, TAHR_RULE_FLOOR, 0, NULL, floor->distance, range, "nothing below");
         return;
     }
     /* Out of no floor by more than its own height: what says deeper is wrong, or a push is called for. */
-    double deep = max_of(-hit.depth, -2 * step->limits->shape.half_height);
-    fill(floor, &hit, hit.start_overlap ? deep : foot_clearance(step, &hit, range),
-         flags | floor_still_slope(&step->state.floor, &hit));
-    int surface = tahr__is_walkable(step, &hit, tahr__was_walkable(step, &hit));
+    double deep = max_of(-hit->depth, -2 * step->limits->shape.half_height);
+    fill(floor, hit, hit->start_overlap ? deep : foot_clearance(step, hit, range),
+         flags | floor_still_slope(&step->state.floor, hit));
+    int surface = tahr__is_walkable(step, hit, tahr__was_walkable(step, hit));
     floor->flags |= surface ? TAHR_FLOOR_FACE : 0u;
     /* On the inside of a face the contact is the foot's own, however far out a slope puts it: no perching there. */
-    int on_face = dot(hit.normal, hit.surface_normal) > TAHR__ON_FACE;
+    int on_face = dot(hit->normal, hit->surface_normal) > TAHR__ON_FACE;
     int rim = inside < c->perch_threshold + c->skin;
     int ok = surface && (on_face || !rim);
-    if (!ok && rim && !hit.start_overlap) {
-        ok = tahr__perches(step, reach, &hit, floor);
+    if (!ok && rim && !hit->start_overlap) {
+        ok = tahr__perches(step, reach, hit, floor);
     }
     if (!ok && !surface && !rim) {
-        ok = tahr__holds_on_lip(step, &hit);
+        ok = tahr__holds_on_lip(step, hit);
     }
     if (!ok && (!surface || comes_to_rest(step))) {
         ok = wedge(step, floor);
     }
     floor->flags |= ok ? TAHR_FLOOR_WALKABLE : 0u;
-    tahr__decide(step, TAHR_RULE_FLOOR, ok, &hit, floor->distance, range, "floor distance");
+    tahr__decide(step, TAHR_RULE_FLOOR, ok, hit, floor->distance, range, "floor distance");
+}
+
+static void find_whole(tahr__step *step, double reach, const tahr_hit *supplied, tahr_floor *floor)
+{
+    tahr_hit hit;
+    if (supplied) {
+        hit = *supplied;
+        hit.fraction = 0; /* it ended here */
+    } else {
+        foot_sweep(step, &step->limits->foot, foot_range(step->config, reach), &hit);
+    }
+    judge_whole(step, reach, &hit, floor);
+}
+
+void tahr__find_floor_met(tahr__step *step, double reach, const tahr_hit *met, tahr_floor *floor)
+{
+    tahr_hit hit = *met;
+    judge_whole(step, reach, &hit, floor);
 }
 
 /* The field's dynamic base. Of a body that the core was not told of it is enough that bodies of its world move. */

@@ -50,6 +50,9 @@ int tahr__was_walkable(const tahr__step *step, const tahr_hit *hit);
  * at most 6, with flat_base 10. */
 void tahr__find_floor(tahr__step *step, double reach, const tahr__supplied *supplied, tahr_floor *floor);
 
+/* The same with WHOLE, where the sweep of the whole foot has been answered already: one sweep less. */
+void tahr__find_floor_met(tahr__step *step, double reach, const tahr_hit *met, tahr_floor *floor);
+
 /* 1 sweep, 1 retry with a thinner shape, 1 perch sweep, 4 rays for the front of a step, 1 contact query for a wedge. */
 enum { TAHR__FLOOR_QUERIES = 8 };
 

@@ -13,6 +13,7 @@
 #include "message.h"
 #include "modes.h"
 #include "neighbours.h"
+#include "onward.h"
 #include "overlap.h"
 #include "plane.h"
 #include "query.h"
@@ -296,6 +297,7 @@ static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double 
     step.iterations = step.apexes = 0;
     step.trail = NULL;
     step.inner = NULL;
+    step.onward = plain && !around && may_look_onward(mover, report) ? &mover->onward : NULL;
     step.around = around;
     step.neighbours = NULL;
     if (step.world->has & TAHR__HAS_SENSORS) {

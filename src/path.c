@@ -8,6 +8,7 @@
 #include "move.h"
 #include "move_along_floor.h"
 #include "nearby.h"
+#include "onward.h"
 #include "plane.h"
 #include "query.h"
 #include "scope.h"
@@ -86,6 +87,7 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     w->start = step->state.position;
     w->chord = 0;
     w->chords = 0;
+    w->knows_below = 0;
     tahr__around_begin(&w->around);
     tahr__path_carry_floor(w, step);
     w->slope = w->ramp_count ? w->ramps[0] : step->state.up;
@@ -447,6 +449,16 @@ static int is_under_way(const tahr__step *step, const tahr__path *w, uint32_t sw
            step->error >= 0;
 }
 
+/* Goes the rest of the slice with one look ahead and down. The first piece was asked for so before (stroll.c). */
+static int go_onward(tahr__step *step, tahr__path *w, vec3 motion)
+{
+    if (w->turns == 0 || w->rest > 0 || !step->onward) {
+        return 0;
+    }
+    w->knows_below = (uint32_t)tahr__go_onward(step, motion, &w->below);
+    return (int)w->knows_below;
+}
+
 void tahr__path_walk(tahr__step *step, tahr__path *w)
 {
     tahr_hit hit;
@@ -465,6 +477,10 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
         vec3 motion = along_floor(w, step, level);
         w->from = step->state.position;
         w->left_before = w->left;
+        if (go_onward(step, w, motion)) {
+            w->left = 0;
+            return;
+        }
         uint32_t pushed = (uint32_t)tahr__move(step, motion, &hit);
         w->careful |= pushed; /* out of an overlap: there is no way back */
         w->left *= hit.blocking ? 1 - hit.fraction : 0;

@@ -36,6 +36,8 @@ typedef struct tahr__path {
     tahr__around around;       /* what the last wall belongs to */
     double chord;              /* s of each piece of a way that bends; 0: it is not cut up */
     uint32_t chords;           /* of them */
+    uint32_t knows_below;      /* 1: what the foot meets where the path is now: */
+    tahr_hit below;
 } tahr__path;
 
 /* Starts a path of `duration` seconds at the state's position and velocity. No query. */

@@ -34,12 +34,36 @@ static vec3 lift_between(const tahr__plane *planes, uint32_t count, vec3 x, doub
     return tahr__project(lifted, count, x, &y) ? y : x;
 }
 
+/* A millionth of the wish is rounding in a corner, not a way out. */
+static int is_rounding(vec3 x, double size)
+{
+    return length_squared(x) < 1e-12 * size * size;
+}
+
+/* Along one plane, which is what most motions are bent along: the same operations, and so the same bits, without the
+ * loops and the lists. */
+static vec3 bend_once(const tahr__plane *plane, vec3 motion)
+{
+    const vec3 n = plane->normal;
+    const double into = dot(n, motion), size = length(motion);
+    const vec3 x = into < plane->offset ? add_scaled(motion, n, plane->offset - into) : motion;
+    if (is_rounding(x, size)) {
+        return vec(0, 0, 0);
+    }
+    const vec3 off = dot(n, x) < LIFT * size ? n : vec(0, 0, 0);
+    const vec3 lifted = add_scaled(x, add(vec(0, 0, 0), off), LIFT * size);
+    return dot(n, lifted) >= LEAST_LIFT * size ? lifted : lift_between(plane, 1, x, LIFT * size);
+}
+
 vec3 tahr__bend(const tahr__plane *planes, uint32_t count, vec3 motion)
 {
     vec3 x, off = vec(0, 0, 0);
+    if (count == 1) {
+        return bend_once(planes, motion);
+    }
     tahr__project(planes, count, motion, &x);
     double size = length(motion);
-    if (length_squared(x) < 1e-12 * size * size) { /* a millionth of the wish is rounding in a corner, not a way out */
+    if (is_rounding(x, size)) {
         return vec(0, 0, 0);
     }
     for (uint32_t i = 0; i < count; i++) {

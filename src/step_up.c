@@ -44,18 +44,34 @@ static double free_ahead(tahr__step *step, vec3 motion, double lift, tahr_hit *h
     return part == 1 || part * length(motion) > PROGRESS * step->limits->width ? part : 0;
 }
 
-/* Would the raised shape touch the same point of a wall, with the side that it touches it with now? Then it gets no
- * farther up there, and no sweep need say so. */
+/* Would the raised shape, by whatever part of the lift, touch the same point of a wall, with its side? Then it gets no
+ * farther up there, and no sweep need say so: whatever else it meets, the point stays in the way. Of a wall that leans
+ * the shape is up there as near to a higher place, or nearer, and would leave that place and the point both if it
+ * nearly passed the wall: a way that turns by half of into^2 from the wall's does not, as long as that is more of its
+ * distance from the axis than the wall leans over it. Half of what is allowed is left for rounding and the bend of the
+ * circle. */
 static int blocks_raised(const tahr__step *step, vec3 motion, const tahr_hit *obstacle, double lift)
 {
     const double upright = 1e-9, against = 1e-3; /* less is the rounding of a face, and of a motion along it */
+    const double nearly = 1e-3;
     const tahr__limits *l = step->limits;
-    double up = dot(obstacle->normal, step->state.up), into = -dot(motion, obstacle->normal) / length(motion);
-    double at = dot(sub(obstacle->point, step->state.position), step->state.up);
-    int side = up < upright && up > -upright && at <= l->axis && at - lift >= -l->axis && into > against;
+    const vec3 up = step->state.up, off = sub(obstacle->point, step->state.position);
+    double lean = dot(obstacle->normal, up), at = dot(off, up), size = length(motion);
+    double into = -dot(motion, obstacle->normal) / size, over = max_of(at - l->axis, 0);
     int straight = l->shape.type == TAHR_SHAPE_SPHERE || l->shape.type == TAHR_SHAPE_CAPSULE;
-    return side && straight && step->config->separation == TAHR_SEPARATION_MARGIN &&
-           obstacle->distance - step->config->skin <= into * PROGRESS * l->width;
+    int side = lean < nearly && lean > -nearly && at - lift >= -l->axis && into > against;
+    if (!side || !straight || step->config->separation != TAHR_SEPARATION_MARGIN) {
+        return 0;
+    }
+    if (lean < upright && lean > -upright) {
+        return over == 0 && obstacle->distance - step->config->skin <= into * PROGRESS * l->width;
+    }
+    const vec3 level = reject(off, up);
+    double away = sqrt(length_squared(level) + over * over), gap = away - l->shape.radius - step->config->skin;
+    double toward = dot(motion, level) / (away * size);
+    return over < l->shape.radius * nearly && toward > against &&
+           gap <= 0.5 * toward * min_of(PROGRESS * l->width, size) &&
+           2 * lift * (lean < 0 ? -lean : lean) < away * toward * toward;
 }
 
 /* Raises it only as far as a ceiling lets. Returns 0 if that is not enough. */

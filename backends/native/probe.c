@@ -195,6 +195,9 @@ static void found_fill(const tahr__query *query, const tahr__prim *prim, const t
     out->normal = normals->normal;
     out->face = normals->face;
     out->point = probe->witness.point;
+    if (query->core.axis_count == 1) {
+        out->point = tahr__touch_middle(prim, &probe->witness, v_mad(query->start, query->motion, out->t));
+    }
     if (prim->radius > 0) out->point = v_mad(out->point, normals->normal, prim->radius);
     out->overlap = out->unknown = out->edge = 0;
     out->body = prim->body;

@@ -433,6 +433,10 @@ int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const ta
 int tahr__probe_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3 face, double t, tahr__found *out);
 /* 1 if the primitive is within margin of the shape at its start. */
 int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double margin, tahr__found *out);
+
+/* Of a capsule's contact with an upright face or edge, along which its side touches alike: the point that is nearest to
+ * the middle of the shape, centred at `centre`. Of another the one that was found. */
+tahr_vec3 tahr__touch_middle(const tahr__prim *prim, const tahr__witness *w, tahr_vec3 centre);
 /* Is a before b? Overlaps first, the deepest of them; then (fraction, body, feature). */
 int tahr__found_before(const tahr__found *a, const tahr__found *b);
 /* The last of these alone: by body, feature, item. */

@@ -145,7 +145,7 @@ typedef struct tahr_hit {
     double depth;             /* m, > 0 only with start_overlap */
     tahr_vec3 normal;         /* contact normal, unit, from the surface to the shape */
     tahr_vec3 surface_normal; /* unit, of the face; on an edge or vertex, of its face that opposes the motion most */
-    tahr_vec3 point;          /* on the surface */
+    tahr_vec3 point;          /* on the surface; of a line or patch that touches alike, one of its points */
     double walkable_angle;    /* rad, with INCREASE and DECREASE */
     uint32_t walkable_rule;   /* TAHR_WALKABLE_* */
     uint32_t surface;         /* the user's id of the surface */
