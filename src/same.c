@@ -6,53 +6,52 @@
 
 #ifdef TAHR__HAS_WIDE
 
-#include <immintrin.h>
-
 #define WIDE __attribute__((target("avx2")))
 
-enum { MEMORY = offsetof(tahr_state, base), STEP = sizeof(__m256i) };
+typedef long long words __attribute__((vector_size(32)));
 
-_Static_assert(MEMORY % STEP == STEP / 2 && sizeof(tahr_state) % STEP == 0, "cut in the middle of a vector");
+/* CUT: from where on the state is compared with what nobody remembers; a little of that lies before. */
+enum { STEP = sizeof(words), CUT = (offsetof(tahr_state, base) + STEP - 1) / STEP * STEP };
 
 uint8_t tahr__is_wide(void)
 {
     return __builtin_cpu_supports("avx2") != 0;
 }
 
-WIDE static inline __m256i load(const void *from, size_t at)
+WIDE static inline words load(const void *from, size_t at)
 {
-    return _mm256_loadu_si256((const __m256i *)(const void *)((const char *)from + at));
-}
-
-WIDE static inline __m256i half(const void *from, size_t at)
-{
-    return _mm256_zextsi128_si256(_mm_loadu_si128((const __m128i *)(const void *)((const char *)from + at)));
+    words w;
+    memcpy(&w, (const char *)from + at, sizeof w);
+    return w;
 }
 
 /* All bits that differ; memory: what the state remembered. */
-WIDE static inline __m256i other_state(const tahr__sleep *s, const tahr_state *memory, const tahr_state *state)
+WIDE static inline words other_state(const tahr__sleep *s, const tahr_state *memory, const tahr_state *state)
 {
-    __m256i other = _mm256_xor_si256(half(state, MEMORY - STEP / 2), half(&s->state, MEMORY - STEP / 2));
-    other = _mm256_or_si256(other, _mm256_xor_si256(half(state, MEMORY), half(memory, MEMORY)));
+    words other = {0, 0, 0, 0};
 #if !defined(__clang__)
 #pragma GCC unroll 16
 #endif
-    for (size_t at = 0; at + STEP <= MEMORY; at += STEP) {
-        other = _mm256_or_si256(other, _mm256_xor_si256(load(state, at), load(&s->state, at)));
+    for (size_t at = 0; at < CUT; at += STEP) {
+        other |= load(state, at) ^ load(&s->state, at);
     }
 #if !defined(__clang__)
 #pragma GCC unroll 16
 #endif
-    for (size_t at = MEMORY + STEP / 2; at < sizeof *state; at += STEP) {
-        other = _mm256_or_si256(other, _mm256_xor_si256(load(state, at), load(memory, at)));
+    for (size_t at = CUT; at < sizeof *state; at += STEP) {
+        other |= load(state, at) ^ load(memory, at);
     }
     return other;
 }
 
+WIDE static inline int is_zero(words w)
+{
+    return __builtin_ia32_ptestz256(w, w);
+}
+
 WIDE int tahr__same_wide(const tahr__sleep *s, const tahr_state *state)
 {
-    const __m256i other = other_state(s, noted_memory(s), state);
-    return _mm256_testz_si256(other, other);
+    return is_zero(other_state(s, noted_memory(s), state));
 }
 
 /* What is rarer goes the general way. */
@@ -69,9 +68,8 @@ WIDE tahr_status tahr__step_wide(tahr_mover *mover, const tahr_input *input, dou
         return tahr__step_noted(mover, input, dt, state, report);
     }
     static const tahr_state blank = TAHR__BLANK; /* known here: most of it is zero, and need not be read */
-    const __m256i other =
-        _mm256_or_si256(other_state(s, &blank, state), _mm256_xor_si256(load(input, 0), load(&s->input, 0)));
-    if (!_mm256_testz_si256(other, other)) {
+    const words other = other_state(s, &blank, state) | (load(input, 0) ^ load(&s->input, 0));
+    if (!is_zero(other)) {
         return tahr__step_noted(mover, input, dt, state, report);
     }
     return !report && s->noted == 1 ? s->status : tahr__step_same(mover, input, dt, state, report);
