@@ -132,12 +132,16 @@ static double brake_phase(const tahr__law *law, vec3 v, double t, tahr__motion *
     return until <= t && floor_speed == 0 ? t : used;
 }
 
+/* Of a speed on the cap, which is what the last step left: forty times what rounding does to it, and less than a
+ * billionth of a micrometre in a step. Who is told to be below it looks for the way back there. */
+#define ON_CAP (1 - 1e-14)
+
 /* Along the wish: the free line, and from where it meets the cap along the cap. q2 = q(0)^2, e = expm1(-f t). Returns
  * the way, [out] the speed at the end. */
 static double bent(const tahr__law *law, double p, double q2, double e, double t, double *p1)
 {
     double f = law->turn_friction, a = law->acceleration, c = cap(law, q2);
-    if (p >= c && a > 0 && a * c >= f * q2) { /* on the cap, and the line is steeper: stays on it */
+    if (p >= c * ON_CAP && a > 0 && a * c >= f * q2) { /* on the cap, and the line is steeper: stays on it */
         return on_cap(law, q2, c, e, t, p1);
     }
     p = min_of(p, c);

@@ -337,6 +337,9 @@ int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
  * is not clear where the floor is. */
 enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
 int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit);
+/* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting anything;
+ * < 0: not known. What has not been gathered may be anywhere. */
+double tahr__vicinity_room(const tahr__query *query);
 
 /* m from a place (world) to everything that is static: 0 within the bounds of all of it, and no more than 16. */
 double tahr__outside_of_all(const tahr__native *world, tahr_vec3 position);

@@ -14,6 +14,8 @@
  * is not told, for the distances of lanes are right within TAHR__LANE_SLACK only near by. */
 #define LOOK 0.4
 #define FARTHEST 16.0
+/* A foot that comes down from a walk goes no farther (m), mostly. */
+#define DOWNWARD 0.02
 /* Who has come farther (m) from the place looks around anew: a runner after two steps or three. */
 #define DRIFT 0.12
 /* Longer motions (m) are spanned by no place. */
@@ -500,20 +502,47 @@ int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit)
     return 1;
 }
 
+/* Those of the picked that are above the floor, if none of them is in the way of the body; -1: one is. */
+static int passed_by(const tahr__query *body, tahr__lanes_found *found, uint32_t count)
+{
+    int kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (side_at(body, found[i].index) >= BELOW) continue;
+        if (!is_passed(body, formed(body, found[i].index), 1)) return -1;
+        found[kept++] = found[i];
+    }
+    return kept;
+}
+
 int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit)
 {
     tahr__lanes_found found[TAHR__CACHE_MOST];
     tahr__found floor;
+    const double reach = d_max(reach_of(body), reach_of(foot)), most = need(farthest2(body, 1), reach) + DOWNWARD;
+    const int near = passed_by(body, found, pick(body, most, 1, found));
+    if (near < 0) return TAHR__BARRED;
     if (!comes_down(foot, &floor)) return TAHR__UNCLEAR;
-    const double until = tied(foot, floor.t), far2 = d_max(farthest2(body, 1), farthest2(foot, until));
-    const uint32_t count = pick(body, need(far2, d_max(reach_of(body), reach_of(foot))), 1, found);
-    for (uint32_t i = 0; i < count; i++) {
-        if (side_at(body, found[i].index) >= BELOW) continue;
-        const tahr__prim *prim = formed(body, found[i].index);
-        if (!is_passed(body, prim, 1) || !is_passed(foot, prim, until)) return TAHR__BARRED;
+    const double until = tied(foot, floor.t);
+    if (need(farthest2(foot, until), reach) > most) return TAHR__UNCLEAR;
+    for (int i = 0; i < near; i++) {
+        if (!is_passed(foot, formed(foot, found[i].index), until)) return TAHR__BARRED;
     }
     tell(foot, &floor, hit);
     return TAHR__LANDED;
+}
+
+double tahr__vicinity_room(const tahr__query *query)
+{
+    const tahr__vicinity *v = &query->cache->vicinity;
+    const float *far = tahr__cache_far(query->cache);
+    const tahr_bounds *box = &query->cache->local;
+    const tahr_vec3 low = v_sub(v_sub(query->start, query->extent), box->min);
+    const tahr_vec3 edge = v_min(low, v_sub(box->max, v_add(query->start, query->extent)));
+    float least = (float)FARTHEST;
+    for (uint32_t i = 0; i < query->cache->count; i++)
+        least = far[i] < least ? far[i] : least;
+    const double nearest = (least - TAHR__LANE_SLACK) * (1 - 4e-6) - sqrt(away2(v, query, query->start));
+    return d_min(nearest, d_min(edge.x, d_min(edge.y, edge.z))) - reach_of(query) - 2 * SPARE;
 }
 
 void tahr__vicinity_forget(const tahr__native *world, tahr__cache *cache)

@@ -82,5 +82,6 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
     if (way == TAHR__UNKNOWN) return TAHR_OK;
     *known = (uint32_t)(walk->foot ? goes_to(&body, way, walk, hit) : tahr__vicinity_is_clear(&body, way));
     context->spared += *known ? walk->foot ? 2 : 1 : 0;
+    if (!walk->foot && *known) hit->distance = d_max(tahr__vicinity_room(&body), 0);
     return TAHR_OK;
 }
