@@ -6,9 +6,6 @@
 /* m/s, squared: faster than this a fall is capped (mover.c). */
 static const double FASTEST2 = 1e10;
 
-/* Of an arc that falling.c cuts into more chords than this the long way is no detour: 10 Hz are 5 at most. */
-enum { MOST_CHORDS = 6 };
-
 /* What a flight may remember: buttons do nothing in the air without the settings under "Feel". */
 enum { REMEMBERED = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMPING | TAHR_STATE_FLOOR_MOVED };
 
@@ -28,7 +25,7 @@ tahr__dive tahr__dive_of(const tahr_config *c, const tahr__limits *limits)
                        .move = none,
                        .law = tahr__arc_law(c, none)};
     dive.chord = gravity > 0 ? sqrt(8 * c->arc_tolerance / gravity) : 0;
-    dive.longest = gravity > 1e-6 ? MOST_CHORDS * dive.chord : 0;
+    dive.longest = gravity > 1e-6 ? TAHR__MOST_CHORDS * dive.chord : 0;
     return dive;
 }
 

@@ -10,6 +10,9 @@
 #include "neighbours.h"
 #include "report.h"
 
+/* Of an arc that falling.c cuts into more chords than this the long way is no detour: 10 Hz are 5 at most. */
+enum { TAHR__MOST_CHORDS = 6 };
+
 /* May steps of this mover be such? Asked once. No query. */
 int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits);
 
@@ -44,8 +47,8 @@ static inline void tahr__note_short_way(tahr_mover *mover, int done)
 /* Of a step that went the long way. */
 static inline void tahr__note_long_way(tahr_mover *mover, const tahr_report *r, uint32_t mode)
 {
-    const uint32_t of_short = mode == TAHR_MODE_FALLING ? 1 : 2;
-    mover->long_way = r->sweeps > of_short || r->contact_queries > 0 || r->rays > 0;
+    const uint32_t most = mode == TAHR_MODE_WALKING ? 2 : TAHR__MOST_CHORDS;
+    mover->long_way = r->sweeps > most || r->slides > 0 || r->contact_queries > 0 || r->rays > 0;
 }
 
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,

@@ -199,10 +199,10 @@ static void a_gather_reaches_farther_the_way_that_was_gone(void **state)
         assert_int_equal(fixture_open(&f, &body, 1, &options, 1), TAHR_OK);
         assert_sides(gather_at(&f, v_make(40.5, 40.5, 0.5)), even, even);
         sides s = gather_at(&f, v_make(43.5, 40.5, 0.5));
-        assert_sides(s, given ? even : v_make(0.5, 1, 1), given ? even : v_make(1.5, 1, 1));
-        /* 3 m that way and 4 m across it: three fifths and four of 0.5. */
+        assert_sides(s, given ? even : v_make(0.25, 1, 1), given ? even : v_make(1.75, 1, 1));
+        /* 3 m that way and 4 m across it: three fifths and four of 0.75. */
         s = gather_at(&f, v_make(40.5, 36.5, 0.5));
-        assert_sides(s, given ? even : v_make(1.3, 1.4, 1), given ? even : v_make(0.7, 0.6, 1));
+        assert_sides(s, given ? even : v_make(1.45, 1.6, 1), given ? even : v_make(0.55, 0.4, 1));
         /* Nobody walked here. */
         assert_sides(gather_at(&f, v_make(60.5, 36.5, 0.5)), even, even);
         assert_int_equal(f.context.gathers, 4);
