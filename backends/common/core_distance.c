@@ -6,6 +6,8 @@
 #define TOUCHING 1e-12
 /* Pairs of edges with a squared sine below this are parallel: what is across them is rounding. */
 #define NEARLY_PARALLEL 1e-20
+/* What rounding makes of a height along a unit normal, of the coordinates that it is made of, and more. */
+#define ROUNDING 1e-14
 /* From as far away (m) as this the nearest points are clear. */
 #define CLEAR 1e-6
 
@@ -116,12 +118,24 @@ static void keep_nearer(tahr__witness *out, const tahr__witness *w)
     if (w->distance < out->distance) *out = *w;
 }
 
-/* A segment against the edges of the triangle; only interior pairs can beat the ends and the corners. */
+static double sum_of(tahr_vec3 v)
+{
+    return fabs(v.x) + fabs(v.y) + fabs(v.z);
+}
+
+/* A segment against the edges of the triangle; only interior pairs can beat the ends and the corners. No two sets are
+ * nearer than they are along one direction: along the normal found so far most edges are seen to be too far away. */
 static void against_edges(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 *v, tahr__witness *out)
 {
+    const tahr_vec3 n = out->normal, from[2] = {v_sub(a, v[0]), v_sub(b, v[0])};
+    const tahr_vec3 to[2] = {v_sub(v[1], v[0]), v_sub(v[2], v[0])};
+    const double rounding = ROUNDING * (sum_of(from[0]) + sum_of(from[1]) + sum_of(to[0]) + sum_of(to[1]));
+    const double height[3] = {0, v_dot(n, to[0]), v_dot(n, to[1])};
+    const double needed = d_min(v_dot(n, from[0]), v_dot(n, from[1])) - out->distance - rounding;
     tahr_vec3 d = v_sub(b, a);
     for (int i = 0; i < 3; i++) {
         double s, t;
+        if (d_max(height[i], height[(i + 1) % 3]) < needed) continue;
         tahr_vec3 q0 = v[i], q1 = v[(i + 1) % 3];
         double d2 = tahr__segment_segment(a, b, q0, q1, &s, &t);
         if (!(d2 < out->distance * out->distance)) continue;
@@ -209,33 +223,82 @@ static int separated(const tahr__core *core, const tahr_vec3 r[3])
     return 0;
 }
 
+/* Are there no nearer points of box and triangle? Along the normal between these the two are as far apart. */
+static int is_least(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 *v, const tahr__witness *w)
+{
+    const tahr_vec3 n = w->normal, e1 = v_sub(v[1], v[0]), e2 = v_sub(v[2], v[0]), d = v_sub(centre, v[0]);
+    double rounding = ROUNDING * (sum_of(d) + sum_of(e1) + sum_of(e2));
+    for (int i = 0; i < 3; i++)
+        rounding += ROUNDING * sum_of(core->axis[i]);
+    double top = d_max(0, d_max(v_dot(n, e1), v_dot(n, e2)));
+    return w->distance > 4 * rounding && v_dot(n, d) - tahr__core_extent(core, n) - top >= w->distance - rounding;
+}
+
+/* The corners of the box that are first (first 1) or not first (0) on the way to the plane of the triangle. */
+static void corners_to_facet(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, int first,
+                             tahr__witness *out)
+{
+    const double side = v_dot(f->cross, v_sub(centre, f->v[0])) < 0 ? -1 : 1;
+    double along[3];
+    for (int k = 0; k < 3; k++) {
+        along[k] = side * v_dot(f->cross, core->axis[k]);
+        if (fabs(along[k]) <= ROUNDING * f->length * sum_of(core->axis[k])) along[k] = 0;
+    }
+    for (int i = 0; i < 8; i++) {
+        tahr_vec3 corner = centre;
+        int is_first = 1;
+        for (int k = 0; k < 3; k++) {
+            const int plus = i >> k & 1;
+            is_first &= plus ? along[k] <= 0 : along[k] >= 0;
+            corner = v_mad(corner, core->axis[k], plus ? 1 : -1);
+        }
+        if (is_first != first) continue;
+        tahr__witness w = *out;
+        tahr__point_facet(corner, f, &w);
+        keep_nearer(out, &w);
+    }
+}
+
+static void edges_to_facet(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
+{
+    tahr_vec3 corner[8];
+    for (int i = 0; i < 8; i++) {
+        corner[i] = centre;
+        for (int k = 0; k < 3; k++)
+            corner[i] = v_mad(corner[i], core->axis[k], i >> k & 1 ? 1 : -1);
+    }
+    for (int i = 0; i < 8; i++) {
+        for (int bit = 1; bit < 8; bit += bit) {
+            if (i & bit) continue;
+            const double before = out->distance;
+            against_edges(corner[i], corner[i | bit], f->v, out);
+            if (out->distance < before && is_least(core, centre, f->v, out)) return;
+        }
+    }
+}
+
+/* What is nearest most often comes first, and the rest is not looked at when nothing can be nearer. */
 static void box_facet(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
 {
     const tahr_vec3 *v = f->v;
-    tahr_vec3 r[3] = {v_sub(v[0], centre), v_sub(v[1], centre), v_sub(v[2], centre)};
-    out->distance = 0;
+    const tahr_vec3 normal = out->normal;
+    out->distance = INFINITY;
     out->feature = TAHR__FACE;
-    out->point = v_scale(v_add(v[0], v_add(v[1], v[2])), 1.0 / 3.0);
-    if (!separated(core, r)) return;
-    tahr_vec3 corner[8];
-    for (int i = 0; i < 8; i++) {
-        corner[i] = v_mad(centre, core->axis[0], i & 1 ? 1 : -1);
-        corner[i] = v_mad(corner[i], core->axis[1], i & 2 ? 1 : -1);
-        corner[i] = v_mad(corner[i], core->axis[2], i & 4 ? 1 : -1);
-        tahr__witness w = *out;
-        tahr__point_facet(corner[i], f, &w);
-        if (i == 0)
-            *out = w;
-        else
-            keep_nearer(out, &w);
-    }
+    corners_to_facet(core, centre, f, 1, out);
+    if (is_least(core, centre, v, out)) return;
     for (int i = 0; i < 3; i++)
         corner_to_box(core, centre, v[i], TAHR__CORNER + (uint32_t)i, out);
-    for (int i = 0; i < 8; i++) {
-        for (int bit = 1; bit < 8; bit += bit) {
-            if (!(i & bit)) against_edges(corner[i], corner[i | bit], v, out);
-        }
+    if (is_least(core, centre, v, out)) return;
+    tahr_vec3 r[3] = {v_sub(v[0], centre), v_sub(v[1], centre), v_sub(v[2], centre)};
+    if (!separated(core, r)) {
+        out->distance = 0;
+        out->feature = TAHR__FACE;
+        out->normal = normal;
+        out->point = v_scale(v_add(v[0], v_add(v[1], v[2])), 1.0 / 3.0);
+        return;
     }
+    corners_to_facet(core, centre, f, 0, out);
+    if (!is_least(core, centre, v, out)) edges_to_facet(core, centre, f, out);
 }
 
 int tahr__box_touches(const tahr__core *box, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
