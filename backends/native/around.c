@@ -78,30 +78,34 @@ static void around_edge(place *p, uint32_t edge, tahr__resolving *resolving)
     }
 }
 
-/* Do two triangles at a corner share an edge there? */
-static int share_edge(const tahr_vec3 a[3], const tahr_vec3 b[3], tahr_vec3 corner)
+/* Do two triangles at a corner share an edge there? at: their corner that it is. */
+static int share_edge(const tahr_vec3 a[3], uint32_t at_a, const tahr_vec3 b[3], uint32_t at_b)
 {
-    for (int i = 0; i < 9; i++) {
-        if (equal(a[i / 3], b[i % 3]) && !equal(a[i / 3], corner)) return 1;
-    }
-    return 0;
+    const tahr_vec3 *a1 = &a[(at_a + 1) % 3], *a2 = &a[(at_a + 2) % 3];
+    const tahr_vec3 *b1 = &b[(at_b + 1) % 3], *b2 = &b[(at_b + 2) % 3], *corner = &a[at_a];
+    return ((equal(*a1, *b1) | equal(*a1, *b2)) & !equal(*a1, *corner)) |
+           ((equal(*a2, *b1) | equal(*a2, *b2)) & !equal(*a2, *corner));
 }
 
 /* Those that are connected to this one over edges at that corner. */
 static void around_corner(place *p, uint32_t corner, tahr__resolving *resolving)
 {
     uint32_t count = all_around(p, corner), fan[FAN], known = 0, taken[NEAR] = {0};
+    for (uint32_t k = 0; k < count; k++) {
+        p->near[k].at = corner_at(&p->near[k], p->own[corner]);
+        p->near[k].to = 3;
+    }
     for (uint32_t i = 0; i <= known && i < FAN; i++) {
         const tahr_vec3 *from = p->own;
+        uint32_t at = corner;
         if (i > 0) {
             tahr__near *n = &p->near[fan[i - 1]];
-            n->at = corner_at(n, p->own[corner]);
-            n->to = 3;
             if (tahr__resolve_near(resolving, n)) return;
             from = n->corner;
+            at = n->at;
         }
         for (uint32_t k = 0; k < count && known < FAN - 1; k++) {
-            if (taken[k] || !share_edge(from, p->near[k].corner, p->own[corner])) continue;
+            if (taken[k] || !share_edge(from, at, p->near[k].corner, p->near[k].at)) continue;
             taken[k] = 1;
             fan[known++] = k;
         }

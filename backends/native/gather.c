@@ -5,6 +5,9 @@
 
 #include <string.h>
 
+/* m, around a part of what was too much: more than the reach and the slack of a query. */
+#define LEAST_MARGIN 1e-3
+
 static uint32_t buckets_of(const tahr__native *world)
 {
     uint32_t size = 16;
@@ -161,7 +164,12 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     query.sensors = TAHR__SENSORS_TOO;
     query.start = tahr__frame_box_to_local(&cache->frame, &(tahr_bounds){p->position, p->position}).min;
     double margin;
-    int fits = tahr__margin_choose(&query, &p->bounds, &cache->counted, &margin);
+    int again = cache->gathered && cache->overflow, fits;
+    fits = tahr__margin_choose(&query, &p->bounds, &cache->counted, &margin);
+    if (!fits && again) { /* for what is asked right here: it is looked at many times */
+        margin = LEAST_MARGIN;
+        fits = 1;
+    }
     tahr_vec3 m = v_make(margin, margin, margin);
     cache->bounds.min = v_sub(p->bounds.min, m);
     cache->bounds.max = v_add(p->bounds.max, m);

@@ -13,6 +13,9 @@
  * walk one straight on; measured over margins of 0.25 to 2 m. */
 #define STEPS_PER_METRE 10.7
 
+/* Of a character of 0.7 m at 60 Hz the box is 1.1 m wide, and the margin of 0.5 m that is usual less than one. */
+#define BOXES 1.0
+
 /* Fractions of the margin that is allowed; below an eighth a gather does not last for two steps. */
 static const double FRACTIONS[] = {1, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
 enum { CHOICES = sizeof FRACTIONS / sizeof FRACTIONS[0] };
@@ -36,10 +39,13 @@ static double cost(double count, double width, double counted, double margin)
 int tahr__margin_choose(const tahr__query *query, const tahr_bounds *announced, double *counted, double *margin)
 {
     const tahr__native *world = query->world;
-    double most = world->cache_margin, width = announced->max.x - announced->min.x, at = *counted > 0 ? *counted : most;
+    const double width = announced->max.x - announced->min.x;
+    /* Who is small goes a short way in a step: what is farther than some of its boxes would only fill the cache. */
+    const double most = d_min(world->cache_margin, BOXES * width);
+    double at = *counted > 0 ? d_min(*counted, most) : most;
     uint32_t room = world->capacity, count;
     int fitted = 0;
-    *margin = most;
+    *margin = world->fixed_margin ? world->cache_margin : most;
     if (world->fixed_margin) return 1;
     for (;;) {
         tahr_bounds box = grown(announced, at);
