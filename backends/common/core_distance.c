@@ -58,19 +58,24 @@ static void beside_face(tahr_vec3 q, const tahr_vec3 v[3], const double side[3],
     witness_at(out, q, out->point, out->feature);
 }
 
-void tahr__point_facet(tahr_vec3 q, const tahr__facet *f, tahr__witness *out)
+/* Is q straight over the face? side[i] > 0: it is inside of edge i; their sum is n2, the square of twice the area. */
+static inline int is_over(tahr_vec3 q, const tahr__facet *f, double n2, double side[3])
 {
     const tahr_vec3 *v = f->v;
-    tahr_vec3 e0 = v_sub(v[1], v[0]), e2 = v_sub(v[0], v[2]), d = v_sub(q, v[0]);
-    tahr_vec3 n = f->cross, x = v_cross(d, n);
-    /* side[i] > 0: the projection is inside of edge i. Their sum is n . n. */
-    double n2 = v_dot(n, n), side[3] = {v_dot(e0, x), 0, v_dot(e2, x)};
+    tahr_vec3 e0 = v_sub(v[1], v[0]), e2 = v_sub(v[0], v[2]), x = v_cross(v_sub(q, v[0]), f->cross);
+    side[0] = v_dot(e0, x);
+    side[2] = v_dot(e2, x);
     side[1] = n2 - side[0] - side[2];
-    if (!(n2 > 0 && side[0] >= 0 && side[1] >= 0 && side[2] >= 0)) {
-        beside_face(q, v, side, n2 > 0, out);
-        return;
-    }
-    tahr__point_face(q, f, out);
+    return n2 > 0 && side[0] >= 0 && side[1] >= 0 && side[2] >= 0;
+}
+
+void tahr__point_facet(tahr_vec3 q, const tahr__facet *f, tahr__witness *out)
+{
+    double side[3], n2 = v_dot(f->cross, f->cross);
+    if (is_over(q, f, n2, side))
+        tahr__point_face(q, f, out);
+    else
+        beside_face(q, f->v, side, n2 > 0, out);
 }
 
 double tahr__segment_segment(tahr_vec3 p0, tahr_vec3 p1, tahr_vec3 q0, tahr_vec3 q1, double *s, double *t)
@@ -234,27 +239,41 @@ static int is_least(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 *v
     return w->distance > 4 * rounding && v_dot(n, d) - tahr__core_extent(core, n) - top >= w->distance - rounding;
 }
 
-/* The corners of the box that are first (first 1) or not first (0) on the way to the plane of the triangle. */
-static void corners_to_facet(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, int first,
-                             tahr__witness *out)
+static tahr_vec3 corner_of(const tahr__core *core, tahr_vec3 centre, int which)
 {
-    const double side = v_dot(f->cross, v_sub(centre, f->v[0])) < 0 ? -1 : 1;
-    double along[3];
+    for (int k = 0; k < 3; k++)
+        centre = v_mad(centre, core->axis[k], which >> k & 1 ? 1 : -1);
+    return centre;
+}
+
+/* A corner of the box that is first on the way to the plane of the triangle, straight over its face. Of a side that
+ * lies level on it all are as near, and one will do. Returns 1 if nothing can be nearer. */
+static int first_to_face(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
+{
+    const double height = v_dot(f->cross, v_sub(centre, f->v[0])), n2 = v_dot(f->cross, f->cross);
+    int fixed = 0, set = 0;
     for (int k = 0; k < 3; k++) {
-        along[k] = side * v_dot(f->cross, core->axis[k]);
-        if (fabs(along[k]) <= ROUNDING * f->length * sum_of(core->axis[k])) along[k] = 0;
+        const double along = height < 0 ? -v_dot(f->cross, core->axis[k]) : v_dot(f->cross, core->axis[k]);
+        if (fabs(along) <= ROUNDING * f->length * sum_of(core->axis[k])) continue;
+        fixed |= 1 << k;
+        set |= along < 0 ? 1 << k : 0;
     }
     for (int i = 0; i < 8; i++) {
-        tahr_vec3 corner = centre;
-        int is_first = 1;
-        for (int k = 0; k < 3; k++) {
-            const int plus = i >> k & 1;
-            is_first &= plus ? along[k] <= 0 : along[k] >= 0;
-            corner = v_mad(corner, core->axis[k], plus ? 1 : -1);
-        }
-        if (is_first != first) continue;
+        double side[3];
+        if ((i & fixed) != set) continue;
+        tahr_vec3 corner = corner_of(core, centre, i);
+        if (!is_over(corner, f, n2, side)) continue;
+        tahr__point_face(corner, f, out);
+        return is_least(core, centre, f->v, out);
+    }
+    return 0;
+}
+
+static void corners_to_facet(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
+{
+    for (int i = 0; i < 8; i++) {
         tahr__witness w = *out;
-        tahr__point_facet(corner, f, &w);
+        tahr__point_facet(corner_of(core, centre, i), f, &w);
         keep_nearer(out, &w);
     }
 }
@@ -262,11 +281,8 @@ static void corners_to_facet(const tahr__core *core, tahr_vec3 centre, const tah
 static void edges_to_facet(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
 {
     tahr_vec3 corner[8];
-    for (int i = 0; i < 8; i++) {
-        corner[i] = centre;
-        for (int k = 0; k < 3; k++)
-            corner[i] = v_mad(corner[i], core->axis[k], i >> k & 1 ? 1 : -1);
-    }
+    for (int i = 0; i < 8; i++)
+        corner[i] = corner_of(core, centre, i);
     for (int i = 0; i < 8; i++) {
         for (int bit = 1; bit < 8; bit += bit) {
             if (i & bit) continue;
@@ -284,8 +300,7 @@ static void box_facet(const tahr__core *core, tahr_vec3 centre, const tahr__face
     const tahr_vec3 normal = out->normal;
     out->distance = INFINITY;
     out->feature = TAHR__FACE;
-    corners_to_facet(core, centre, f, 1, out);
-    if (is_least(core, centre, v, out)) return;
+    if (first_to_face(core, centre, f, out)) return;
     for (int i = 0; i < 3; i++)
         corner_to_box(core, centre, v[i], TAHR__CORNER + (uint32_t)i, out);
     if (is_least(core, centre, v, out)) return;
@@ -297,7 +312,7 @@ static void box_facet(const tahr__core *core, tahr_vec3 centre, const tahr__face
         out->point = v_scale(v_add(v[0], v_add(v[1], v[2])), 1.0 / 3.0);
         return;
     }
-    corners_to_facet(core, centre, f, 0, out);
+    corners_to_facet(core, centre, f, out);
     if (!is_least(core, centre, v, out)) edges_to_facet(core, centre, f, out);
 }
 
