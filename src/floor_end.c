@@ -30,7 +30,7 @@ enum { ROUNDS = 20, LOST = 2, PROOFS = 2 };
 
 /* As many looks seldom are all. A backend that could not keep what is near the whole step may keep what is near this
  * way: from here on it is worth asking. */
-enum { MANY = 3 };
+enum { MANY = 6 };
 
 /* No part of a way. */
 static const double NOWHERE = -1e300;
