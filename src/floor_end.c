@@ -28,6 +28,10 @@ static const double ON_FACE_COSINE = 1 - 1e-6, ON_FACE = 1.4142132088085646e-3;
 /* The place is known to 2^-ROUNDS of the way: that many looks by halving, and no more than LOST and PROOFS besides. */
 enum { ROUNDS = 20, LOST = 2, PROOFS = 2 };
 
+/* As many looks seldom are all. A backend that could not keep what is near the whole step may keep what is near this
+ * way: from here on it is worth asking. */
+enum { MANY = 6 };
+
 /* No part of a way. */
 static const double NOWHERE = -1e300;
 
@@ -383,10 +387,10 @@ void tahr__floor_end(tahr__step *step, const tahr__path *w, const tahr_floor *be
     s.beside = s.least = BESIDE * step->limits->width / max_of(size, 1e-300);
     const double least = max_of(1.0 / (1 << ROUNDS), 2.1 * s.least); /* of the way, to be known */
     note(step, beyond, 1, &s.outside);
-    if (step_goes_far(step)) {
-        tahr__announce_near(step, s.from, s.way);
-    }
     for (uint32_t i = 0; i < LOOKS && s.outside.at - s.inside.at > least && step->queries < MOST; i++) {
+        if (i == (step_goes_far(step) ? 0 : MANY)) {
+            tahr__announce_near(step, s.from, s.way);
+        }
         predict_again(step, &s);
         if (look_at(step, &s, next_look(&s, i), &floor)) {
             border->floor = floor;

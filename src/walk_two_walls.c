@@ -9,6 +9,7 @@
 #include "floor_distance.h"
 #include "launch.h"
 #include "move_along_floor.h"
+#include "nearby.h"
 #include "overlap.h"
 #include "plane.h"
 #include "query.h"
@@ -225,6 +226,9 @@ static int walk_slice(tahr__step *step, walk *w)
     if (w->zero) {
         w->left = 0;
     } else {
+        if (step_goes_far(step)) {
+            tahr__announce_near(step, step->state.position, w->delta);
+        }
         found_floor = tahr__move_along_floor(step, w->delta, w->h);
     }
     step->ahead = w->h;

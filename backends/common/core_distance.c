@@ -6,6 +6,8 @@
 #define TOUCHING 1e-12
 /* Pairs of edges with a squared sine below this are parallel: what is across them is rounding. */
 #define NEARLY_PARALLEL 1e-20
+/* What rounding makes of a height along a unit normal, of the coordinates that it is made of, and more. */
+#define ROUNDING 1e-14
 /* From as far away (m) as this the nearest points are clear. */
 #define CLEAR 1e-6
 
@@ -56,19 +58,24 @@ static void beside_face(tahr_vec3 q, const tahr_vec3 v[3], const double side[3],
     witness_at(out, q, out->point, out->feature);
 }
 
-void tahr__point_facet(tahr_vec3 q, const tahr__facet *f, tahr__witness *out)
+/* Is q straight over the face? side[i] > 0: it is inside of edge i; their sum is n2, the square of twice the area. */
+static inline int is_over(tahr_vec3 q, const tahr__facet *f, double n2, double side[3])
 {
     const tahr_vec3 *v = f->v;
-    tahr_vec3 e0 = v_sub(v[1], v[0]), e2 = v_sub(v[0], v[2]), d = v_sub(q, v[0]);
-    tahr_vec3 n = f->cross, x = v_cross(d, n);
-    /* side[i] > 0: the projection is inside of edge i. Their sum is n . n. */
-    double n2 = v_dot(n, n), side[3] = {v_dot(e0, x), 0, v_dot(e2, x)};
+    tahr_vec3 e0 = v_sub(v[1], v[0]), e2 = v_sub(v[0], v[2]), x = v_cross(v_sub(q, v[0]), f->cross);
+    side[0] = v_dot(e0, x);
+    side[2] = v_dot(e2, x);
     side[1] = n2 - side[0] - side[2];
-    if (!(n2 > 0 && side[0] >= 0 && side[1] >= 0 && side[2] >= 0)) {
-        beside_face(q, v, side, n2 > 0, out);
-        return;
-    }
-    tahr__point_face(q, f, out);
+    return n2 > 0 && side[0] >= 0 && side[1] >= 0 && side[2] >= 0;
+}
+
+void tahr__point_facet(tahr_vec3 q, const tahr__facet *f, tahr__witness *out)
+{
+    double side[3], n2 = v_dot(f->cross, f->cross);
+    if (is_over(q, f, n2, side))
+        tahr__point_face(q, f, out);
+    else
+        beside_face(q, f->v, side, n2 > 0, out);
 }
 
 double tahr__segment_segment(tahr_vec3 p0, tahr_vec3 p1, tahr_vec3 q0, tahr_vec3 q1, double *s, double *t)
@@ -116,12 +123,24 @@ static void keep_nearer(tahr__witness *out, const tahr__witness *w)
     if (w->distance < out->distance) *out = *w;
 }
 
-/* A segment against the edges of the triangle; only interior pairs can beat the ends and the corners. */
+static double sum_of(tahr_vec3 v)
+{
+    return fabs(v.x) + fabs(v.y) + fabs(v.z);
+}
+
+/* A segment against the edges of the triangle; only interior pairs can beat the ends and the corners. No two sets are
+ * nearer than they are along one direction: along the normal found so far most edges are seen to be too far away. */
 static void against_edges(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 *v, tahr__witness *out)
 {
+    const tahr_vec3 n = out->normal, from[2] = {v_sub(a, v[0]), v_sub(b, v[0])};
+    const tahr_vec3 to[2] = {v_sub(v[1], v[0]), v_sub(v[2], v[0])};
+    const double rounding = ROUNDING * (sum_of(from[0]) + sum_of(from[1]) + sum_of(to[0]) + sum_of(to[1]));
+    const double height[3] = {0, v_dot(n, to[0]), v_dot(n, to[1])};
+    const double needed = d_min(v_dot(n, from[0]), v_dot(n, from[1])) - out->distance - rounding;
     tahr_vec3 d = v_sub(b, a);
     for (int i = 0; i < 3; i++) {
         double s, t;
+        if (d_max(height[i], height[(i + 1) % 3]) < needed) continue;
         tahr_vec3 q0 = v[i], q1 = v[(i + 1) % 3];
         double d2 = tahr__segment_segment(a, b, q0, q1, &s, &t);
         if (!(d2 < out->distance * out->distance)) continue;
@@ -209,33 +228,92 @@ static int separated(const tahr__core *core, const tahr_vec3 r[3])
     return 0;
 }
 
+/* Are there no nearer points of box and triangle? Along the normal between these the two are as far apart. */
+static int is_least(const tahr__core *core, tahr_vec3 centre, const tahr_vec3 *v, const tahr__witness *w)
+{
+    const tahr_vec3 n = w->normal, e1 = v_sub(v[1], v[0]), e2 = v_sub(v[2], v[0]), d = v_sub(centre, v[0]);
+    double rounding = ROUNDING * (sum_of(d) + sum_of(e1) + sum_of(e2));
+    for (int i = 0; i < 3; i++)
+        rounding += ROUNDING * sum_of(core->axis[i]);
+    double top = d_max(0, d_max(v_dot(n, e1), v_dot(n, e2)));
+    return w->distance > 4 * rounding && v_dot(n, d) - tahr__core_extent(core, n) - top >= w->distance - rounding;
+}
+
+static tahr_vec3 corner_of(const tahr__core *core, tahr_vec3 centre, int which)
+{
+    for (int k = 0; k < 3; k++)
+        centre = v_mad(centre, core->axis[k], which >> k & 1 ? 1 : -1);
+    return centre;
+}
+
+/* A corner of the box that is first on the way to the plane of the triangle, straight over its face. Of a side that
+ * lies level on it all are as near, and one will do. Returns 1 if nothing can be nearer. */
+static int first_to_face(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
+{
+    const double height = v_dot(f->cross, v_sub(centre, f->v[0])), n2 = v_dot(f->cross, f->cross);
+    int fixed = 0, set = 0;
+    for (int k = 0; k < 3; k++) {
+        const double along = height < 0 ? -v_dot(f->cross, core->axis[k]) : v_dot(f->cross, core->axis[k]);
+        if (fabs(along) <= ROUNDING * f->length * sum_of(core->axis[k])) continue;
+        fixed |= 1 << k;
+        set |= along < 0 ? 1 << k : 0;
+    }
+    for (int i = 0; i < 8; i++) {
+        double side[3];
+        if ((i & fixed) != set) continue;
+        tahr_vec3 corner = corner_of(core, centre, i);
+        if (!is_over(corner, f, n2, side)) continue;
+        tahr__point_face(corner, f, out);
+        return is_least(core, centre, f->v, out);
+    }
+    return 0;
+}
+
+static void corners_to_facet(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
+{
+    for (int i = 0; i < 8; i++) {
+        tahr__witness w = *out;
+        tahr__point_facet(corner_of(core, centre, i), f, &w);
+        keep_nearer(out, &w);
+    }
+}
+
+static void edges_to_facet(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
+{
+    tahr_vec3 corner[8];
+    for (int i = 0; i < 8; i++)
+        corner[i] = corner_of(core, centre, i);
+    for (int i = 0; i < 8; i++) {
+        for (int bit = 1; bit < 8; bit += bit) {
+            if (i & bit) continue;
+            const double before = out->distance;
+            against_edges(corner[i], corner[i | bit], f->v, out);
+            if (out->distance < before && is_least(core, centre, f->v, out)) return;
+        }
+    }
+}
+
+/* What is nearest most often comes first, and the rest is not looked at when nothing can be nearer. */
 static void box_facet(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
 {
     const tahr_vec3 *v = f->v;
-    tahr_vec3 r[3] = {v_sub(v[0], centre), v_sub(v[1], centre), v_sub(v[2], centre)};
-    out->distance = 0;
+    const tahr_vec3 normal = out->normal;
+    out->distance = INFINITY;
     out->feature = TAHR__FACE;
-    out->point = v_scale(v_add(v[0], v_add(v[1], v[2])), 1.0 / 3.0);
-    if (!separated(core, r)) return;
-    tahr_vec3 corner[8];
-    for (int i = 0; i < 8; i++) {
-        corner[i] = v_mad(centre, core->axis[0], i & 1 ? 1 : -1);
-        corner[i] = v_mad(corner[i], core->axis[1], i & 2 ? 1 : -1);
-        corner[i] = v_mad(corner[i], core->axis[2], i & 4 ? 1 : -1);
-        tahr__witness w = *out;
-        tahr__point_facet(corner[i], f, &w);
-        if (i == 0)
-            *out = w;
-        else
-            keep_nearer(out, &w);
-    }
+    if (first_to_face(core, centre, f, out)) return;
     for (int i = 0; i < 3; i++)
         corner_to_box(core, centre, v[i], TAHR__CORNER + (uint32_t)i, out);
-    for (int i = 0; i < 8; i++) {
-        for (int bit = 1; bit < 8; bit += bit) {
-            if (!(i & bit)) against_edges(corner[i], corner[i | bit], v, out);
-        }
+    if (is_least(core, centre, v, out)) return;
+    tahr_vec3 r[3] = {v_sub(v[0], centre), v_sub(v[1], centre), v_sub(v[2], centre)};
+    if (!separated(core, r)) {
+        out->distance = 0;
+        out->feature = TAHR__FACE;
+        out->normal = normal;
+        out->point = v_scale(v_add(v[0], v_add(v[1], v[2])), 1.0 / 3.0);
+        return;
     }
+    corners_to_facet(core, centre, f, out);
+    if (!is_least(core, centre, v, out)) edges_to_facet(core, centre, f, out);
 }
 
 int tahr__box_touches(const tahr__core *box, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)

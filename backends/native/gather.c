@@ -5,6 +5,9 @@
 
 #include <string.h>
 
+/* m, around a part of what was too much: more than the reach and the slack of a query. */
+#define LEAST_MARGIN 1e-3
+
 static uint32_t buckets_of(const tahr__native *world)
 {
     uint32_t size = 16;
@@ -188,20 +191,28 @@ static void collect(gather *g)
     tahr__tree_search(&g->search, &world->fixed);
 }
 
-/* Collects within the margin that was best last time, or less. */
-static void collect_best(gather *g)
+/* m, around a part of what was too much: more than the reach and the slack of a query. */
+#define LEAST_MARGIN 1e-3
+
+/* Collects within the margin that was best last time, or less; again: a part of what was too much. */
+static void collect_best(gather *g, int again)
 {
     tahr__cache *cache = g->cache;
     const tahr__native *world = g->search.query->world;
     const tahr_bounds *announced = &g->announced;
     double width = announced->max.x - announced->min.x;
-    if (cache->margin <= 0) cache->margin = world->cache_margin;
+    const double most = tahr__margin_most(world, width);
+    if (cache->margin <= 0 || cache->margin > most) cache->margin = most;
     do {
         collect(g);
     } while (tahr__margin_choose(world, width, cache->overflow ? TAHR__NONE : cache->count, &cache->margin));
+    if (cache->overflow && again && !world->fixed_margin) { /* what is asked right here is looked at many times */
+        cache->margin = LEAST_MARGIN;
+        collect(g);
+        cache->margin = most;
+    }
     /* A little farther on it will not fit either. */
-    if (cache->overflow && !world->fixed_margin)
-        set_bounds(cache, announced, 0.5 * world->cache_margin, v_make(0, 0, 0));
+    if (cache->overflow && !world->fixed_margin) set_bounds(cache, announced, 0.5 * most, v_make(0, 0, 0));
 }
 
 /* Which primitives stopped the last motions, by their names: they have another index afterwards. */
@@ -260,8 +271,9 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     g.search.order = TAHR__IN_BULK;
     g.search.visit = store;
     g.search.take = take;
+    const int again = cache->gathered && cache->overflow;
     cache->gathered = 1;
-    collect_best(&g);
+    collect_best(&g, again);
     if (world->gather) gather_loose(world, &g);
     cache->revision = world->revision;
     if (!cache->overflow) tahr__form_lanes(world, &cache->frame, g.prims, g.blocks, cache->count);

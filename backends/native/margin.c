@@ -14,16 +14,25 @@
  * walk one straight on; measured over margins of 0.25 to 2 m. */
 #define STEPS_PER_METRE 10.7
 
+/* A character of 0.7 m has at 60 Hz a box 1.1 m wide, and the margin of 0.5 m that is usual is less than one. Who is
+ * small goes a short way in a step: what is farther than a box of it would only fill the cache. */
+#define BOXES 1.0
+
 /* Fractions of the margin that is allowed, and one over each; below an eighth a gather does not last for two steps. */
 static const double FRACTIONS[] = {1, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
 static const double INVERSE[] = {1, 1 / 0.75, 2, 1 / 0.375, 4, 1 / 0.1875, 8};
 enum { CHOICES = sizeof FRACTIONS / sizeof FRACTIONS[0] };
 
+double tahr__margin_most(const tahr__native *world, double width)
+{
+    return world->fixed_margin ? world->cache_margin : d_min(world->cache_margin, BOXES * width);
+}
+
 /* The fraction with the fewest instructions per step: surfaces grow with the square of the width. density: primitives
  * per m2. */
 static double best_of(const tahr__native *world, double width, double density)
 {
-    double most = world->cache_margin, often = 1 / (STEPS_PER_METRE * most), best = FRACTIONS[CHOICES - 1],
+    double most = tahr__margin_most(world, width), often = 1 / (STEPS_PER_METRE * most), best = FRACTIONS[CHOICES - 1],
            least = 1e300;
     for (int i = 0; i < CHOICES; i++) {
         double side = width + 2 * FRACTIONS[i] * most, n = density * (side * side);
@@ -37,7 +46,8 @@ static double best_of(const tahr__native *world, double width, double density)
 
 int tahr__margin_choose(const tahr__native *world, double width, uint32_t count, double *margin)
 {
-    double most = world->cache_margin, least = FRACTIONS[CHOICES - 1] * most, side = width + 2 * *margin, was = *margin;
+    double most = tahr__margin_most(world, width), least = FRACTIONS[CHOICES - 1] * most, was = *margin;
+    double side = width + 2 * was;
     if (world->fixed_margin) return 0;
     if (count > world->capacity) {
         *margin = d_max(0.5 * was, least);

@@ -16,6 +16,12 @@ enum { ITERATIONS = 64, TARGETS = 5 };
 /* Of the sizes of two boxes: nearer than this they touch. Their faces leave what they touch to the inside, so the
  * inside must not call it outside by rounding. */
 #define TOUCHING 1e-12
+/* Every so many steps a leap is tried. */
+#define LEAPS 4
+/* The square of the sine between a surface and a motion that meets it, from which on Newton arrives soon. */
+#define STEEP 1e-4
+/* The square of the sine up to which an edge of the core is across a normal. */
+#define ACROSS 1e-12
 /* How much nearer than the margin (m) a motion may pass an edge: what the narrow phase promises. */
 #define GRAZE 1e-9
 
@@ -215,6 +221,7 @@ typedef struct flight {
     const tahr__prim *prim;
     double target, t;
     double began; /* the gap at the start, or more than the margin */
+    int leaps;    /* 1: allowed, 2: there was one, 0: not */
     tahr__probe probe;
 } flight;
 
@@ -261,6 +268,56 @@ static int blocks_at_start(const flight *f, const tahr__contact_normals *normals
     return 1;
 }
 
+/* When the two nearest points that were found last are at the target, or nearest, if they stay the nearest; along an
+ * edge of either the point goes with the other. */
+static double foresee(const flight *f)
+{
+    const tahr__query *query = f->query;
+    const tahr__witness *w = &f->probe.witness;
+    const double target = f->target + 0.9 * TAHR__ARRIVED;
+    tahr_vec3 m = query->motion;
+    if (w->feature > TAHR__FACE && w->feature < TAHR__CORNER) {
+        const uint32_t i = w->feature - TAHR__EDGE;
+        tahr_vec3 e = v_sub(f->prim->facet.v[(i + 1) % 3], f->prim->facet.v[i]);
+        m = v_mad(m, e, -v_dot(m, e) / v_dot(e, e));
+    }
+    for (int i = 0; i < query->core.axis_count; i++) {
+        const tahr_vec3 a = query->core.axis[i];
+        const double along = v_dot(a, w->normal), a2 = v_dot(a, a);
+        if (along * along <= ACROSS * a2) m = v_mad(m, a, -v_dot(m, a) / a2);
+    }
+    const double m2 = v_dot(m, m), b = -w->distance * v_dot(w->normal, m),
+                 c = w->distance * w->distance - target * target;
+    const double rest = b * b - m2 * c;
+    if (!(m2 > 0 && b > 0) || rest > STEEP * m2 * target * target) return f->t;
+    return f->t + (rest > 0 ? c / (b + sqrt(rest)) : b / m2);
+}
+
+/* Newton halves what is left where the way only grazes: instead to where those points tell, if that is farther than
+ * next, Newton's step. The distance is convex, so tangents prove what is between: 1: the flight is farther on; 0: it is
+ * not; -1: it never arrives. */
+static int leap(flight *f, double next, double limit)
+{
+    const tahr__query *query = f->query;
+    const tahr__witness before = f->probe.witness;
+    const double rest = before.distance - f->target, rate = v_dot(query->motion, before.normal);
+    const double to = d_min(foresee(f), limit);
+    if (!(to > next)) return 0;
+    tahr__witness w = before;
+    measure(query, f->prim, v_mad(query->start, query->motion, to), &w);
+    query->context->narrow_iterations++;
+    const double rest_there = w.distance - f->target, rate_there = v_dot(query->motion, w.normal);
+    if (w.distance < BLURRED) return 0;
+    if (rest_there > 0 && rate_there < 0) {
+        f->t = to;
+        f->probe.witness = w;
+        return 1;
+    }
+    if (rest_there <= 0) return 0;
+    const double meet = (rest_there - rate_there * (to - f->t) - rest) / (rate - rate_there);
+    return rest + rate * meet > TAHR__ARRIVED ? -1 : 0;
+}
+
 /* Newton from the left until the distance is target. 1: arrived; 0: never; -1: not decided within the cap. */
 static int advance(flight *f, double limit)
 {
@@ -272,6 +329,12 @@ static int advance(flight *f, double limit)
         if (rest <= TAHR__ARRIVED) return 1;
         double next = f->t + rest / -rate;
         if (next > limit) return 0;
+        if (i % LEAPS == 1 && f->leaps) {
+            const int leaped = leap(f, next, limit);
+            if (leaped != 0) f->leaps = 2;
+            if (leaped < 0) return 0;
+            if (leaped > 0) continue;
+        }
         f->t = next;
         tahr__witness before = *w;
         measure(query, f->prim, v_mad(query->start, query->motion, f->t), w);
@@ -403,24 +466,39 @@ int tahr__probe_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3
     return 1;
 }
 
+static int take_off(flight *f, const tahr__ask *ask, tahr__found *out)
+{
+    const tahr__query *query = f->query;
+    const tahr__prim *prim = f->prim;
+    f->t = ask->earliest;
+    f->target = query->radius + prim->radius + query->margin;
+    query->context->narrow_iterations++;
+    if (f->t > 0 && (prim->kind & TAHR__ONE_WAY) && (query->flags & TAHR_SWEEP_DROP)) f->t = 0;
+    if (f->t > 0) {
+        measure(query, prim, v_mad(query->start, query->motion, f->t), &f->probe.witness);
+        f->probe.gap = query->margin + 1; /* it is beyond the margin, by how much does not matter */
+    } else if (!probe_start(query, prim, &f->probe)) {
+        return TAHR__FREE;
+    }
+    f->began = f->probe.gap;
+    return fly(f, ask->limit, ask->beside, out);
+}
+
+/* Leaps find out whether anything is met, which is seldom; what is met, and when, Newton alone says: along a graze any
+ * of many places is near enough, and which one it is should not depend on how the others were left out. */
 int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const tahr__ask *ask, tahr__found *out)
 {
     flight f;
     f.query = query;
     f.prim = prim;
-    f.t = ask->earliest;
-    f.target = query->radius + prim->radius + query->margin;
+    f.leaps = 1;
     query->context->narrow_tests++;
-    query->context->narrow_iterations++;
-    if (f.t > 0 && (prim->kind & TAHR__ONE_WAY) && (query->flags & TAHR_SWEEP_DROP)) f.t = 0;
-    if (f.t > 0) {
-        measure(query, prim, v_mad(query->start, query->motion, f.t), &f.probe.witness);
-        f.probe.gap = query->margin + 1; /* it is beyond the margin, by how much does not matter */
-    } else if (!probe_start(query, prim, &f.probe)) {
-        return TAHR__FREE;
+    int answer = take_off(&f, ask, out);
+    if (answer == TAHR__BLOCKED && f.leaps > 1) {
+        f.leaps = 0;
+        answer = take_off(&f, ask, out);
     }
-    f.began = f.probe.gap;
-    return fly(&f, ask->limit, ask->beside, out);
+    return answer;
 }
 
 int tahr__probe_touch(const tahr__query *query, const tahr__prim *prim, double margin, tahr__found *out)

@@ -318,6 +318,8 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
 /* margin.c: count primitives were found within a margin of a box of that width. Returns 1, if it should be gathered
  * anew. margin: [in, out] the best there is: for that, or for the next time. */
 int tahr__margin_choose(const tahr__native *world, double width, uint32_t count, double *margin);
+/* The most it may be. */
+double tahr__margin_most(const tahr__native *world, double width);
 
 /* vicinity.c: what a sweep need not ask. Where a motion leads: UNKNOWN: the cache or more is to be asked; AROUND: all
  * that is near; OVER: of that, what is above the floor; DOWN: the floor too. */
