@@ -66,11 +66,6 @@ void tahr__map_triangle(const tahr__map *map, const tahr__body *body, uint32_t t
         v[i] = tahr__map_point(map, body->mesh.vertices[vertex[i]]);
 }
 
-tahr_vec3 tahr__frame_to_world(const tahr__frame *frame, tahr_vec3 direction)
-{
-    return frame->turned ? m_unapply(&frame->turn, direction) : direction;
-}
-
 tahr_bounds tahr__frame_box_to_world(const tahr__frame *frame, const tahr_bounds *box, double grow)
 {
     tahr_vec3 g = v_make(grow, grow, grow);

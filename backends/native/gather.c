@@ -138,13 +138,6 @@ static void gather_loose(const tahr__native *world, gather *g)
     if (!g->cache->overflow && !tahr__source_fill(&g->search, store_loose)) g->cache->overflow = 1;
 }
 
-/* Without branches: which side is out is different every time. */
-static int inside(const tahr_bounds *a, const tahr_bounds *b)
-{
-    int low = (a->min.x >= b->min.x) & (a->min.y >= b->min.y) & (a->min.z >= b->min.z);
-    return low & (a->max.x <= b->max.x) & (a->max.y <= b->max.y) & (a->max.z <= b->max.z);
-}
-
 static double volume(const tahr_bounds *b)
 {
     const tahr_vec3 side = v_sub(b->max, b->min);
@@ -296,7 +289,7 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     cache->announced = 1;
     if (world->no_cache) return TAHR_OK;
     keep = keep && cache->gathered && cache->revision == world->revision;
-    keep = keep && (p->mask & ~cache->mask) == 0 && inside(&p->bounds, &cache->bounds);
+    keep = keep && (p->mask & ~cache->mask) == 0 && box_inside(&p->bounds, &cache->bounds);
     /* What was too much is gathered again where a part of it is announced by itself, a quarter or less. */
     if (keep && !(cache->overflow && volume(&p->bounds) <= 0.25 * cache->volume)) return TAHR_OK;
     gather_now(world, context, p);
@@ -362,14 +355,6 @@ uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr_
     }
     form_found(query, all, found, kept);
     return kept;
-}
-
-int tahr__cache_spans(const tahr__cache *cache, const tahr_bounds *box, double reach)
-{
-    const double more = reach + 10 * TAHR__SLACK;
-    const tahr_vec3 grow = v_make(more, more, more);
-    const tahr_bounds grown = {v_sub(box->min, grow), v_add(box->max, grow)};
-    return inside(&grown, &cache->local);
 }
 
 int tahr__cache_holds(const tahr__search *s)

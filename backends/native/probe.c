@@ -38,13 +38,6 @@ int tahr__found_before(const tahr__found *a, const tahr__found *b)
     return a->t != b->t ? a->t < b->t : tahr__named_before(a, b);
 }
 
-tahr_bounds tahr__query_box(const tahr__query *query, double t)
-{
-    tahr_vec3 end = v_mad(query->start, query->motion, t);
-    tahr_bounds box = {v_sub(v_min(query->start, end), query->extent), v_add(v_max(query->start, end), query->extent)};
-    return box;
-}
-
 double tahr__box_extent(const tahr__query *query, tahr_vec3 n)
 {
     return tahr__core_extent(&query->core, n);

@@ -222,6 +222,22 @@ static inline tahr__prim *tahr__cache_prims(const tahr__native *world, tahr__cac
     return (tahr__prim *)(void *)(tahr__cache_blocks(world, cache) + (size_t)TAHR__LANE_ROWS * world->capacity);
 }
 
+/* Without branches: which side is out is different every time. */
+static inline int box_inside(const tahr_bounds *a, const tahr_bounds *b)
+{
+    int low = (a->min.x >= b->min.x) & (a->min.y >= b->min.y) & (a->min.z >= b->min.z);
+    return low & (a->max.x <= b->max.x) & (a->max.y <= b->max.y) & (a->max.z <= b->max.z);
+}
+
+/* Does the cache, one that serves, hold everything static within reach of a box? */
+static inline int tahr__cache_spans(const tahr__cache *cache, const tahr_bounds *box, double reach)
+{
+    const double more = reach + 10 * TAHR__SLACK;
+    const tahr_vec3 grow = v_make(more, more, more);
+    const tahr_bounds grown = {v_sub(box->min, grow), v_add(box->max, grow)};
+    return box_inside(&grown, &cache->local);
+}
+
 /* Which bodies a query looks at: those that block, all, or sensors alone. */
 enum { TAHR__SENSORS_NONE = 0, TAHR__SENSORS_TOO = 1, TAHR__SENSORS_ONLY = 2 };
 
@@ -243,6 +259,19 @@ typedef struct tahr__query {
     uint32_t sinks;                    /* 1: the foot has sunk into a one-way body (one_way.h) */
     tahr_status *failed;               /* what went wrong while gathering */
 } tahr__query;
+
+static inline tahr_vec3 tahr__frame_to_world(const tahr__frame *frame, tahr_vec3 direction)
+{
+    return frame->turned ? m_unapply(&frame->turn, direction) : direction;
+}
+
+/* Around its core up to this fraction of the motion. */
+static inline tahr_bounds tahr__query_box(const tahr__query *query, double t)
+{
+    tahr_vec3 end = v_mad(query->start, query->motion, t);
+    tahr_bounds box = {v_sub(v_min(query->start, end), query->extent), v_add(v_max(query->start, end), query->extent)};
+    return box;
+}
 
 /* In which order primitives are handed over. */
 enum { TAHR__NEAREST_FIRST = 0, TAHR__ANY_ORDER = 1, TAHR__IN_BULK = 2 };
@@ -275,7 +304,6 @@ tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body);
 tahr__map tahr__map_fixed(const tahr__frame *frame);
 tahr_vec3 tahr__map_point(const tahr__map *map, tahr_vec3 v);
 void tahr__map_triangle(const tahr__map *map, const tahr__body *body, uint32_t triangle, tahr_vec3 v[3]);
-tahr_vec3 tahr__frame_to_world(const tahr__frame *frame, tahr_vec3 direction);
 tahr_bounds tahr__frame_box_to_world(const tahr__frame *frame, const tahr_bounds *box, double grow);
 tahr_bounds tahr__frame_box_to_local(const tahr__frame *frame, const tahr_bounds *box);
 /* What all primitives of a body share; then the rest of a triangle, of a whole round body, of the inside of a box. */
@@ -297,8 +325,6 @@ tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses,
 enum { TAHR__CACHE_MOST = 4096 };
 /* Does the cache hold everything static within reach of the search? */
 int tahr__cache_holds(const tahr__search *search);
-/* The same, of a cache that is known to serve. */
-int tahr__cache_spans(const tahr__cache *cache, const tahr_bounds *box, double reach);
 /* Which cached primitives (prims[found[i].index]) may be within reach, and when. Returns how many, at most
  * TAHR__CACHE_MOST. */
 uint32_t tahr__cache_cull(const tahr__search *search, const tahr__prim **prims, tahr__lanes_found *found);
@@ -446,7 +472,6 @@ tahr_vec3 tahr__touch_middle(const tahr__prim *prim, const tahr__witness *w, tah
 int tahr__found_before(const tahr__found *a, const tahr__found *b);
 /* The last of these alone: by body, feature, item. */
 int tahr__named_before(const tahr__found *a, const tahr__found *b);
-tahr_bounds tahr__query_box(const tahr__query *query, double t);
 /* Half the extent of a box core along n: apart, so that the code of round shapes stays small. */
 double tahr__box_extent(const tahr__query *query, tahr_vec3 n);
 

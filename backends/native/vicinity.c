@@ -66,7 +66,7 @@ static double away2(const tahr__vicinity *v, const tahr__query *query, tahr_vec3
 }
 
 /* The same at this fraction of the motion, if that is farther than at its start. */
-static double farthest2(const tahr__query *query, double until)
+static inline double farthest2(const tahr__query *query, double until)
 {
     const tahr__vicinity *v = &query->cache->vicinity;
     return d_max(away2(v, query, query->start), away2(v, query, v_mad(query->start, query->motion, until)));
@@ -240,7 +240,7 @@ static int is_stale(const tahr__query *query)
     return !v->known || away2(v, query, query->start) > DRIFT * DRIFT;
 }
 
-static uint32_t way_of(const tahr__query *query)
+static inline uint32_t way_of(const tahr__query *query)
 {
     const tahr__level *l = &query->cache->vicinity.floor;
     if (!(l->normal.z > 0)) return TAHR__AROUND;
@@ -447,7 +447,7 @@ static int tries_spot(tahr__vicinity *v)
     return 1;
 }
 
-static int is_at_spot(const tahr__vicinity *v, tahr_vec3 place)
+static inline int is_at_spot(const tahr__vicinity *v, tahr_vec3 place)
 {
     const tahr_vec3 off = v_sub(place, v->spot);
     return v->alone > 0 && v_dot(off, off) <= v->alone * v->alone && is_within_edges(v, place);

@@ -9,7 +9,7 @@ static tahr_vec3 turned(const tahr__frame *frame, tahr_vec3 v)
 }
 
 /* A query of a cache that holds, of the body or its foot. */
-static void aim(tahr__query *query, tahr_query_context *context, const tahr_walk *walk, int foot)
+static inline void aim(tahr__query *query, tahr_query_context *context, const tahr_walk *walk, int foot)
 {
     const tahr__frame *frame = query->frame;
     query->context = context;
