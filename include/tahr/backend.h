@@ -119,9 +119,8 @@ typedef struct tahr_backend {
     tahr_status (*body_motion)(void *self, uint32_t body, tahr_body_motion *motion);
     tahr_status (*fluid)(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *fluid);
 
-    /* Optional: a walk in one look. *known = 1: nothing blocks the motion, and *hit (of a foot) is the one that sweep
-     * answers for it, bit for bit, by a plain face that nothing else is near. 0: it is not known, or not so; what *hit
-     * holds then means nothing. Without a foot hit->distance, 0 before the call, may say how far (m) from its position
+    /* Optional: a walk in one look. *known = 1: nothing blocks the motion, and *hit (of a foot) is the blocking one that
+     * sweep answers for it, bit for bit. 0: it is not known, or not so; what *hit holds then means nothing. Without a foot hit->distance, 0 before the call, may say how far (m) from its position
      * such a shape meets nothing whichever way it goes, for as long as no body is placed anew. */
     tahr_status (*walk)(void *self, tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit, uint32_t *known);
 
