@@ -13,6 +13,14 @@ void tahr__form_lanes(const tahr__native *world, const tahr__frame *frame, tahr_
 /* What is missing of one with a head. */
 void tahr__form_rest(const tahr__native *world, const tahr__frame *frame, tahr__prim *prim);
 
+/* One of the query's cache, whole. */
+static inline tahr__prim *tahr__formed(const tahr__query *query, uint32_t index)
+{
+    tahr__prim *prim = &tahr__cache_prims(query->world, query->cache)[index];
+    if (prim->kind & TAHR__UNFORMED) tahr__form_rest(query->world, query->frame, prim);
+    return prim;
+}
+
 /* Two at a time, which every machine has by its compiler's vectors. */
 tahr__former tahr__former_of_two(void);
 

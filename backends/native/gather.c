@@ -327,12 +327,10 @@ static int concerns(const tahr__query *query, const tahr__prim *prim)
 }
 
 /* What is near enough to be asked is formed in full. */
-static void form_found(const tahr__query *query, tahr__prim *all, const tahr__lanes_found *found, uint32_t count)
+static void form_found(const tahr__query *query, const tahr__lanes_found *found, uint32_t count)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        tahr__prim *prim = &all[found[i].index];
-        if (prim->kind & TAHR__UNFORMED) tahr__form_rest(query->world, query->frame, prim);
-    }
+    for (uint32_t i = 0; i < count; i++)
+        tahr__formed(query, found[i].index);
 }
 
 uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr__lanes_found *found)
@@ -346,14 +344,14 @@ uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr_
     uint32_t count = query->world->lanes->cull(&lanes, &q, found), kept = 0;
     if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY &&
         query->sensors != TAHR__SENSORS_ONLY) {
-        form_found(query, all, found, count);
+        form_found(query, found, count);
         return count;
     }
     for (uint32_t i = 0; i < count; i++) {
         found[kept] = found[i];
         kept += (uint32_t)concerns(query, &all[found[i].index]);
     }
-    form_found(query, all, found, kept);
+    form_found(query, found, kept);
     return kept;
 }
 

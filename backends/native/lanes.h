@@ -55,6 +55,19 @@ typedef struct tahr__lanes_query {
     float lowest; /* that the segment comes */
 } tahr__lanes_query;
 
+/* Of an upright segment at rest: what is no farther than reach. */
+static inline tahr__lanes_query tahr__lanes_at(tahr_vec3 p, double half, double reach)
+{
+    double more = reach + TAHR__LANE_SLACK;
+    return (tahr__lanes_query){.lo = {d_down(p.x), d_down(p.y), d_down(p.z - half)},
+                               .hi = {d_up(p.x), d_up(p.y), d_up(p.z + half)},
+                               .limit = d_up(more * more * (1 + 1e-5)),
+                               .start = {(float)p.x, (float)p.y, (float)p.z},
+                               .half = (float)half,
+                               .reach = (float)more,
+                               .lowest = d_down(p.z - half)};
+}
+
 /* One of them, and the fraction of the motion before which it is out of reach. */
 typedef struct tahr__lanes_found {
     float time;

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: MIT
+ * ground.h: the floor that the last foot was stopped by, and the one triangle of it that is under the character. */
+#ifndef TAHR_NATIVE_GROUND_H
+#define TAHR_NATIVE_GROUND_H
+
+#include "scene.h"
+
+/* m from the core at which something is met. */
+static inline double reach_of(const tahr__query *query)
+{
+    return query->radius + query->margin;
+}
+
+/* How high the lower end of the query's segment is over the floor, times the length of its normal. */
+static inline double height_over(const tahr__level *l, const tahr__query *query)
+{
+    return v_dot(l->normal, v_sub(query->start, l->at)) - query->half * l->normal.z;
+}
+
+/* Where a triangle is to the floor, as what is added to its distance for who stays above: nothing while it has not been
+ * looked at; next to nothing for what is ABOVE, or where it cannot be told; and what is not met is far away. */
+#define TAHR__UNSEEN 0.0f
+#define TAHR__ABOVE 1e-30f
+#define TAHR__BELOW 1e38f
+#define TAHR__IN_IT 2e38f
+
+/* Looks at one of the query's cache for the first time. */
+float tahr__ground_see(const tahr__query *query, uint32_t index);
+
+static inline float ground_side(const tahr__query *query, uint32_t index)
+{
+    const float side = tahr__cache_lift(query->world, query->cache)[index];
+    return side != TAHR__UNSEEN ? side : tahr__ground_see(query, index);
+}
+
+/* Takes the plane of what stopped the last foot for the floor; as it is, if that lies in it. */
+void tahr__ground_know(const tahr__query *query);
+
+/* A foot that comes down on the floor, well inside of a triangle which nothing else of the floor reaches over: 1 and when
+ * and where; 0: it is not known what is there. */
+int tahr__ground_meets(const tahr__query *query, tahr__found *found);
+
+/* The cache holds something else now. */
+void tahr__ground_forget(const tahr__native *world, tahr__cache *cache);
+
+#endif
