@@ -51,7 +51,7 @@ void tahr__stay_on_ledge(tahr__step *step, tahr__path *w, const tahr_floor *beyo
         tahr_floor held_floor = step->state.floor;
         tahr__path_carry_floor(w, step);
         tahr__path_walk(step, w);
-        tahr__find_floor(step, step->config->snap_distance, NULL, &floor);
+        tahr__path_look_below(step, w, &floor);
         if (floor_is_walkable(&floor)) {
             tahr__keep_floor(step, &floor);
             return;

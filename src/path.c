@@ -521,3 +521,13 @@ void tahr__path_walk(tahr__step *step, tahr__path *w)
     }
     w->lost = w->duration + w->rest - tahr__path_used(w);
 }
+
+void tahr__path_look_below(tahr__step *step, tahr__path *w, tahr_floor *floor)
+{
+    if (w->knows_below) {
+        tahr__find_floor_met(step, step->config->snap_distance, &w->below, floor);
+        w->knows_below = 0;
+    } else {
+        tahr__find_floor(step, step->config->snap_distance, NULL, floor);
+    }
+}

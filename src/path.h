@@ -50,6 +50,9 @@ void tahr__path_find_slope(tahr__path *w, tahr__step *step);
  * the way ask; two more for each turn around something (report.arcs). */
 void tahr__path_walk(tahr__step *step, tahr__path *w);
 
+/* The floor under the end of that walk, as tahr__find_floor tells it; the walk may have met it already. */
+void tahr__path_look_below(tahr__step *step, tahr__path *w, tahr_floor *floor);
+
 /* The last straight piece of the way went only a part of it, to where the character is now. No query. */
 void tahr__path_cut(tahr__step *step, tahr__path *w, double part);
 

@@ -102,16 +102,6 @@ static tahr__next stand(tahr__step *step, double time, int looked)
     return next;
 }
 
-static void look_below(tahr__step *step, tahr__path *w, tahr_floor *floor)
-{
-    if (w->knows_below) {
-        tahr__find_floor_met(step, step->config->snap_distance, &w->below, floor);
-        w->knows_below = 0;
-    } else {
-        tahr__find_floor(step, step->config->snap_distance, NULL, floor);
-    }
-}
-
 /* Walks on until the floor under the end of the walk is known. Where it seems to end it may only lie lower than one
  * snap reaches from the straight path of a long slice (stairs down at 10 Hz): goes down where it still was, and on from
  * there. Returns FLOOR; NO_FLOOR with the place where it ended as a part of the last piece; or WALK_AGAIN if it may
@@ -127,7 +117,7 @@ static int walk_over_floor(tahr__step *step, tahr__path *w, double *part)
         if (floor_is_current(step)) {
             return FLOOR;
         }
-        look_below(step, w, &floor);
+        tahr__path_look_below(step, w, &floor);
         if (floor_is_walkable(&floor)) {
             tahr__keep_floor(step, &floor);
             return FLOOR;

@@ -177,7 +177,6 @@ void tahr__form_lanes(const tahr__native *world, const tahr__frame *frame, tahr_
     const tahr__former *former = &world->former;
     run r;
     r.prims = prims;
-    r.row = r.row_cell = 0;
     for (uint32_t at = 0; at < count;) {
         uint32_t id = prims[at].body;
         r.body = &world->bodies[id];
@@ -188,6 +187,7 @@ void tahr__form_lanes(const tahr__native *world, const tahr__frame *frame, tahr_
             at++;
         } else {
             r.map = tahr__map_make(frame, r.body);
+            r.row = r.row_cell = 0; /* those of another field are no rows of this one */
             for (r.end = at; r.end < count && prims[r.end].body == id && prims[r.end].kind & TAHR__UNFORMED;)
                 r.end++;
             while (at < r.end) {

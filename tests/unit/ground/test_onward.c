@@ -27,6 +27,12 @@ static struct {
     uint32_t looks, known;
 } slot;
 
+/* Of all characters. */
+static struct {
+    double dt; /* s */
+    uint32_t stays_on_ledges;
+} way = {1.0 / 60, 0};
+
 static tahr_status prepare(void *self, tahr_query_context *context, const tahr_prepare *announcement)
 {
     slot.in_step = 1;
@@ -102,6 +108,7 @@ static void open_walkers(walkers *w, const tahr_backend *backend, uint32_t short
     assert_int_equal(tahr_world_open(backend, &desc, &w->world), TAHR_OK);
     tahr_config_init(&config, sizeof config, TAHR_PRESET_PRECISE);
     config.short_ways = short_ways;
+    config.walk_off_ledges = !way.stays_on_ledges;
     for (uint32_t i = 0; i < CHARACTERS; i++) {
         assert_int_equal(tahr_mover_create(w->world, &config, &w->movers[i]), TAHR_OK);
         assert_true(scene_wander_spawn(w->world, &config, &yard, &seed, &w->states[i]));
@@ -122,13 +129,13 @@ static tahr_report step(walkers *w, int i, int traced)
 {
     static tahr_query_record queries[TAHR_MAX_QUERIES_PER_STEP];
     tahr_report r = {.struct_size = sizeof r};
-    const tahr_input *input = scene_wander_next(&w->wanderers[i], 1.0 / 60);
+    const tahr_input *input = scene_wander_next(&w->wanderers[i], way.dt);
     if (traced) {
         r.queries = queries;
         r.query_capacity = TAHR_MAX_QUERIES_PER_STEP;
     }
     slot.in_step = 0;
-    assert_true(tahr_mover_step(w->movers[i], input, 1.0 / 60, &w->states[i], &r) >= 0);
+    assert_true(tahr_mover_step(w->movers[i], input, way.dt, &w->states[i], &r) >= 0);
     if (traced) {
         assert_int_equal(r.query_count, r.sweeps + r.rays + r.contact_queries);
     }
@@ -169,6 +176,18 @@ static void the_last_piece_along_a_wall_is_known_in_one_look(void **state)
     assert_true(known > slot.looks / 2 && known > TICKS * CHARACTERS / 20);
 }
 
+/* Who is held there goes on along the edge, in long steps often past something else. */
+static void the_last_piece_along_a_ledge_is_asked_for_once(void **state)
+{
+    (void)state;
+    way.dt = 0.3;
+    way.stays_on_ledges = 1;
+    const uint32_t known = compare(KNOWS, 0);
+    way.dt = 1.0 / 60;
+    way.stays_on_ledges = 0;
+    assert_true(known > 0);
+}
+
 /* Where nothing ever comes of it a look is taken once in 16 times. */
 static void what_is_not_known_is_asked_for_and_looked_at_seldom(void **state)
 {
@@ -198,6 +217,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_last_piece_along_a_wall_is_known_in_one_look),
+        cmocka_unit_test(the_last_piece_along_a_ledge_is_asked_for_once),
         cmocka_unit_test(what_is_not_known_is_asked_for_and_looked_at_seldom),
         cmocka_unit_test(an_impossible_answer_counts_as_none),
         cmocka_unit_test(who_is_watched_asks_one_by_one),

@@ -192,22 +192,41 @@ static void what_is_stored_between_is_left_alone(void **state)
 
 enum { COLUMNS = 7, ROWS = 9, CELLS = (COLUMNS - 1) * (ROWS - 1), MOST = 2 * CELLS };
 
-/* A field with 0.3 m between its heights. */
-static void open_field(scene *s, tahr__body *body, oracle_random *r)
+/* A field with 0.3 m between its heights, in place of the body's mesh. */
+static void open_field(scene *s, tahr__body *body, uint32_t columns, oracle_random *r)
 {
     double heights[COLUMNS * ROWS];
     tahr_body_desc d;
     tahr_bounds bounds;
+    tahr__mesh_free(&s->host, &body->mesh);
+    memset(&body->mesh, 0, sizeof body->mesh);
     memset(&d, 0, sizeof d);
     for (int i = 0; i < COLUMNS * ROWS; i++)
         heights[i] = oracle_uniform(r, -0.2, 0.2);
-    d.columns = COLUMNS;
+    d.columns = columns;
     d.rows = ROWS;
     d.heights = heights;
-    d.half_extents = v_make(0.9, 1.2, 0);
+    d.half_extents = v_make(0.15 * (columns - 1), 1.2, 0);
     assert_int_equal(tahr__heights_open(&s->host, &d, 0, &body->heights, &bounds), TAHR_OK);
     assert_int_equal(body->heights.may_be_thin, 0);
     body->type = TAHR_BODY_HEIGHTS;
+}
+
+/* Are these lanes of a field's triangle, bit for bit, those that are made of it alone? */
+static void assert_formed(scene *s, const tahr__map *map, uint32_t i)
+{
+    const uint32_t id = s->prims[i].body, item = s->prims[i].item;
+    const tahr__body *body = &s->bodies[id];
+    tahr_vec3 v[3];
+    tahr__prim p;
+    assert_true(tahr__heights_triangle(&body->heights, item, v));
+    tahr__prim_begin(body, id, &p);
+    tahr__prim_heights(map, body, item, v, &p);
+    const tahr_vec3 *c = p.facet.v;
+    tahr_bounds box = {v_min(c[0], v_min(c[1], c[2])), v_max(c[0], v_max(c[1], c[2]))};
+    tahr__lanes_put(s->expected_blocks, i, &box, &p.facet);
+    for (uint32_t row = 0; row < TAHR__LANE_ROWS; row++)
+        assert_memory_equal(&s->blocks[tahr__lane(i, row)], &s->expected_blocks[tahr__lane(i, row)], sizeof(float));
 }
 
 /* From any triangle on, in the field's order or in steps: pairs are whole and cut, rows end within a group. */
@@ -221,9 +240,7 @@ static void triangles_of_a_field_are_formed_together_as_one_by_one(void **state)
         uint32_t items[MOST], step = n % 3 ? 1 : 1 + 2 * oracle_below(&r, MOST / 2), count = 0;
         begin(&s, &r);
         tahr__body *body = &s.bodies[1];
-        tahr__mesh_free(&s.host, &body->mesh);
-        memset(&body->mesh, 0, sizeof body->mesh);
-        open_field(&s, body, &r);
+        open_field(&s, body, COLUMNS, &r);
         s.world.former = formers[n % 2];
         tahr__frame frame = tahr__frame_make(dice_vec(&r, -20, 20), n % 3 ? v_make(0, 0, 1) : dice_direction(&r));
         for (uint32_t at = n % MOST; at < MOST && count < MOST; at += step)
@@ -231,20 +248,41 @@ static void triangles_of_a_field_are_formed_together_as_one_by_one(void **state)
         tahr__form_heads(body, 1, items, count, s.prims);
         tahr__form_lanes(&s.world, &frame, s.prims, s.blocks, count);
         tahr__map map = tahr__map_make(&frame, body);
-        for (uint32_t i = 0; i < count; i++) {
-            tahr_vec3 v[3];
-            tahr__prim p;
-            assert_true(tahr__heights_triangle(&body->heights, items[i], v));
-            tahr__prim_begin(body, 1, &p);
-            tahr__prim_heights(&map, body, items[i], v, &p);
-            const tahr_vec3 *c = p.facet.v;
-            tahr_bounds box = {v_min(c[0], v_min(c[1], c[2])), v_max(c[0], v_max(c[1], c[2]))};
-            tahr__lanes_put(s.expected_blocks, i, &box, &p.facet);
-            for (uint32_t row = 0; row < TAHR__LANE_ROWS; row++)
-                assert_memory_equal(&s.blocks[tahr__lane(i, row)], &s.expected_blocks[tahr__lane(i, row)],
-                                    sizeof(float));
-        }
+        for (uint32_t i = 0; i < count; i++)
+            assert_formed(&s, &map, i);
         tahr__heights_close(&s.host, &body->heights);
+        end(&s);
+    }
+}
+
+/* Where one field ends and one of other columns begins the rows of the first count for nothing. */
+static void two_fields_are_formed_each_by_its_own_rows(void **state)
+{
+    (void)state;
+    static scene s;
+    oracle_random r = {29};
+    tahr__former formers[] = {tahr__former_best(1), tahr__former_of_two()};
+    for (uint32_t n = 0; n < 200; n++) {
+        const uint32_t columns[2] = {COLUMNS, 2 + n % (COLUMNS - 1)};
+        uint32_t items[TRIANGLES], count = 0;
+        tahr__map maps[2];
+        begin(&s, &r);
+        s.world.former = formers[n % 2];
+        tahr__frame frame = tahr__frame_make(dice_vec(&r, -20, 20), v_make(0, 0, 1));
+        for (uint32_t id = 0; id < 2; id++) {
+            open_field(&s, &s.bodies[id], columns[id], &r);
+            const uint32_t last = 2 * (columns[id] - 1) * (ROWS - 1), some = 1 + oracle_below(&r, 8);
+            for (uint32_t i = 0; i < some; i++)
+                items[i] = oracle_below(&r, last);
+            tahr__form_heads(&s.bodies[id], id, items, some, s.prims + count);
+            maps[id] = tahr__map_make(&frame, &s.bodies[id]);
+            count += some;
+        }
+        tahr__form_lanes(&s.world, &frame, s.prims, s.blocks, count);
+        for (uint32_t i = 0; i < count; i++)
+            assert_formed(&s, &maps[s.prims[i].body], i);
+        for (int id = 0; id < 2; id++)
+            tahr__heights_close(&s.host, &s.bodies[id].heights);
         end(&s);
     }
 }
@@ -254,6 +292,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_stored_between_is_left_alone),
         cmocka_unit_test(triangles_of_a_field_are_formed_together_as_one_by_one),
+        cmocka_unit_test(two_fields_are_formed_each_by_its_own_rows),
         cmocka_unit_test(formed_together_is_formed_one_by_one),
         cmocka_unit_test(formed_two_at_a_time_is_formed_one_by_one),
     };
