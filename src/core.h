@@ -201,9 +201,9 @@ struct tahr_mover {
     uint32_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide looks first */
     uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t may_go_short_way;
-    uint32_t long_way; /* 1: the last step could have been no short one (short_way.h) */
-    uint32_t rest;     /* steps until one is tried, */
-    uint32_t failed;   /* and how often in a row it was in vain */
+    uint32_t long_way;      /* 1: the last step could have been no short one (short_way.h) */
+    uint32_t rest;          /* steps until one is tried, */
+    uint32_t failed;        /* and how often in a row it was in vain */
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
     tahr__pace pace;

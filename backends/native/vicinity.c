@@ -31,8 +31,8 @@
 #define LOWER 1e-6
 /* More than what counts as the same time (m, HAIR of sweep.c). */
 #define TIED 2e-9
-/* A triangle of the floor that is farther than this (m) from the contact of a foot of reach r is met later, by the square
- * of it over 2 r: 2.5e-9 m at least, where 1e-9 m counts as the same time. */
+/* A triangle of the floor that is farther than this (m) from the contact of a foot of reach r is met later, by the
+ * square of it over 2 r: 2.5e-9 m at least, where 1e-9 m counts as the same time. */
 #define APART 2e-4
 /* Shapes of less reach (m) are left to the cache, for it has to be much more than the lengths here; and of more, for
  * APART. */
