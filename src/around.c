@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * around.c: going on around an edge or a round body within a slice.
  *
- * A round character that slides over an edge stays at R = radius + skin from it: its centre goes along a circle, and the
- * way that is left to it turns with the normal. Kept straight for a slice the way is off by the order of its length: on
- * the circle the angle to the wish grows as phi' = |u| / R sin phi, a chord of length l sees sin of its begin instead of
- * its mean, and ends l^2 / 2R off the edge.
+ * A round character that slides over an edge stays at R = radius + skin from it: its centre goes along a circle, and
+ * the way that is left to it turns with the normal. Kept straight for a slice the way is off by the order of its
+ * length: on the circle the angle to the wish grows as phi' = |u| / R sin phi, a chord of length l sees sin of its
+ * begin instead of its mean, and ends l^2 / 2R off the edge.
  *
  * So the way is a chain of tangents. From the point where one touches the circle the character goes l/2 along it, the
  * plane is turned until it touches the circle again, and l/2 on it is at the touching point. Of a tangent of length l:
@@ -95,7 +95,8 @@ void tahr__around_hit(const tahr__around *a, tahr__plane *planes, uint32_t *coun
     *count = kept;
 }
 
-/* A cylinder about `axis` or a ball, cut by the plane that the character stays in. Returns 0 if that leaves no circle. */
+/* A cylinder about `axis` or a ball, cut by the plane that the character stays in. Returns 0 if that leaves no
+ * circle. */
 static int cut_by_plane(const tahr__step *step, int level, tahr__around *a)
 {
     vec3 held = level ? step->state.up : step->limits->plane;

@@ -130,8 +130,8 @@ typedef struct tahr__pace {
 /* Events of a step that can be repeated; a step with more is computed again. */
 enum { TAHR__SLEEP_EVENTS = 8 };
 
-/* The last step, if it left the state as it was (sleep.h). In the order in which a sleeper compares it, from the begin of
- * a line of memory: a crowd asleep costs the lines that it reads. */
+/* The last step, if it left the state as it was (sleep.h). In the order in which a sleeper compares it, from the begin
+ * of a line of memory: a crowd asleep costs the lines that it reads. */
 typedef struct tahr__sleep {
     _Alignas(64) uint32_t noted; /* 1 + the report's event_capacity; 0: nothing is */
     int16_t status;
@@ -191,7 +191,8 @@ typedef struct tahr__onward {
     uint32_t failed; /* and how often in a row one was of no use */
 } tahr__onward;
 
-/* In the order in which a step reads it: the short way (short_way.h) costs the lines of memory up to the limits' foot. */
+/* In the order in which a step reads it: the short way (short_way.h) costs the lines of memory up to the limits'
+ * foot. */
 struct tahr_mover {
     tahr_world *world;
     struct tahr__company *company; /* in a step of a crowd: who else is there (neighbours.h), else NULL */
@@ -201,9 +202,9 @@ struct tahr_mover {
     uint32_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide looks first */
     uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t may_go_short_way;
-    uint32_t long_way; /* 1: the last step could have been no short one (short_way.h) */
-    uint32_t rest;     /* steps until one is tried, */
-    uint32_t failed;   /* and how often in a row it was in vain */
+    uint32_t long_way;      /* 1: the last step could have been no short one (short_way.h) */
+    uint32_t rest;          /* steps until one is tried, */
+    uint32_t failed;        /* and how often in a row it was in vain */
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
     tahr__pace pace;

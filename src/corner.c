@@ -23,8 +23,8 @@ static const double CEILING = 1e-3;
 /* A contact with less of a level part lies on the ceiling's face: no side of it is nearer. */
 static const double FLAT = 1e-6;
 
-/* Of skin: so far below the ceiling and beside the corner, against the rounding of an engine in single precision (2e-6 m
- * at 1 m). */
+/* Of skin: so far below the ceiling and beside the corner, against the rounding of an engine in single precision (2e-6
+ * m at 1 m). */
 static const double CLEAR = 4e-4;
 
 /* How far up the widest part of the head lies above its top, so that it passes what the top has hit. A cone's is its

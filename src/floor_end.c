@@ -14,9 +14,9 @@
 #include "perch.h"
 #include "shape.h"
 
-/* Half widths of the character (1e-9 m of one 0.7 m wide) beside a predicted place that is looked at, above the rounding
- * of an exact sweep past an edge; times FARTHER where that came out on the wrong side (what is exact to 1e-6 m is found
- * at once then), and by NEARER less where it did not. */
+/* Half widths of the character (1e-9 m of one 0.7 m wide) beside a predicted place that is looked at, above the
+ * rounding of an exact sweep past an edge; times FARTHER where that came out on the wrong side (what is exact to 1e-6 m
+ * is found at once then), and by NEARER less where it did not. */
 static const double BESIDE = 3e-9, FARTHER = 1024, NEARER = 32;
 
 /* Radians, and parts of a length: what is less is level, upright or along, and would make a quotient of rounding. */
@@ -324,9 +324,9 @@ static double predict(const tahr__step *step, const search *s)
     return !in->known && off > NOWHERE && off < in->at ? in->at : NOWHERE;
 }
 
-/* Beside the predicted place, on the side that less is known of; else in the middle. But who has gone down where a floor
- * ended, and goes on from there, is at the end of the next one already: if the floor held nowhere so far, right behind
- * the begin. */
+/* Beside the predicted place, on the side that less is known of; else in the middle. But who has gone down where a
+ * floor ended, and goes on from there, is at the end of the next one already: if the floor held nowhere so far, right
+ * behind the begin. */
 static double next_look(search *s, uint32_t looks)
 {
     enum { STEADY = 3 };

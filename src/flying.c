@@ -11,8 +11,8 @@
 /* m/s: a drag alone never ends. A deceleration of the drag at this speed does, at the same time at every frame rate. */
 static const double HOVERS = 1e-3;
 
-/* Is the drive the velocity all the time? Every wall then takes its part of the drive itself, as in walking: of what the
- * wall before left, a gutter whose walls lean to each other would leave less and less. path_tolerance 0 is a flight
+/* Is the drive the velocity all the time? Every wall then takes its part of the drive itself, as in walking: of what
+ * the wall before left, a gutter whose walls lean to each other would leave less and less. path_tolerance 0 is a flight
  * whose bends are the coarse ones. */
 static int holds_drive(const tahr__step *step)
 {

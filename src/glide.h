@@ -36,7 +36,8 @@ static inline vec3 tahr__glide_bend(const tahr__glide *glide, vec3 v)
     return tahr__slide(glide->planes, glide->plane_count, v);
 }
 
-/* Nothing was met for the time of a piece, which is counted: what it slides along is turned, if it is time. No query. */
+/* Nothing was met for the time of a piece, which is counted: what it slides along is turned, if it is time. No
+ * query. */
 void tahr__glide_pass(tahr__step *step, tahr__glide *glide, double time);
 
 /* Counts the time of a piece. */

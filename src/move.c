@@ -11,7 +11,8 @@
 #include "report.h"
 #include "trail.h"
 
-/* An overlap of less is rounding of the backend, not worth a push (native 1e-9 m, and positions 1e7 m out have steps of 2e-9 m). */
+/* An overlap of less is rounding of the backend, not worth a push (native 1e-9 m, and positions 1e7 m out have steps of
+ * 2e-9 m). */
 static const double TOUCHING = 1e-7;
 
 static void advance(tahr__step *step, vec3 motion, const tahr_hit *hit)

@@ -415,9 +415,9 @@ static void open_late(tahr__step *step, tahr__path *w)
 /* Cosine of a floor's slope. */
 static const double LEVEL = 1 - 1e-9;
 
-/* A way that turns toward the wish was stopped on its chord, off where it is itself: once more, in chords that lie off it
- * by no more than path_tolerance. A chord that nothing stops ends where the way does, and is as good. Returns 0 if it is
- * near enough; and on slopes: between two of them a long slice needs all its slides to get along. */
+/* A way that turns toward the wish was stopped on its chord, off where it is itself: once more, in chords that lie off
+ * it by no more than path_tolerance. A chord that nothing stops ends where the way does, and is as good. Returns 0 if
+ * it is near enough; and on slopes: between two of them a long slice needs all its slides to get along. */
 static int cut_up(tahr__step *step, tahr__path *w)
 {
     double tolerance = step->config->path_tolerance;

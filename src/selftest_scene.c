@@ -320,6 +320,7 @@ double tahr__lab_reach(const tahr__lab *lab, vec3 toward)
 
 double tahr__lab_slack(const tahr__lab *lab)
 {
-    /* An engine whose geometry is in float, local to some metres, is off by 2.4e-7 m whatever the size of the character. */
+    /* An engine whose geometry is in float, local to some metres, is off by 2.4e-7 m whatever the size of the
+     * character. */
     return (lab->desc->gap_tolerance > 0 ? lab->desc->gap_tolerance : 9e-5) * max_of(lab->scale, 0.01);
 }

@@ -109,8 +109,8 @@ static inline tahr__motion law_advance(const tahr__law *law, int wishes, vec3 v,
  * the way. */
 double tahr__law_time(const tahr__law *law, vec3 v, double duration, vec3 whole, double part);
 
-/* m/s2: no acceleration across the way is more; 0 while it goes straight along the wish, or brakes. A chord of t seconds
- * lies off the way by an eighth of it times t^2. */
+/* m/s2: no acceleration across the way is more; 0 while it goes straight along the wish, or brakes. A chord of t
+ * seconds lies off the way by an eighth of it times t^2. */
 double tahr__law_bending(const tahr__law *law, vec3 v);
 
 /* m: the way of t seconds lies off its chord by no more. */

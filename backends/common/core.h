@@ -44,9 +44,9 @@ void tahr__core_distance(const tahr__core *core, tahr_vec3 centre, const tahr_ve
 /* The same, same bits, for who keeps the facet. */
 void tahr__facet_distance(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out);
 
-/* Does a box only touch the triangle, up to rounding? Then the direction between the nearest points is rounding, and the
- * way out of the triangle may lead anywhere: an axis that separates them is the normal, the triangle's own before others.
- * Sets all but the distance. */
+/* Does a box only touch the triangle, up to rounding? Then the direction between the nearest points is rounding, and
+ * the way out of the triangle may lead anywhere: an axis that separates them is the normal, the triangle's own before
+ * others. Sets all but the distance. */
 int tahr__box_touches(const tahr__core *box, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out);
 
 /* The pieces of it. A point sets everything but reserved. */

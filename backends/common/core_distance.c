@@ -2,7 +2,8 @@
  * core_distance.c: nearest points between a triangle and a point, a segment or a box. */
 #include "core.h"
 
-/* Of the sizes of box and triangle: nearer than this, or less deep, they touch. A thousand times what rounding makes. */
+/* Of the sizes of box and triangle: nearer than this, or less deep, they touch. A thousand times what rounding
+ * makes. */
 #define TOUCHING 1e-12
 /* Pairs of edges with a squared sine below this are parallel: what is across them is rounding. */
 #define NEARLY_PARALLEL 1e-20

@@ -12,8 +12,8 @@
  * and where there is none there stays none. A query is told from a farther one up to 2^30 places off, 64 times the size
  * of the tree: beyond that it only comes nearer, and a reach of half of it finds all. The gap is computed in floats.
  * Whole numbers below 2^24 are exact in them, and a query's bound farther away is rounded by 2^-24 of it; the limit is
- * larger by 1e-6, more than rounding the difference, three squares and two sums may take off. What only asks which boxes
- * meet takes the query's box as much larger as the reach, on the lattice, and compares whole numbers. */
+ * larger by 1e-6, more than rounding the difference, three squares and two sums may take off. What only asks which
+ * boxes meet takes the query's box as much larger as the reach, on the lattice, and compares whole numbers. */
 #ifndef TAHR_COMMON_WIDE_H
 #define TAHR_COMMON_WIDE_H
 

@@ -4,9 +4,9 @@
 
 #include <string.h>
 
-/* Side of a cell (m). All is relative to its corner, so that what is moved by whole cells keeps its bits, that the float
- * lanes tell as much apart far out as near the origin (2.4e-7 m within a cell), and that the rest is computed with
- * numbers of a few metres. A power of two: places on a grid stay exact. Large enough to be left seldom. */
+/* Side of a cell (m). All is relative to its corner, so that what is moved by whole cells keeps its bits, that the
+ * float lanes tell as much apart far out as near the origin (2.4e-7 m within a cell), and that the rest is computed
+ * with numbers of a few metres. A power of two: places on a grid stay exact. Large enough to be left seldom. */
 #define CELL 4.0
 
 tahr__frame tahr__frame_make(tahr_vec3 position, tahr_vec3 up)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * ground.c: the floor that the last foot was stopped by, and the one triangle of it that is under the character.
  *
- * What lies in the plane of the floor or below it cannot be met by who stays above; and a foot that comes down on it meets
- * the triangle under it, and nothing else of the floor before it or at the same time, if that triangle is there alone. */
+ * What lies in the plane of the floor or below it cannot be met by who stays above; and a foot that comes down on it
+ * meets the triangle under it, and nothing else of the floor before it or at the same time, if that triangle is there
+ * alone. */
 #include "ground.h"
 
 #include "form.h"
@@ -15,8 +16,8 @@
 #define FLAT 0.02
 /* So much lower than the floor (m) is not met before it, nor at the same time but for rounding (HAIR of sweep.c). */
 #define LOWER 1e-6
-/* A triangle of the floor that is farther than this (m) from the contact of a foot of reach r is met later, by the square
- * of it over 2 r: 2.5e-9 m at least, where 1e-9 m counts as the same time. */
+/* A triangle of the floor that is farther than this (m) from the contact of a foot of reach r is met later, by the
+ * square of it over 2 r: 2.5e-9 m at least, where 1e-9 m counts as the same time. */
 #define APART 2e-4
 /* And by so much (m) one may reach over the edge of another: rounding. */
 #define HEM 1e-6

@@ -36,8 +36,8 @@ static inline float ground_side(const tahr__query *query, uint32_t index)
 /* Takes the plane of what stopped the last foot for the floor; as it is, if that lies in it. */
 void tahr__ground_know(const tahr__query *query);
 
-/* A foot that comes down on the floor, well inside of a triangle which nothing else of the floor reaches over: 1 and when
- * and where; 0: it is not known what is there. */
+/* A foot that comes down on the floor, well inside of a triangle which nothing else of the floor reaches over: 1 and
+ * when and where; 0: it is not known what is there. */
 int tahr__ground_meets(const tahr__query *query, tahr__found *found);
 
 /* The cache holds something else now. */

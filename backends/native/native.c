@@ -6,7 +6,8 @@
 #include <string.h>
 
 enum { CAPACITY_DEFAULT = 128, CAPACITY_MAX = TAHR__CACHE_MOST };
-/* m, at most: a gather lasts 16 steps of a wanderer in a dungeon; at 1.5 it lasts a tenth longer and costs as much (measured). */
+/* m, at most: a gather lasts 16 steps of a wanderer in a dungeon; at 1.5 it lasts a tenth longer and costs as much
+ * (measured). */
 #define MARGIN_DEFAULT 1.0
 
 /* Says what is wrong with the options, or NULL. */

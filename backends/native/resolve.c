@@ -16,8 +16,8 @@
  * whose corners are known to 2e-9 m (at 1e7 m) over a few centimetres. Without it a walker would feel that it is made
  * of triangles. */
 #define SNAP 1e-7
-/* The same for a normal that leans up or down from an upright face: who comes down into a gap that is exactly as wide as
- * itself has arrived at both edges at once where their normals lean by less than the root of TAHR__ARRIVED over the
+/* The same for a normal that leans up or down from an upright face: who comes down into a gap that is exactly as wide
+ * as itself has arrived at both edges at once where their normals lean by less than the root of TAHR__ARRIVED over the
  * radius (1.7e-5 for 0.36 m), and would hang by them. Along the face the lower end of an upright segment comes nearer
  * to the edge by half of the square of this of the radius, 1.6e-10 m; what is sideways must be right as elsewhere. */
 #define LEAN 3e-5

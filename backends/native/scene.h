@@ -17,8 +17,8 @@
 /* A motion at less than this slope to a surface is parallel to it: a thousand times the rounding of a motion that was
  * projected onto the surface in double, and a creep of 1e-12 of the way. */
 #define TAHR__PARALLEL 1e-12
-/* Searches reach farther by this: a place within 1e7 m, turned from body to frame and back, comes back up to 2e-7 m off by
- * the sum of its roundings, 1.1e-16 of it each (the worst of three million was 2e-8 m off). */
+/* Searches reach farther by this: a place within 1e7 m, turned from body to frame and back, comes back up to 2e-7 m off
+ * by the sum of its roundings, 1.1e-16 of it each (the worst of three million was 2e-8 m off). */
 #define TAHR__SLACK 1e-6
 
 typedef struct tahr__body {
@@ -361,12 +361,12 @@ uint32_t tahr__vicinity_pick(const tahr__query *query, uint32_t way, double unti
 int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
 /* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */
 int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
-/* The same of a body that stays OVER the floor, and then its foot that goes DOWN; or something may be in their way, or it
- * is not clear where the floor is. */
+/* The same of a body that stays OVER the floor, and then its foot that goes DOWN; or something may be in their way, or
+ * it is not clear where the floor is. */
 enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
 int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit);
-/* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting anything;
- * < 0: not known. What has not been gathered may be anywhere. */
+/* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting
+ * anything; < 0: not known. What has not been gathered may be anywhere. */
 double tahr__vicinity_room(const tahr__query *query);
 
 /* m from a place (world) to everything that is static: 0 within the bounds of all of it, and no more than 16. */

@@ -11,7 +11,8 @@
  * from where the distance is least, and walls lean by the rounding of their corners in single precision. */
 #define LEVEL 1e-5
 
-/* The way up (down) along a face from a point of it, as far as it is on the face. The normal is unit and nearly level. */
+/* The way up (down) along a face from a point of it, as far as it is on the face. The normal is unit and nearly
+ * level. */
 static tahr_vec3 along_face(const tahr__facet *f, const tahr__witness *w, double rise)
 {
     const tahr_vec3 up = v_make(-w->normal.x * w->normal.z, -w->normal.y * w->normal.z, 1), n = f->cross;

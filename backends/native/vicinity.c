@@ -26,7 +26,7 @@
 /* More than what counts as the same time (m, HAIR of sweep.c). */
 #define TIED 2e-9
 /* Shapes of less reach (m) are left to the cache, for it has to be much more than the lengths here; and of more, for
- * APART. */
+ * APART (ground.c). */
 #define SMALL 1e-3
 #define LARGE 8.0
 

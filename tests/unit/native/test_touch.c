@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_touch.c: where a capsule's side touches something upright along a line, the point that is told is the one nearest
- * to its middle. By hand: the wall's own corners say where that is. */
+ * test_touch.c: where a capsule's side touches something upright along a line, the point that is told is the one
+ * nearest to its middle. By hand: the wall's own corners say where that is. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
