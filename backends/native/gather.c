@@ -196,13 +196,15 @@ static void collect_best(gather *g, int again)
     double width = announced->max.x - announced->min.x;
     const double most = tahr__margin_most(world, width);
     if (cache->margin <= 0 || cache->margin > most) cache->margin = most;
-    do {
-        collect(g);
-    } while (tahr__margin_choose(world, width, cache->overflow ? TAHR__NONE : cache->count, &cache->margin));
-    if (cache->overflow && again && !world->fixed_margin) { /* what is asked right here is looked at many times */
+    if (again && !world->fixed_margin) { /* what is asked right here is looked at many times */
         cache->margin = LEAST_MARGIN;
         collect(g);
         cache->margin = most;
+        if (!cache->overflow) return;
+    } else {
+        do {
+            collect(g);
+        } while (tahr__margin_choose(world, width, cache->overflow ? TAHR__NONE : cache->count, &cache->margin));
     }
     /* A little farther on it will not fit either. */
     if (cache->overflow && !world->fixed_margin) set_bounds(cache, announced, 0.5 * most, v_make(0, 0, 0));
