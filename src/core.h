@@ -8,6 +8,7 @@
 #include <tahr/crowd.h>
 #include <tahr/tahr.h>
 
+#include "backoff.h"
 #include "cone.h"
 #include "velocity.h"
 
@@ -185,12 +186,6 @@ extern const tahr_state tahr__blank;
         .wall_body = TAHR_NO_BODY, .drop_body = TAHR_NO_BODY                                                         \
     }
 
-/* What became of the looks onward (onward.h). */
-typedef struct tahr__onward {
-    uint32_t rest;   /* times that none is taken, */
-    uint32_t failed; /* and how often in a row one was of no use */
-} tahr__onward;
-
 /* In the order in which a step reads it: the short way (short_way.h) costs the lines of memory up to the limits'
  * foot. */
 struct tahr_mover {
@@ -202,14 +197,13 @@ struct tahr_mover {
     uint32_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide looks first */
     uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint32_t may_go_short_way;
-    uint32_t long_way;      /* 1: the last step could have been no short one (short_way.h) */
-    uint32_t rest;          /* steps until one is tried, */
-    uint32_t failed;        /* and how often in a row it was in vain */
+    uint32_t long_way; /* 1: the last step could have been no short one (short_way.h) */
+    tahr__backoff short_way;
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
     tahr__pace pace;
     tahr__dive dive;
-    tahr__onward onward;
+    tahr__backoff onward; /* of the looks of onward.h */
     tahr__limits limits;
     tahr_config config;
     size_t cache_size;
@@ -265,7 +259,7 @@ struct tahr__step {
     uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
     uint32_t apexes;          /* of them cut short at an apex */
     /* The mover's, if the last piece along a wall may be asked for with the floor under its end (onward.h), or NULL. */
-    tahr__onward *onward;
+    tahr__backoff *onward;
     /* For what a perch meets (perch.h), or NULL. */
     struct tahr__inner *inner;
 };

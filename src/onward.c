@@ -6,25 +6,6 @@
 #include "floor.h"
 #include "foot.h"
 
-/* Where it was of no use it is not tried for a while: twice as long each time, up to 15 times. Of no bearing on any
- * bit. */
-static int tries(tahr__onward *o)
-{
-    if (o->rest > 0) {
-        o->rest--;
-        return 0;
-    }
-    return 1;
-}
-
-static int note(tahr__onward *o, int done)
-{
-    const uint32_t most = 5;
-    o->failed = done ? 0 : o->failed < most ? o->failed + 1 : most;
-    o->rest = (1u << o->failed) / 2 - (o->failed > 0);
-    return done;
-}
-
 static int look(tahr__step *step, vec3 motion, tahr_hit *below)
 {
     const tahr_config *c = step->config;
@@ -63,5 +44,6 @@ static int is_plain(const tahr_floor *f)
 
 int tahr__go_onward(tahr__step *step, vec3 motion, tahr_hit *below)
 {
-    return is_plain(&step->state.floor) && tries(step->onward) && note(step->onward, look(step, motion, below));
+    return is_plain(&step->state.floor) && backoff_tries(step->onward) &&
+           backoff_note(step->onward, look(step, motion, below));
 }

@@ -30,18 +30,7 @@ int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_st
  * one knows is likely to do so again. And where the short way was tried in vain it is not for a while. */
 static inline int tahr__tries_short_way(tahr_mover *mover)
 {
-    if (mover->long_way || mover->rest > 0) {
-        mover->rest -= mover->rest > 0;
-        return 0;
-    }
-    return 1;
-}
-
-static inline void tahr__note_short_way(tahr_mover *mover, int done)
-{
-    const uint32_t most = 5;
-    mover->failed = done ? 0 : mover->failed < most ? mover->failed + 1 : most;
-    mover->rest = (1u << mover->failed) / 2 - (mover->failed > 0);
+    return !mover->long_way && backoff_tries(&mover->short_way);
 }
 
 /* Of a step that went the long way. */
@@ -62,8 +51,7 @@ static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input,
     const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)
                      : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report)
                                                         : 0;
-    tahr__note_short_way(mover, done);
-    if (done) {
+    if (backoff_note(&mover->short_way, done)) {
         mover_wake(mover);
     }
     return done;
