@@ -25,7 +25,18 @@ static int same_bits(const tahr_hit *a, const tahr_hit *b)
            a->feature == b->feature && a->surface == b->surface && a->walkable_rule == b->walkable_rule;
 }
 
-/* Asks the slot, and if it knows, the sweeps. */
+/* Asks the slot. */
+static int knows(tahr__lab *lab, const tahr_walk *walk, tahr_hit *said)
+{
+    uint32_t known = 0;
+    memset(said, 0, sizeof *said);
+    tahr_status status = lab->world->backend->walk(lab->world->self, &lab->context, walk, said, &known);
+    return tahr__lab_check(lab, status >= 0 && known <= 1, "walk: ok, and known 0 or 1", "%s, known %u",
+                           tahr_status_name(status), known) &&
+           known;
+}
+
+/* The same, and if it knows, the sweeps. */
 static void compare(tahr__lab *lab, const tahr_sweep *way, const tahr_sweep *down)
 {
     const tahr_walk walk = {.shape = &way->shape,
@@ -38,12 +49,7 @@ static void compare(tahr__lab *lab, const tahr_sweep *way, const tahr_sweep *dow
                             .margin = way->margin,
                             .mask = way->mask};
     tahr_hit said, met;
-    uint32_t known = 0;
-    memset(&said, 0, sizeof said);
-    tahr_status status = lab->world->backend->walk(lab->world->self, &lab->context, &walk, &said, &known);
-    if (!tahr__lab_check(lab, status >= 0 && known <= 1, "walk: ok, and known 0 or 1", "%s, known %u",
-                         tahr_status_name(status), known) ||
-        !known) {
+    if (!knows(lab, &walk, &said)) {
         return;
     }
     tahr__lab_free(lab, way, "a walk that is known to be free");
@@ -97,12 +103,7 @@ static void fall(tahr__lab *lab, int i)
                             .margin = way.margin,
                             .mask = way.mask};
     tahr_hit said;
-    uint32_t known = 0;
-    memset(&said, 0, sizeof said);
-    tahr_status status = lab->world->backend->walk(lab->world->self, &lab->context, &walk, &said, &known);
-    if (!tahr__lab_check(lab, status >= 0 && known <= 1, "walk: ok, and known 0 or 1", "%s, known %u",
-                         tahr_status_name(status), known) ||
-        !known) {
+    if (!knows(lab, &walk, &said)) {
         return;
     }
     tahr__lab_free(lab, &way, "a fall that is known to be free");

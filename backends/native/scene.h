@@ -354,10 +354,7 @@ enum { TAHR__UNKNOWN, TAHR__AROUND, TAHR__OVER, TAHR__DOWN };
 uint32_t tahr__vicinity_look(const tahr__query *query);
 uint32_t tahr__vicinity_known(const tahr__query *query);
 uint32_t tahr__vicinity_way(const tahr__query *query);
-/* Of a way that is known: what may be met up to this fraction of the motion, formed; or more than most. */
-uint32_t tahr__vicinity_pick(const tahr__query *query, uint32_t way, double until, uint32_t most,
-                             tahr__lanes_found *found);
-/* The same: is nothing met? 0: there may be something. */
+/* Of a way that is known: is nothing met? 0: there may be something. */
 int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
 /* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */
 int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
@@ -479,8 +476,8 @@ double tahr__box_extent(const tahr__query *query, tahr_vec3 n);
 void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query_context *context, tahr_vec3 position,
                        tahr_vec3 up);
 void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat orientation);
-/* Of a query that is complete, and of which the vicinity knows no more than its way. */
-tahr_status tahr__sweep_rest(tahr__query *query, uint32_t way, tahr_hit *hits, uint32_t capacity, uint32_t *count);
+/* Of a query that is complete, and of which the vicinity does not know the answer. */
+tahr_status tahr__sweep_rest(tahr__query *query, tahr_hit *hits, uint32_t capacity, uint32_t *count);
 void tahr__fill_hit(const tahr__query *query, const tahr__found *found, tahr_hit *hit);
 tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const tahr_sweep *sweep, tahr_hit *hits,
                                uint32_t capacity, uint32_t *count);

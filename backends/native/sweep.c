@@ -19,8 +19,6 @@ enum { TIES = 8 };
 
 /* Cached primitives that wait for their turn, the earliest first; one more is probed at once. */
 enum { WAITING = 32 };
-/* Primitives near by that are asked one by one sooner than looked through again. */
-enum { FEW = 2 };
 
 typedef struct waiter {
     double turn;     /* it does not stop the motion before this time: by its plane, later by its edges too */
@@ -32,7 +30,6 @@ typedef struct waiter {
 
 typedef struct sweep_state {
     tahr__search search;
-    uint32_t way;              /* of the vicinity */
     tahr__found ties[TIES];    /* what blocks first, and what blocks at the same time but for rounding */
     const tahr__prim *stopper; /* whose contact is one of them */
     double first;              /* the earliest time of the ties */
@@ -261,24 +258,13 @@ static void ask(sweep_state *s, const tahr__prim *prim)
     if (t <= s->limit) probe(s, prim, t);
 }
 
-/* What was near a place near by; of more than a few those that lie in the way. */
-static uint32_t cull(const sweep_state *s, const tahr__prim **prims, tahr__lanes_found *found)
-{
-    const tahr__query *query = s->search.query;
-    if (s->way != TAHR__UNKNOWN) {
-        uint32_t count = tahr__vicinity_pick(query, s->way, 1, FEW, found);
-        *prims = tahr__cache_prims(query->world, query->cache);
-        if (count <= FEW) return count;
-    }
-    return tahr__cache_cull(&s->search, prims, found);
-}
-
 static void search_cache(sweep_state *s)
 {
     const tahr__query *query = s->search.query;
     const tahr__prim *prims;
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    uint32_t *recent = &query->cache->recent[query->core.axis_count != 1], count = cull(s, &prims, found);
+    uint32_t *recent = &query->cache->recent[query->core.axis_count != 1],
+             count = tahr__cache_cull(&s->search, &prims, found);
     for (uint32_t i = 0; i < count; i++) {
         if (found[i].index != *recent) continue;
         found[i] = found[--count];
@@ -296,7 +282,7 @@ static void search(sweep_state *s)
         if (query->ignore_body < query->world->body_count) tahr__tree_search_body(&s->search, query->ignore_body);
         return;
     }
-    if (s->way != TAHR__UNKNOWN || tahr__cache_holds(&s->search))
+    if (tahr__cache_holds(&s->search))
         search_cache(s);
     else
         tahr__search_fixed(&s->search);
@@ -365,13 +351,11 @@ static tahr_status report(sweep_state *s, tahr_hit *hits, uint32_t capacity, uin
     return truncated ? TAHR_TRUNCATED : TAHR_OK;
 }
 
-tahr_status tahr__sweep_rest(tahr__query *query, uint32_t way, tahr_hit *hits, uint32_t capacity, uint32_t *count)
+tahr_status tahr__sweep_rest(tahr__query *query, tahr_hit *hits, uint32_t capacity, uint32_t *count)
 {
-    const uint64_t before = query->context->narrow_tests;
     sweep_state s;
     tahr_status failed = TAHR_OK;
     query->failed = &failed;
-    s.way = way;
     begin(&s, query);
     run(&s);
     if (s.edged && s.sinks) { /* which edges hold was not known before all had been asked */
@@ -379,7 +363,6 @@ tahr_status tahr__sweep_rest(tahr__query *query, uint32_t way, tahr_hit *hits, u
         begin(&s, query);
         run(&s);
     }
-    query->context->spared += way != TAHR__UNKNOWN && query->context->narrow_tests == before;
     return failed < 0 ? failed : report(&s, hits, capacity, count);
 }
 
@@ -398,12 +381,11 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.flags = sweep->flags;
     query.sensors = capacity > 1 ? TAHR__SENSORS_TOO : TAHR__SENSORS_NONE;
     if (sweep->flags & TAHR_SWEEP_SENSORS) query.sensors = TAHR__SENSORS_ONLY;
-    if (query.core.axis_count != 0) return tahr__sweep_rest(&query, TAHR__UNKNOWN, hits, capacity, count);
-    const uint32_t way = tahr__vicinity_known(&query);
-    if (way == TAHR__DOWN && capacity > 0 && query.world->movable.count == 0 && tahr__vicinity_lands(&query, hits)) {
+    if (query.core.axis_count == 0 && capacity > 0 && query.world->movable.count == 0 &&
+        tahr__vicinity_known(&query) == TAHR__DOWN && tahr__vicinity_lands(&query, hits)) {
         context->spared++;
         *count = 1;
         return TAHR_OK;
     }
-    return tahr__sweep_rest(&query, way, hits, capacity, count);
+    return tahr__sweep_rest(&query, hits, capacity, count);
 }

@@ -165,20 +165,6 @@ static uint32_t pick(const tahr__query *query, double most, int over, tahr__lane
     return query->world->lanes->pick(tahr__cache_far(c), lift, c->count, most_of(most), found);
 }
 
-uint32_t tahr__vicinity_pick(const tahr__query *query, uint32_t way, double until, uint32_t most,
-                             tahr__lanes_found *found)
-{
-    const uint32_t count = pick(query, need(farthest2(query, until), reach_of(query)), way == TAHR__OVER, found);
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        if (way == TAHR__OVER && ground_side(query, found[i].index) >= TAHR__BELOW) continue;
-        if (kept == most) return most + 1;
-        tahr__formed(query, found[i].index);
-        found[kept++] = (tahr__lanes_found){0, found[i].index};
-    }
-    return kept;
-}
-
 /* Is this not met up to this fraction of the motion? */
 static int is_passed(const tahr__query *query, const tahr__prim *prim, double until)
 {
@@ -186,15 +172,24 @@ static int is_passed(const tahr__query *query, const tahr__prim *prim, double un
     return t > until || edges_earliest(query, prim, until, t) > until;
 }
 
+/* Is nothing met, up to this fraction of the motion, that was within `most` of the place? over: but for what is not above
+ * the floor. Returns how many have been asked, now the first of found; -1: one of them may be met. */
+static int passes(const tahr__query *query, double most, int over, double until, tahr__lanes_found *found)
+{
+    const uint32_t count = pick(query, most, over, found);
+    int kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (over && ground_side(query, found[i].index) >= TAHR__BELOW) continue;
+        if (!is_passed(query, tahr__formed(query, found[i].index), until)) return -1;
+        found[kept++] = found[i];
+    }
+    return kept;
+}
+
 int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way)
 {
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    const uint32_t count = tahr__vicinity_pick(query, way, 1, TAHR__CACHE_MOST, found);
-    const tahr__prim *prims = tahr__cache_prims(query->world, query->cache);
-    for (uint32_t i = 0; i < count; i++) {
-        if (!is_passed(query, &prims[found[i].index], 1)) return 0;
-    }
-    return 1;
+    return passes(query, need(farthest2(query, 1), reach_of(query)), way == TAHR__OVER, 1, found) >= 0;
 }
 
 static double tied(const tahr__query *query, double t)
@@ -214,26 +209,9 @@ int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit)
     tahr__found floor;
     if (!tahr__ground_meets(query, &floor)) return 0;
     const double until = tied(query, floor.t);
-    const uint32_t count = pick(query, need(farthest2(query, until), reach_of(query)), 1, found);
-    for (uint32_t i = 0; i < count; i++) {
-        if (ground_side(query, found[i].index) < TAHR__BELOW &&
-            !is_passed(query, tahr__formed(query, found[i].index), until))
-            return 0;
-    }
+    if (passes(query, need(farthest2(query, until), reach_of(query)), 1, until, found) < 0) return 0;
     tell(query, &floor, hit);
     return 1;
-}
-
-/* Those of the picked that are above the floor, if none of them is in the way of the body; -1: one is. */
-static int passed_by(const tahr__query *body, tahr__lanes_found *found, uint32_t count)
-{
-    int kept = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        if (ground_side(body, found[i].index) >= TAHR__BELOW) continue;
-        if (!is_passed(body, tahr__formed(body, found[i].index), 1)) return -1;
-        found[kept++] = found[i];
-    }
-    return kept;
 }
 
 int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit)
@@ -241,7 +219,7 @@ int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_
     tahr__lanes_found found[TAHR__CACHE_MOST];
     tahr__found floor;
     const double reach = d_max(reach_of(body), reach_of(foot)), most = need(farthest2(body, 1), reach) + DOWNWARD;
-    const int near = passed_by(body, found, pick(body, most, 1, found));
+    const int near = passes(body, most, 1, 1, found);
     if (near < 0) return TAHR__BARRED;
     if (!tahr__ground_meets(foot, &floor)) return TAHR__UNCLEAR;
     const double until = tied(foot, floor.t);

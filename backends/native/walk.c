@@ -36,10 +36,10 @@ static double room_in_the_open(const tahr__native *world, const tahr_walk *walk)
 }
 
 /* May a foot that did not simply come down have met something all the same? */
-static int finds_floor(tahr__query *foot, uint32_t way, tahr_hit *hit)
+static int finds_floor(tahr__query *foot, tahr_hit *hit)
 {
     uint32_t count = 0;
-    return tahr__sweep_rest(foot, way, hit, 1, &count) == TAHR_OK && count > 0;
+    return tahr__sweep_rest(foot, hit, 1, &count) == TAHR_OK && count > 0;
 }
 
 static int goes_to(tahr__query *body, uint32_t way, const tahr_walk *walk, tahr_hit *hit)
@@ -53,7 +53,7 @@ static int goes_to(tahr__query *body, uint32_t way, const tahr_walk *walk, tahr_
     if (down == TAHR__UNKNOWN) return 0;
     const int both = way == TAHR__OVER && down == TAHR__DOWN ? tahr__vicinity_walks(body, &foot, hit) : TAHR__UNCLEAR;
     if (both != TAHR__UNCLEAR) return both == TAHR__LANDED;
-    return tahr__vicinity_is_clear(body, way) && finds_floor(&foot, down, hit);
+    return tahr__vicinity_is_clear(body, way) && finds_floor(&foot, hit);
 }
 
 tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit,
