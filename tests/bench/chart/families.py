@@ -47,7 +47,7 @@ class Topic:
 TOPICS = (
     Topic(
         "rates",
-        "how often it is stepped, 10 to 960 Hz",
+        "how often it is stepped, 10 to 1000 Hz",
         ("precise", "platformer", "stepped", "two walls", "unreal"),
         NS_SECOND,
         QUERIES_SECOND,

@@ -86,6 +86,8 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
         raise ChartError(f"{path}: is not there; tahr_chart --out writes it") from None
     except OSError as error:
         raise ChartError(f"{path}: cannot be read: {error.strerror}") from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise ChartError(f"{path}: is no CSV: {error}") from None
 
 
 def read_rows(path: Path) -> list[Row]:

@@ -9,6 +9,7 @@
 
 #include "run.h"
 #include "scene_level.h"
+#include "scenes.h"
 #include "walk.h"
 
 static const uint32_t TRIANGLES[] = {1000, 10000, 100000, 500000, 1000000, 5000000};
@@ -17,7 +18,7 @@ enum { SIZES = sizeof TRIANGLES / sizeof TRIANGLES[0] };
 static const double CELL = 0.5;   /* m, of the triangles of constant size */
 static const double SIDE = 100.0; /* m, of the ground of constant area */
 
-static int make_hills(bench_world *level, uint32_t triangles, int constant_area)
+int chart_hills_make(bench_world *level, uint32_t triangles, int constant_area)
 {
     int n = (int)(sqrt(triangles / 2.0) + 0.5);
     memset(level, 0, sizeof *level);
@@ -52,7 +53,7 @@ static void measure(chart_run *run, uint32_t triangles, const growth *g)
     chart_pace pace;
     chart_row row;
     const tahr_native_desc native = {.struct_size = sizeof native, .no_fields = g->no_fields};
-    int ok = make_hills(&level, triangles, g->constant_area);
+    int ok = chart_hills_make(&level, triangles, g->constant_area);
     chart_setting_default(&level, &setting);
     memcpy(&setting.options, &native, sizeof native);
     chart_walk walk = {

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT
  * shortcuts.c: what each shortcut buys: the same walk with it and without it, in turns, so that the machine's noise
- * meets both alike; of each the best of the rounds. One that promises the same bits is held to it. */
+ * meets both alike; of each the best of the rounds. One that promises the same bits is held to it. What a budget of
+ * error buys is measured with the crowds, what tolerances buy with whole movement. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "run.h"
+#include "scenes.h"
 #include "walk.h"
 
 enum { ROUNDS = 3 };
@@ -59,6 +61,12 @@ static void no_vicinity(chart_setting *s, tahr_native_desc *native)
     native->no_vicinity = 1;
 }
 
+static void no_fields(chart_setting *s, tahr_native_desc *native)
+{
+    (void)s;
+    native->no_fields = 1;
+}
+
 /* with: what is set on both sides, NULL: the defaults. exact: promises the same bits. */
 typedef struct shortcut {
     const char *name;
@@ -83,6 +91,10 @@ enum { SHORTCUT_COUNT = sizeof SHORTCUTS / sizeof SHORTCUTS[0] };
 
 static const char *const LEVELS[] = {"playground", "dungeon"};
 enum { LEVEL_COUNT = sizeof LEVELS / sizeof LEVELS[0] };
+
+/* Buys nothing but on ground that is one. */
+static const shortcut FIELDS = {"field of heights (no_fields)", NULL, no_fields, 0, 1};
+enum { HILLS = 100000 };
 
 /* side 0: with the shortcut, 1: without. */
 static void make_setting(const bench_world *level, const shortcut *s, int side, chart_setting *setting)
@@ -160,9 +172,23 @@ static void measure_level(chart_run *run, const char *name)
     if (!run->counting) bench_world_free(&level);
 }
 
+static void measure_fields(chart_run *run)
+{
+    const uint32_t most = run->budget->max_triangles;
+    bench_world level;
+    if (!chart_run_next(run, "walking in hills", FIELDS.name)) return;
+    if (chart_hills_make(&level, most < HILLS ? most : HILLS, 0)) {
+        measure(run, &level, &FIELDS, "walking in hills");
+    } else {
+        chart_run_fail(run, FIELDS.name, "out of memory");
+    }
+    bench_world_free(&level);
+}
+
 void chart_shortcuts(chart_run *run)
 {
     for (int i = 0; i < LEVEL_COUNT; i++) {
         measure_level(run, LEVELS[i]);
     }
+    measure_fields(run);
 }
