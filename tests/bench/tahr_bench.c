@@ -90,9 +90,11 @@ static int read_options(options *o, int argc, char **argv)
         if (i + 1 < argc && text) {
             *text = argv[++i];
         } else if (i + 1 < argc && strcmp(argv[i], "--characters") == 0) {
-            unsigned long n = strtoul(argv[++i], &end, 10);
-            if (*end || n < 1 || n > 100000) {
-                return usage("--characters");
+            const char *value = argv[++i];
+            unsigned long n = strtoul(value, &end, 10);
+            if (*value < '0' || *value > '9' || *end || n < 1 || n > 100000) {
+                fprintf(stderr, "tahr_bench: --characters '%s': expected a whole number from 1 to 100000\n", value);
+                return 2;
             }
             o->characters = (uint32_t)n;
         } else if (strcmp(argv[i], "--queries") == 0) {
