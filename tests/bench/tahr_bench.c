@@ -57,6 +57,21 @@ static int help(void)
     return 0;
 }
 
+/* Whether a world and a backend, if both are named, go together: what costs next to nothing is measured on native, and
+ * backends of a plane need one. */
+static int measures(const options *o)
+{
+    int quiet = 0, planar = 0;
+    if (!o->world || !o->backend) return 1;
+    for (int i = 0; i < BENCH_QUIET; i++) {
+        quiet = quiet || strcmp(o->world, bench_quiet_name(i)) == 0;
+    }
+    for (int i = 0; i < SCENE_PLANAR_BACKEND_COUNT; i++) {
+        planar = planar || strcmp(o->backend, SCENE_PLANAR_BACKENDS[i].name) == 0;
+    }
+    return quiet ? strcmp(o->backend, "native") == 0 && !o->queries : !planar || strstr(o->world, "_2d") != NULL;
+}
+
 static int known(const options *o)
 {
     int world = o->world == NULL, backend = o->backend == NULL;
@@ -71,6 +86,10 @@ static int known(const options *o)
     }
     for (int i = 0; i < SCENE_PLANAR_BACKEND_COUNT; i++) {
         backend = backend || strcmp(o->backend, SCENE_PLANAR_BACKENDS[i].name) == 0;
+    }
+    if (world && backend && !measures(o)) {
+        fprintf(stderr, "tahr_bench: world '%s' has no backend '%s'\n", o->world, o->backend);
+        return 0;
     }
     if (!world || !backend) {
         fprintf(stderr, "tahr_bench: no such %s: '%s'\n", world ? "backend" : "world", world ? o->backend : o->world);
