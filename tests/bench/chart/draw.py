@@ -117,6 +117,8 @@ def never_section(rows: Sequence[Row]) -> str:
         f"{'' if knobs else 'none'}. Values that are beaten, of settings that have better ones:</p>"
     )
     cells = [[r.setting, r.curve, r.role] for r in never if r.curve not in knobs]
+    if any(r.curve == "skin" and r.curve not in knobs for r in never):
+        lead += "<p>A skin is off a path that touches the walls by itself; it is chosen for what it keeps apart.</p>"
     return lead + (page.table(page.Table(["value", "setting", "there as"], cells)) if cells else "<p>None.</p>")
 
 
