@@ -41,6 +41,8 @@ expect 0 "native, 3D" "spheres" "two dimensions" "one outline, without seams" "d
 tahr info --2d --json
 expect 0 '"scene"'
 is_json || fail "info --2d --json is no JSON"
+tahr info --backend ccd
+case $code in 0) expect 0 "ccd, 3D" "path: the tree of bodies" ;; *) expect 2 ccd ;; esac
 tahr info --2d --level "$here/../../bindings/cli/levels/side.tmj" --tiles separate
 expect 0 "native, 3D" "a body each (--tiles separate)"
 tahr info --level "$here/../../bindings/cli/levels/side.tmj"
