@@ -46,7 +46,7 @@ static void describe_mesh(const tahr__scene_body *body, const tahr_log *to)
 
 void tahr__scene_describe(const tahr__scene *scene, const char *name, const char *path, const tahr_log *to)
 {
-    char text[256];
+    char text[512];
     uint32_t movable = count_movable(scene), named = 0;
     int n = snprintf(text, sizeof text, "%s, 3D: %u movable and %u static bodies,", name, (unsigned)movable,
                      (unsigned)(scene->body_count - movable));
