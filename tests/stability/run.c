@@ -155,7 +155,7 @@ static double conditioned(const runner *r, const tahr_state *before, double dt, 
         double into = e->type == TAHR_EVENT_HIT ? e->value : fabs(dot(e->normal, before->velocity));
         int meets = e->type == TAHR_EVENT_LANDED || e->type == TAHR_EVENT_HIT;
         if (meets) more += 2 * fast * (into > 0 ? fmin(off / into, dt) : dt);
-        if (e->type == TAHR_EVENT_LEFT_GROUND) more += part * fast * dt;
+        if (e->type == TAHR_EVENT_LEFT_GROUND) more += part * fast * dt + r->twin.ends;
     }
     return more;
 }

@@ -32,6 +32,7 @@ struct twin {
     int in_step;                    /* 1: put where it should be before each step, so that only that step is compared */
     double tolerance;               /* m; 0: no bit may differ */
     double exactness;               /* of subject.gap, added to it */
+    double ends;                    /* m: of where a floor ends, beyond what is promised of everything */
     double snap;                    /* m: grid that both are put on before each step; 0: none */
     tahr_vec3 rows[3];              /* how a vector of the first comes out in the other */
     tahr_quat turn;                 /* the same, of orientations; where bodies are turned */
