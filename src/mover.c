@@ -17,6 +17,7 @@
 #include "overlap.h"
 #include "plane.h"
 #include "query.h"
+#include "ready.h"
 #include "record.h"
 #include "report.h"
 #include "request.h"
@@ -68,7 +69,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
     mover->pace = tahr__pace_of(&mover->config, &mover->limits);
     mover->dive = tahr__dive_of(&mover->config, &mover->limits);
-    mover->may_go_short_way = (uint32_t)tahr__may_go_short_way(world, config, &mover->limits);
+    mover->may_go_short_way = (uint8_t)tahr__may_go_short_way(world, config, &mover->limits);
     mover->cache = cache;
     mover->cache_size = cache_size;
     *out = mover;
@@ -336,6 +337,14 @@ static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double 
     return step.report.flags == 0 ? TAHR_OK : tahr__step_status(step.report.flags);
 }
 
+static inline int is_ready(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
+                           const tahr_report *report)
+{
+    return state->mode == TAHR_MODE_WALKING   ? ready_to_walk(mover, input, dt, state, report)
+           : state->mode == TAHR_MODE_FALLING ? ready_to_fall(mover, input, dt, state, report)
+                                              : 0;
+}
+
 tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                              tahr_report *report)
 {
@@ -346,13 +355,14 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     if (mover->world->recording && !mover->is_recorded) {
         return tahr__record_step(mover, input, dt, state, report);
     }
-    const int plain = state_is_blank(mover, state) && arguments_are_usual(mover, input, dt, state, report);
+    const int goes = tahr__has_short_way(mover), ready = goes && is_ready(mover, input, dt, state, report);
+    const int plain = ready || (state_is_blank(mover, state) && arguments_are_usual(mover, input, dt, state, report));
     if (!plain) {
         tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
         if (status < 0) {
             return status;
         }
-    } else if (!(mover->company && mover->company->neighbours) && tahr__go_short_way(mover, input, dt, state, report)) {
+    } else if (goes && tahr__go_short_way(mover, input, dt, state, report, ready)) {
         return TAHR_OK;
     }
     return take_step(mover, input, dt, state, report, plain);

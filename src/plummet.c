@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: MIT
  * plummet.c: a rise or a fall in free air. See short_way.h. */
 #include "falling.h"
+#include "ready.h"
 #include "short_way.h"
 
 /* m/s, squared: faster than this a fall is capped (mover.c). */
 static const double FASTEST2 = 1e10;
-
-/* What a flight may remember: buttons do nothing in the air without the settings under "Feel". */
-enum { REMEMBERED = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMPING | TAHR_STATE_FLOOR_MOVED };
 
 /* A flight so far. */
 typedef struct flight {
@@ -19,7 +17,8 @@ tahr__dive tahr__dive_of(const tahr_config *c, const tahr__limits *limits)
 {
     const double gravity = limits->pull.size;
     const vec3 up = limits->pull.up, none = vec(0, 0, 0);
-    tahr__dive dive = {.gravity = gravity,
+    tahr__dive dive = {.dt = c->max_dt,
+                       .gravity = gravity,
                        .terminal = c->terminal_speed,
                        .upright = up.z == 1 && up.x == 0 && up.y == 0,
                        .move = none,
@@ -131,21 +130,41 @@ static int fly_all(tahr_mover *mover, double dt, const tahr_state *s, flight *f,
     return used > 0;
 }
 
-int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report)
+/* How the input's wish is approached. */
+static void learn_law(tahr_mover *mover, const tahr_input *input)
+{
+    tahr__dive *dive = &mover->dive;
+    if (other_bits(&dive->move, &input->move)) {
+        const tahr__decay known = dive->law.decay;
+        dive->law = tahr__arc_law(&mover->config, reject(input->move, mover->pace.held.up));
+        dive->law.decay = known;
+        dive->wishes = (uint32_t)law_wishes(&dive->law);
+        dive->move = input->move;
+    }
+}
+
+/* What is as it was where it was ready; and remembers it. */
+static void write_rest(tahr_mover *mover, tahr_state *s, double dt)
+{
+    tahr__clean_state(s, s);
+    mover->pace.held.orientation = s->orientation;
+    mover->dive.dt = dt;
+}
+
+int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report,
+                  int ready)
 {
     tahr__dive *dive = &mover->dive;
     tahr_query_context context = {.cache = mover->cache};
     flight f;
-    if (!(dt > TAHR__SHORTEST && dt <= dive->longest) || state->flags & ~(uint32_t)REMEMBERED ||
-        other_bits(&state->up, &mover->pace.up)) {
+    if (!(dt > TAHR__SHORTEST && dt <= dive->longest)) {
         return 0;
     }
-    if (other_bits(&dive->move, &input->move)) {
-        const tahr__decay known = dive->law.decay;
-        dive->law = tahr__arc_law(&mover->config, reject(input->move, state->up));
-        dive->law.decay = known;
-        dive->wishes = (uint32_t)law_wishes(&dive->law);
-        dive->move = input->move;
+    if (!ready) {
+        if (state->flags & ~(uint32_t)TAHR__READY_FLIGHT || other_bits(&state->up, &mover->pace.held.up)) {
+            return 0;
+        }
+        learn_law(mover, input);
     }
     const double rise = state->velocity.z;
     const int simple = dt <= dive->chord && dive->upright && (rise <= 0 || rise > dt * dive->gravity * (1 + 1e-9));
@@ -156,10 +175,13 @@ int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_st
         return 0;
     }
     const uint32_t ended = TAHR_STATE_JUMP_HELD | (f.apexes > 0 ? TAHR_STATE_JUMPING : 0u);
-    state->position = f.position;
-    state->velocity = f.velocity;
+    state->position = clean(f.position);
+    state->velocity = clean(f.velocity);
     state->flags = (state->flags & ~ended) | (input->jump ? TAHR_STATE_JUMP_HELD : 0u);
-    tahr__clean_state(state, state);
+    state->floor_position = clean(state->floor_position);
+    if (!ready) {
+        write_rest(mover, state, dt);
+    }
     tahr__report_short_way(report, f.chords, &context);
     return 1;
 }

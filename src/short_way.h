@@ -20,36 +20,41 @@ int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, c
 tahr__pace tahr__pace_of(const tahr_config *config, const tahr__limits *limits);
 tahr__dive tahr__dive_of(const tahr_config *config, const tahr__limits *limits);
 
-/* A step of a state that remembers nothing, with an input that asks for nothing but a direction, both checked. [out]
- * state, report (or NULL). Returns 1; 0: it is not such a step, or it is not known to be; nothing was written. What
- * counts as two sweeps, and as one. */
-int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
-int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
+/* A step of a state that remembers nothing, with an input that asks for nothing but a direction, both checked. ready: as
+ * ready.h says. [out] state, report (or NULL). Returns 1; 0: it is not such a step, or it is not known to be; nothing
+ * was written. What counts as two sweeps, and as one. */
+int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report,
+                 int ready);
+int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report,
+                  int ready);
 
 /* Along walls and on rough ground steps are like the ones before: who went the long way and asked for more than a short
  * one knows is likely to do so again. And where the short way was tried in vain it is not for a while. */
-static inline int tahr__tries_short_way(tahr_mover *mover)
-{
-    return !mover->long_way && backoff_tries(&mover->short_way);
-}
-
-/* Of a step that went the long way. */
 static inline void tahr__note_long_way(tahr_mover *mover, const tahr_report *r, uint32_t mode)
 {
     const uint32_t most = mode == TAHR_MODE_WALKING ? 2 : TAHR__MOST_CHORDS;
     mover->long_way = r->sweeps > most || r->slides > 0 || r->contact_queries > 0 || r->rays > 0;
 }
 
+/* Is the short way for this mover's step? That is tried, or not this time. */
+static inline int tahr__has_short_way(const tahr_mover *mover)
+{
+    return mover->may_go_short_way && !mover->long_way && !(mover->company && mover->company->neighbours);
+}
+
+/* All is in order. */
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                                     tahr_report *report)
+                                     tahr_report *report, int ready)
 {
     const int traced = report && (report->decisions || report->queries);
-    if (!mover->may_go_short_way || traced || (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) ||
-        !tahr__tries_short_way(mover)) {
+    if (!ready && (traced || (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)))) {
         return 0;
     }
-    const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)
-                     : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report)
+    if (!backoff_tries(&mover->short_way)) {
+        return 0;
+    }
+    const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report, ready)
+                     : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report, ready)
                                                         : 0;
     if (backoff_note(&mover->short_way, done)) {
         mover_wake(mover);

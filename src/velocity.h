@@ -18,9 +18,9 @@ typedef struct tahr__law {
     double speed;         /* m/s asked for, >= 0 */
     double acceleration;  /* m/s2 along the wish */
     double turn_friction; /* 1/s decay of the part across the wish */
+    tahr__decay decay;    /* of a whole step, or zero: a result that is known, no setting */
     double braking;       /* m/s2 without input or above speed */
     double drag;          /* 1/s added to it */
-    tahr__decay decay;    /* of a whole step, or zero: a result that is known, no setting */
 } tahr__law;
 
 typedef struct tahr__motion {

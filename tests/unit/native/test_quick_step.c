@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "oracle.h"
+#include "ready.h"
 #include "rig.h"
 #include "short_way.h"
 
@@ -102,9 +103,30 @@ static void every_bit_of_who_walks_is_seen(void **unused)
     open_pair(&p, 0);
     settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
     end = good;
-    assert_true(tahr__stroll(p.on.mover, &p.on.input, DT, &end, NULL)); /* that is what is tried */
+    assert_true(tahr__stroll(p.on.mover, &p.on.input, DT, &end, NULL, 0));
+    assert_true(ready_to_walk(p.on.mover, &p.on.input, DT, &good, NULL)); /* that is what is tried */
     assert_every_bit_counts(&p, &good);
     close_pair(&p);
+}
+
+/* Of one that fell off the box, past its top, so that nothing is near. */
+static void every_bit_of_who_falls_is_seen(void **unused)
+{
+    for (int pressed = 0; pressed < 2; pressed++) {
+        pair p;
+        tahr_state good, end;
+        (void)unused;
+        open_pair(&p, 0);
+        p.on.state.position = (tahr_vec3){0, 0, 400};
+        p.on.input.jump = (uint32_t)pressed;
+        settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
+        end = good;
+        assert_true(tahr__plummet(p.on.mover, &p.on.input, DT, &end, NULL, 0));
+        assert_int_equal(good.mode, TAHR_MODE_FALLING);
+        assert_true(ready_to_fall(p.on.mover, &p.on.input, DT, &good, NULL)); /* that is what is tried */
+        assert_every_bit_counts(&p, &good);
+        close_pair(&p);
+    }
 }
 
 static void is_asleep(pair *p, const tahr_state *good)
@@ -339,6 +361,7 @@ static void a_lean_crowd_takes_no_short_way_for_who_may_not(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_bit_of_who_walks_is_seen),
+                                       cmocka_unit_test(every_bit_of_who_falls_is_seen),
                                        cmocka_unit_test(every_bit_of_who_sleeps_is_seen),
                                        cmocka_unit_test(every_bit_of_an_input_is_seen),
                                        cmocka_unit_test(what_is_wrong_in_who_walks_is_named),

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: MIT
+ * ready.h: is a step one that the short way is for, and all in order that it is given?
+ *
+ * What a step begins with is mostly what the one before it ended with. So most of it need not be worked out: its bits
+ * are those of what was found to be in order once, and is remembered. Nothing is taken for granted that is not
+ * compared, for a mover may be given another character's state at any time. What is not so is not wrong: the checks of
+ * arguments.h decide. */
+#ifndef TAHR_READY_H
+#define TAHR_READY_H
+
+#include "arguments.h"
+#include "path.h"
+#include "words.h"
+
+/* A floor that is all known by its face. */
+#define TAHR__READY_FACE ((uint32_t)(TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE))
+
+/* What a flight may remember: buttons do nothing in the air without the settings under "Feel". */
+enum { TAHR__READY_FLIGHT = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMPING | TAHR_STATE_FLOOR_MOVED };
+
+/* 0: a report that asks for no more than counts and events. */
+static inline uint64_t other_report(const tahr_report *r)
+{
+    return r ? (r->struct_size ^ (uint32_t)sizeof *r) | (uint64_t)(uintptr_t)r->decisions |
+                   (uint64_t)(uintptr_t)r->queries
+             : 0;
+}
+
+/* 0: an input of this version that asks for a direction alone, that of `move`; jump is not looked at. */
+static inline uint64_t other_input(const tahr_input *in, const vec3 *move)
+{
+    return (in->struct_size ^ (uint32_t)sizeof *in) | in->flags | in->crouch | in->reserved |
+           other_bits(&in->move, move);
+}
+
+/* As arguments_are_usual has them, for sums of squares. */
+static inline int are_within(double places, double speeds)
+{
+    return places <= 4e14 && speeds <= 1e10;
+}
+
+/* A walk like the last short one: the same wish for as long, on a face that is known to hold, with all of its floor
+ * known. What pace->held says was checked; the rest is checked here, so that arguments_are_usual and begins_on_face
+ * (stroll.c) would say yes. */
+static inline int ready_to_walk(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *s,
+                                const tahr_report *report)
+{
+    const tahr__pace *pace = &mover->pace;
+    const tahr_floor *f = &s->floor;
+    tahr__words other = other_memory(s, &mover->limits.shape);
+    other = words_or(other, other_words(&s->orientation, &pace->held, sizeof pace->held));
+    other = words_or(other, other_words(&s->floor_position, &s->position, sizeof(tahr__words)));
+    uint64_t odd = (bits_of(s->floor_position.z) ^ bits_of(s->position.z)) | (bits_of(dt) ^ bits_of(pace->dt));
+    odd |= (s->floor_revision ^ mover->world->revision) | bits_of(s->jump_hold) | bits_of(f->perch_distance);
+    odd |= ((f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) ^ TAHR__READY_FACE) | input->jump;
+    odd |= other_input(input, &pace->move) | other_report(report);
+    if (odd | words_any(other)) {
+        return 0;
+    }
+    const double places = length_squared(s->position) + (length_squared(f->point) + f->distance * f->distance);
+    const double steep = pace->upright ? f->surface_normal.z : dot(f->surface_normal, s->up);
+    return are_within(places, length_squared(s->velocity)) && (steep > TAHR__GENTLE || (f->flags & TAHR_FLOOR_SLOPE));
+}
+
+/* A rise or fall like the last short one, over no floor. */
+static inline int ready_to_fall(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *s,
+                                const tahr_report *report)
+{
+    static const tahr_floor none = {.body = TAHR_NO_BODY};
+    const tahr__held *held = &mover->pace.held;
+    tahr__words other = other_memory(s, &mover->limits.shape);
+    other = words_or(other, other_words(&s->orientation, held, 3 * sizeof(tahr__words)));
+    other = words_or(other, other_words(&s->floor, &none, 6 * sizeof(tahr__words)));
+    uint64_t odd = (bits_of(s->up.z) ^ bits_of(held->up.z)) | (bits_of(dt) ^ bits_of(mover->dive.dt));
+    odd |= s->floor.feature | s->floor.surface | bits_of(s->jump_hold);
+    odd |= (s->mode ^ (uint32_t)TAHR_MODE_FALLING) | (s->flags & ~(uint32_t)TAHR__READY_FLIGHT);
+    odd |= other_input(input, &mover->dive.move) | other_report(report);
+    return (odd | words_any(other)) == 0 &&
+           are_within(length_squared(s->position) + length_squared(s->floor_position), length_squared(s->velocity));
+}
+
+#endif
