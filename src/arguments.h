@@ -9,24 +9,23 @@
 #include "shape.h"
 #include "words.h"
 
-/* All bits of what a state remembers, from radius on, that are other than those of who remembers nothing and has this
- * shape. */
-static inline tahr__words other_memory(const tahr_state *s, const tahr_shape *shape)
+/* Does the state remember nothing, from radius on? Then all of that is in order. In two parts: bits that all of it holds
+ * zero of; and those that the sizes do. */
+static inline tahr__words other_memory(const tahr_state *s)
 {
     static const tahr_state blank = TAHR__BLANK; /* known here: most of it is zero, and need not be read */
     const size_t at = offsetof(tahr_state, base);
-    _Static_assert(offsetof(tahr_state, half_height) == offsetof(tahr_state, radius) + sizeof(double) &&
-                       offsetof(tahr_shape, half_height) == offsetof(tahr_shape, radius) + sizeof(double) &&
-                       offsetof(tahr_state, base) == offsetof(tahr_state, half_height) + sizeof(double),
-                   "both sizes are compared at once");
-    return words_or(other_words(&s->radius, &shape->radius, 2 * sizeof(double)),
-                    other_words((const char *)s + at, (const char *)&blank + at, sizeof *s - at));
+    return other_words((const char *)s + at, (const char *)&blank + at, sizeof *s - at);
 }
 
-/* Does the state remember nothing, from radius on? Then all of that is in order. */
+static inline uint64_t other_sizes(const tahr_state *s, const tahr_shape *shape)
+{
+    return (bits_of(s->radius) ^ bits_of(shape->radius)) | (bits_of(s->half_height) ^ bits_of(shape->half_height));
+}
+
 static inline int state_is_blank(const tahr_mover *mover, const tahr_state *s)
 {
-    return words_any(other_memory(s, &mover->limits.shape)) == 0;
+    return words_are_zero(other_memory(s)) && other_sizes(s, &mover->limits.shape) == 0;
 }
 
 /* Is everything else in order too, and as simple as it almost always is? What is not gets the whole check, which names

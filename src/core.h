@@ -109,6 +109,14 @@ typedef struct tahr__limits {
     uint32_t usual;             /* 1: EXACT, JOINT slides and depenetration, MARGIN */
 } tahr__limits;
 
+/* What a short step was asked for: an input's begin, in its order and without a hole, and how long it was. Has been
+ * checked. */
+typedef struct tahr__asked {
+    uint32_t struct_size, flags, jump, crouch;
+    vec3 move;
+    double dt; /* s */
+} tahr__asked;
+
 /* A part of a state as a short walk left it, in its order and without a hole: bits that are known to be in order. The
  * orientation is unit and has no -0.0, up is that of the mover, and the face is one that a short walk may begin on and
  * end on, with normals that are unit to double precision. */
@@ -125,10 +133,10 @@ typedef struct tahr__held {
 /* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.c) remembers:
  * a step is mostly like the last one. */
 typedef struct tahr__pace {
-    double dt; /* s of the last short walk, */
-    vec3 move; /* its input.move, */
+    tahr__asked asked; /* of the last short walk */
     tahr__held held;
-    double range; /* m, of the sweep of the foot */
+    vec3 reach; /* m, the sweep of the foot: downward */
+    double range; /* m, the length of it */
     double skin;  /* m */
     double foot;  /* m, its offset */
     double most;  /* m, clearance of the band in which a floor is left as it is */
@@ -177,9 +185,8 @@ typedef struct tahr__clear {
 
 /* What a rise or fall the short way (plummet.c) asks of config and limits, and what it remembers. */
 typedef struct tahr__dive {
-    double dt;        /* s of the last one, */
-    vec3 move;        /* its input.move, */
-    tahr__law law;    /* and how that is approached */
+    tahr__asked asked; /* of the last one, */
+    tahr__law law;    /* and how its move is approached */
     uint32_t wishes;  /* law_wishes of law */
     uint32_t upright; /* 1: up is exactly +z */
     double gravity;   /* m/s2 */
@@ -214,6 +221,7 @@ struct tahr_mover {
     uint8_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint8_t may_go_short_way;
     uint8_t long_way; /* 1: the last step could have been no short one (short_way.h) */
+    uint8_t wide;     /* tahr__is_wide */
     tahr__backoff short_way;
     tahr__pace pace;
     tahr__limits limits;

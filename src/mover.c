@@ -17,7 +17,6 @@
 #include "overlap.h"
 #include "plane.h"
 #include "query.h"
-#include "ready.h"
 #include "record.h"
 #include "report.h"
 #include "request.h"
@@ -63,7 +62,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
         memset(cache, 0, cache_size);
     }
     mover->world = world;
-    mover->sleep.wide = tahr__is_wide();
+    mover->wide = mover->sleep.wide = tahr__is_wide();
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
@@ -337,14 +336,6 @@ static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double 
     return step.report.flags == 0 ? TAHR_OK : tahr__step_status(step.report.flags);
 }
 
-static inline int is_ready(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *state,
-                           const tahr_report *report)
-{
-    return state->mode == TAHR_MODE_WALKING   ? ready_to_walk(mover, input, dt, state, report)
-           : state->mode == TAHR_MODE_FALLING ? ready_to_fall(mover, input, dt, state, report)
-                                              : 0;
-}
-
 tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                              tahr_report *report)
 {
@@ -355,14 +346,23 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     if (mover->world->recording && !mover->is_recorded) {
         return tahr__record_step(mover, input, dt, state, report);
     }
-    const int goes = tahr__has_short_way(mover), ready = goes && is_ready(mover, input, dt, state, report);
-    const int plain = ready || (state_is_blank(mover, state) && arguments_are_usual(mover, input, dt, state, report));
+    const int goes = tahr__has_short_way(mover);
+    uint32_t went = TAHR__NOT_READY;
+    if (goes) {
+        went = mover->wide ? tahr__short_step_wide(mover, input, dt, state, report)
+                           : tahr__short_step(mover, input, dt, state, report);
+        if (went == TAHR__WENT) {
+            return TAHR_OK;
+        }
+    }
+    const int plain = went == TAHR__IN_VAIN ||
+                      (state_is_blank(mover, state) && arguments_are_usual(mover, input, dt, state, report));
     if (!plain) {
         tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
         if (status < 0) {
             return status;
         }
-    } else if (goes && tahr__go_short_way(mover, input, dt, state, report, ready)) {
+    } else if (goes && went == TAHR__NOT_READY && tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
     }
     return take_step(mover, input, dt, state, report, plain);

@@ -26,35 +26,39 @@ static inline uint64_t other_report(const tahr_report *r)
              : 0;
 }
 
-/* 0: an input of this version that asks for a direction alone, that of `move`; jump is not looked at. */
-static inline uint64_t other_input(const tahr_input *in, const vec3 *move)
+/* 0 with other_head: the same was asked for, as long. */
+static inline uint64_t other_asked(const tahr__asked *asked, const tahr_input *in, double dt)
 {
-    return (in->struct_size ^ (uint32_t)sizeof *in) | in->flags | in->crouch | in->reserved |
-           other_bits(&in->move, move);
+    return (bits_of(in->move.z) ^ bits_of(asked->move.z)) | (bits_of(dt) ^ bits_of(asked->dt)) | in->reserved;
 }
 
-/* As arguments_are_usual has them, for sums of squares. */
+static inline tahr__words other_head(const tahr__asked *asked, const tahr_input *in)
+{
+    _Static_assert(offsetof(tahr_input, move.z) == 32 && offsetof(tahr__asked, move.z) == 32, "a head of 32 bytes");
+    return other_words(in, asked, offsetof(tahr_input, move.z));
+}
+
+/* As arguments_are_usual has them, of sums of squares. */
 static inline int are_within(double places, double speeds)
 {
     return places <= 4e14 && speeds <= 1e10;
 }
 
 /* A walk like the last short one: the same wish for as long, on a face that is known to hold, with all of its floor
- * known. What pace->held says was checked; the rest is checked here, so that arguments_are_usual and begins_on_face
- * (stroll.c) would say yes. */
+ * known. What mover->pace says was checked; the rest is checked here, so that arguments_are_usual and begins_on_face
+ * (stroll.h) would say yes. */
 static inline int ready_to_walk(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *s,
                                 const tahr_report *report)
 {
     const tahr__pace *pace = &mover->pace;
     const tahr_floor *f = &s->floor;
-    tahr__words other = other_memory(s, &mover->limits.shape);
+    tahr__words other = words_or(other_memory(s), other_head(&pace->asked, input));
     other = words_or(other, other_words(&s->orientation, &pace->held, sizeof pace->held));
-    other = words_or(other, other_words(&s->floor_position, &s->position, sizeof(tahr__words)));
-    uint64_t odd = (bits_of(s->floor_position.z) ^ bits_of(s->position.z)) | (bits_of(dt) ^ bits_of(pace->dt));
+    uint64_t odd = other_sizes(s, &mover->limits.shape) | other_bits(&s->floor_position, &s->position);
     odd |= (s->floor_revision ^ mover->world->revision) | bits_of(s->jump_hold) | bits_of(f->perch_distance);
-    odd |= ((f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) ^ TAHR__READY_FACE) | input->jump;
-    odd |= other_input(input, &pace->move) | other_report(report);
-    if (odd | words_any(other)) {
+    odd |= ((f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) ^ TAHR__READY_FACE) | other_asked(&pace->asked, input, dt);
+    odd |= other_report(report);
+    if (odd || !words_are_zero(other)) {
         return 0;
     }
     const double places = length_squared(s->position) + (length_squared(f->point) + f->distance * f->distance);
@@ -68,14 +72,14 @@ static inline int ready_to_fall(const tahr_mover *mover, const tahr_input *input
 {
     static const tahr_floor none = {.body = TAHR_NO_BODY};
     const tahr__held *held = &mover->pace.held;
-    tahr__words other = other_memory(s, &mover->limits.shape);
-    other = words_or(other, other_words(&s->orientation, held, 3 * sizeof(tahr__words)));
-    other = words_or(other, other_words(&s->floor, &none, 6 * sizeof(tahr__words)));
-    uint64_t odd = (bits_of(s->up.z) ^ bits_of(held->up.z)) | (bits_of(dt) ^ bits_of(mover->dive.dt));
-    odd |= s->floor.feature | s->floor.surface | bits_of(s->jump_hold);
+    const tahr__asked *asked = &mover->dive.asked;
+    tahr__words other = words_or(other_memory(s), other_head(asked, input));
+    other = words_or(other, other_words(&s->orientation, held, offsetof(tahr__held, mode)));
+    other = words_or(other, other_words(&s->floor, &none, sizeof none));
+    uint64_t odd = other_sizes(s, &mover->limits.shape) | bits_of(s->jump_hold);
     odd |= (s->mode ^ (uint32_t)TAHR_MODE_FALLING) | (s->flags & ~(uint32_t)TAHR__READY_FLIGHT);
-    odd |= other_input(input, &mover->dive.move) | other_report(report);
-    return (odd | words_any(other)) == 0 &&
+    odd |= other_asked(asked, input, dt) | other_report(report);
+    return odd == 0 && words_are_zero(other) &&
            are_within(length_squared(s->position) + length_squared(s->floor_position), length_squared(s->velocity));
 }
 

@@ -20,13 +20,20 @@ int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, c
 tahr__pace tahr__pace_of(const tahr_config *config, const tahr__limits *limits);
 tahr__dive tahr__dive_of(const tahr_config *config, const tahr__limits *limits);
 
-/* A step of a state that remembers nothing, with an input that asks for nothing but a direction, both checked. ready: as
- * ready.h says. [out] state, report (or NULL). Returns 1; 0: it is not such a step, or it is not known to be; nothing
- * was written. What counts as two sweeps, and as one. */
-int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report,
-                 int ready);
-int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report,
-                  int ready);
+/* A step of a state that remembers nothing, with an input that asks for nothing but a direction, both checked. [out]
+ * state, report (or NULL). Returns 1; 0: it is not such a step, or it is not known to be; nothing was written. What
+ * counts as two sweeps, and as one. */
+int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
+int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
+
+/* A step whose arguments have not been checked. NOT_READY: they are not, or it is none of those. IN_VAIN: they are in
+ * order, but the way is not known to be free, or was not looked at. WENT: it is done. */
+enum { TAHR__NOT_READY = 0, TAHR__IN_VAIN = 1, TAHR__WENT = 2 };
+uint32_t tahr__short_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                          tahr_report *report);
+/* The same where the processor has 32-byte vectors (tahr__is_wide). */
+uint32_t tahr__short_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                               tahr_report *report);
 
 /* Along walls and on rough ground steps are like the ones before: who went the long way and asked for more than a short
  * one knows is likely to do so again. And where the short way was tried in vain it is not for a while. */
@@ -43,22 +50,27 @@ static inline int tahr__has_short_way(const tahr_mover *mover)
 }
 
 /* All is in order. */
-static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                                     tahr_report *report, int ready)
+/* Of a try. */
+static inline void tahr__note_short_way(tahr_mover *mover, int done)
 {
-    const int traced = report && (report->decisions || report->queries);
-    if (!ready && (traced || (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)))) {
-        return 0;
-    }
-    if (!backoff_tries(&mover->short_way)) {
-        return 0;
-    }
-    const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report, ready)
-                     : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report, ready)
-                                                        : 0;
     if (backoff_note(&mover->short_way, done)) {
         mover_wake(mover);
     }
+}
+
+/* All is in order, but the step is not ready as the last one was. */
+static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                                     tahr_report *report)
+{
+    const int traced = report && (report->decisions || report->queries);
+    if (traced || (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) ||
+        !backoff_tries(&mover->short_way)) {
+        return 0;
+    }
+    const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)
+                     : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report)
+                                                        : 0;
+    tahr__note_short_way(mover, done);
     return done;
 }
 

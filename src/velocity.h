@@ -104,6 +104,25 @@ static inline tahr__motion law_advance(const tahr__law *law, int wishes, vec3 v,
     return wishes && !law_brakes(law, v) ? law_toward_wish(law, v, t) : tahr__law_brake(law, v, t);
 }
 
+/* The same of a velocity (x, y, 0) and a wish without z, which adds no more than zeros to the sums. */
+static inline tahr__motion law_advance_level(const tahr__law *law, int wishes, double x, double y, double t)
+{
+    const double most = law->speed, over = most * (1 + TAHR__OVER_SPEED);
+    if (!wishes || x * x + y * y > over * over) {
+        return tahr__law_brake(law, vec(x, y, 0), t);
+    }
+    const double p = x * law->wish.x + y * law->wish.y;
+    const vec3 across = vec(x + law->wish.x * -p, y + law->wish.y * -p, 0);
+    double p1;
+    if (!(across.x * across.x + across.y * across.y <= TAHR__STRAIGHT * most * most)) {
+        return tahr__law_turn(law, across, p, t);
+    }
+    const double along = law_straight(law, min_of(p, most), t, &p1);
+    const tahr__motion m = {vec(law->wish.x * along, law->wish.y * along, 0),
+                            vec(law->wish.x * p1, law->wish.y * p1, 0), -1};
+    return m;
+}
+
 /* s within duration at which a part (0..1) of the way is covered, measured along the whole of it; whole is the
  * displacement after duration and not zero. The speed changes on the way, so the part of the time is not the part of
  * the way. */

@@ -7,9 +7,15 @@
 #include <stdint.h>
 #include <string.h>
 
-/* 16 bytes, which every processor with vectors has registers for. */
+/* 16 bytes, which every processor with vectors has registers for; 32 where the including file is for those that have
+ * such. */
 #ifdef __GNUC__
+#ifdef TAHR__WIDE_WORDS
+typedef uint64_t tahr__words __attribute__((vector_size(32)));
+typedef long long tahr__words_signed __attribute__((vector_size(32)));
+#else
 typedef uint64_t tahr__words __attribute__((vector_size(16)));
+#endif
 
 static inline tahr__words words_or(tahr__words a, tahr__words b)
 {
@@ -21,9 +27,13 @@ static inline tahr__words words_xor(tahr__words a, tahr__words b)
     return a ^ b;
 }
 
-static inline uint64_t words_any(tahr__words w)
+static inline int words_are_zero(tahr__words w)
 {
-    return w[0] | w[1];
+#ifdef TAHR__WIDE_WORDS
+    return __builtin_ia32_ptestz256((tahr__words_signed)w, (tahr__words_signed)w);
+#else
+    return (w[0] | w[1]) == 0;
+#endif
 }
 #else
 typedef struct tahr__words {
@@ -42,9 +52,9 @@ static inline tahr__words words_xor(tahr__words a, tahr__words b)
     return w;
 }
 
-static inline uint64_t words_any(tahr__words w)
+static inline int words_are_zero(tahr__words w)
 {
-    return w.low | w.high;
+    return (w.low | w.high) == 0;
 }
 #endif
 
@@ -55,14 +65,16 @@ static inline tahr__words words_at(const void *from, size_t at)
     return w;
 }
 
-/* All bits that differ in so many bytes: a multiple of 16 that is known when this is compiled. */
+/* All bits that differ in so many bytes: a number that is known when this is compiled, and not less than one of them
+ * holds. The last ones may be looked at twice. */
 static inline tahr__words other_words(const void *a, const void *b, size_t size)
 {
-    tahr__words other = {0, 0};
+    const size_t step = sizeof(tahr__words);
+    tahr__words other = words_xor(words_at(a, size - step), words_at(b, size - step));
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC unroll 16
 #endif
-    for (size_t at = 0; at < size; at += sizeof other) {
+    for (size_t at = 0; at + step < size; at += step) {
         other = words_or(other, words_xor(words_at(a, at), words_at(b, at)));
     }
     return other;

@@ -103,7 +103,7 @@ static void every_bit_of_who_walks_is_seen(void **unused)
     open_pair(&p, 0);
     settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
     end = good;
-    assert_true(tahr__stroll(p.on.mover, &p.on.input, DT, &end, NULL, 0));
+    assert_true(tahr__stroll(p.on.mover, &p.on.input, DT, &end, NULL));
     assert_true(ready_to_walk(p.on.mover, &p.on.input, DT, &good, NULL)); /* that is what is tried */
     assert_every_bit_counts(&p, &good);
     close_pair(&p);
@@ -121,7 +121,7 @@ static void every_bit_of_who_falls_is_seen(void **unused)
         p.on.input.jump = (uint32_t)pressed;
         settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
         end = good;
-        assert_true(tahr__plummet(p.on.mover, &p.on.input, DT, &end, NULL, 0));
+        assert_true(tahr__plummet(p.on.mover, &p.on.input, DT, &end, NULL));
         assert_int_equal(good.mode, TAHR_MODE_FALLING);
         assert_true(ready_to_fall(p.on.mover, &p.on.input, DT, &good, NULL)); /* that is what is tried */
         assert_every_bit_counts(&p, &good);

@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: MIT
+ * short_way.c: the short way on any processor. */
+#include "short_step.h"
+
+uint32_t tahr__short_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report)
+{
+    return short_step(mover, input, dt, state, report);
+}

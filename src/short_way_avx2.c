@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: MIT
+ * short_way_avx2.c: the short way on a processor with 32-byte vectors: the same operations. Without FMA, which would be
+ * other bits. */
+#include "answer.h"
+#include "floor.h"
+#include "falling.h"
+#include "path.h"
+#include "shape.h"
+#include "short_way.h"
+
+#if defined(__GNUC__) && defined(__x86_64__)
+
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#endif
+
+#define TAHR__WIDE_WORDS
+#include "short_step.h"
+
+uint32_t tahr__short_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                               tahr_report *report)
+{
+    return short_step(mover, input, dt, state, report);
+}
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+
+#else
+
+uint32_t tahr__short_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                               tahr_report *report)
+{
+    return tahr__short_step(mover, input, dt, state, report);
+}
+
+#endif
