@@ -9,23 +9,20 @@
 #include "shape.h"
 #include "words.h"
 
-/* Does the state remember nothing, from radius on? Then all of that is in order. In two parts: bits that all of it holds
- * zero of; and those that the sizes do. */
-static inline tahr__words other_memory(const tahr_state *s)
+/* Does the state remember nothing, from radius on? Then all of that is in order. */
+static inline tahr__words other_memory(const tahr_state *s, const tahr__bare *bare)
 {
     static const tahr_state blank = TAHR__BLANK; /* known here: most of it is zero, and need not be read */
-    const size_t at = offsetof(tahr_state, base);
-    return other_words((const char *)s + at, (const char *)&blank + at, sizeof *s - at);
-}
-
-static inline uint64_t other_sizes(const tahr_state *s, const tahr_shape *shape)
-{
-    return (bits_of(s->radius) ^ bits_of(shape->radius)) | (bits_of(s->half_height) ^ bits_of(shape->half_height));
+    const size_t at = offsetof(tahr_state, radius), rest = at + sizeof *bare;
+    _Static_assert(offsetof(tahr_state, base.pose.position.y) == offsetof(tahr_state, radius) + sizeof(tahr__bare),
+                   "so much of a state is bare");
+    return words_or(other_words(&s->radius, bare, sizeof *bare),
+                    other_words((const char *)s + rest, (const char *)&blank + rest, sizeof *s - rest));
 }
 
 static inline int state_is_blank(const tahr_mover *mover, const tahr_state *s)
 {
-    return words_are_zero(other_memory(s)) && other_sizes(s, &mover->limits.shape) == 0;
+    return words_are_zero(other_memory(s, &mover->pace.bare));
 }
 
 /* Is everything else in order too, and as simple as it almost always is? What is not gets the whole check, which names

@@ -130,11 +130,19 @@ typedef struct tahr__held {
     vec3 surface_normal;
 } tahr__held;
 
+/* A state from radius on, as of who remembers nothing: the begin, which differs from one shape to the next. */
+typedef struct tahr__bare {
+    double radius, half_height;
+    uint32_t body, seen;
+    double x;
+} tahr__bare;
+
 /* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.c) remembers:
  * a step is mostly like the last one. */
 typedef struct tahr__pace {
     tahr__asked asked; /* of the last short walk */
     tahr__held held;
+    tahr__bare bare;
     vec3 reach; /* m, the sweep of the foot: downward */
     double range; /* m, the length of it */
     double skin;  /* m */
@@ -222,6 +230,7 @@ struct tahr_mover {
     uint8_t may_go_short_way;
     uint8_t long_way; /* 1: the last step could have been no short one (short_way.h) */
     uint8_t wide;     /* tahr__is_wide */
+    uint8_t not_quick; /* 1: it takes no step as short_step.h does: it may not go the short way, or up is not +z */
     tahr__backoff short_way;
     tahr__pace pace;
     tahr__limits limits;

@@ -53,6 +53,7 @@ static tahr_mover *mover_of(const tahr__tick *t, uint32_t i, const tahr__part *p
         m->pace = c->kinds[kind]->pace;
         m->dive = c->kinds[kind]->dive;
         m->may_go_short_way = c->kinds[kind]->may_go_short_way;
+        m->not_quick = c->kinds[kind]->not_quick;
         mover_wake(m);
         c->kind_of[at] = kind;
     }

@@ -69,6 +69,7 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     mover->pace = tahr__pace_of(&mover->config, &mover->limits);
     mover->dive = tahr__dive_of(&mover->config, &mover->limits);
     mover->may_go_short_way = (uint8_t)tahr__may_go_short_way(world, config, &mover->limits);
+    mover->not_quick = !mover->may_go_short_way || !mover->pace.upright;
     mover->cache = cache;
     mover->cache_size = cache_size;
     *out = mover;
@@ -346,26 +347,22 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     if (mover->world->recording && !mover->is_recorded) {
         return tahr__record_step(mover, input, dt, state, report);
     }
-    const int goes = tahr__has_short_way(mover);
-    uint32_t went = TAHR__NOT_READY;
-    if (goes) {
-        went = mover->wide ? tahr__short_step_wide(mover, input, dt, state, report)
-                           : tahr__short_step(mover, input, dt, state, report);
-        if (went == TAHR__WENT) {
-            return TAHR_OK;
-        }
-    }
-    const int plain = went == TAHR__IN_VAIN ||
-                      (state_is_blank(mover, state) && arguments_are_usual(mover, input, dt, state, report));
+    const int plain = state_is_blank(mover, state) && arguments_are_usual(mover, input, dt, state, report);
     if (!plain) {
         tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
         if (status < 0) {
             return status;
         }
-    } else if (goes && went == TAHR__NOT_READY && tahr__go_short_way(mover, input, dt, state, report)) {
+    } else if (tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
     }
     return take_step(mover, input, dt, state, report, plain);
+}
+
+tahr_status tahr__take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report)
+{
+    return take_step(mover, input, dt, state, report, 1);
 }
 
 tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
@@ -376,6 +373,10 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     }
     if (!input || !state) {
         return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
+    }
+    if (tahr__is_quick(mover)) {
+        return mover->wide ? tahr__quick_step_wide(mover, input, dt, state, report)
+                           : tahr__quick_step(mover, input, dt, state, report);
     }
     if (mover->dozes == 0) {
         return tahr__step_awake(mover, input, dt, state, report);

@@ -9,6 +9,7 @@
 #define TAHR_READY_H
 
 #include "arguments.h"
+#include "neighbours.h"
 #include "path.h"
 #include "words.h"
 
@@ -38,6 +39,13 @@ static inline tahr__words other_head(const tahr__asked *asked, const tahr_input 
     return other_words(in, asked, offsetof(tahr_input, move.z));
 }
 
+/* 0: nobody is near whom it would meet, and nobody watches. */
+static inline uint64_t other_company(const tahr_mover *mover)
+{
+    const uint64_t watched = (uint64_t)(uintptr_t)mover->world->recording;
+    return mover->company ? watched | (uint64_t)(uintptr_t)mover->company->neighbours : watched;
+}
+
 /* As arguments_are_usual has them, of sums of squares. */
 static inline int are_within(double places, double speeds)
 {
@@ -46,24 +54,25 @@ static inline int are_within(double places, double speeds)
 
 /* A walk like the last short one: the same wish for as long, on a face that is known to hold, with all of its floor
  * known. What mover->pace says was checked; the rest is checked here, so that arguments_are_usual and begins_on_face
- * (stroll.h) would say yes. */
+ * (stroll.h) would say yes, for a mover whose up is +z. */
 static inline int ready_to_walk(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *s,
                                 const tahr_report *report)
 {
     const tahr__pace *pace = &mover->pace;
     const tahr_floor *f = &s->floor;
-    tahr__words other = words_or(other_memory(s), other_head(&pace->asked, input));
+    tahr__words other = words_or(other_memory(s, &pace->bare), other_head(&pace->asked, input));
     other = words_or(other, other_words(&s->orientation, &pace->held, sizeof pace->held));
-    uint64_t odd = other_sizes(s, &mover->limits.shape) | other_bits(&s->floor_position, &s->position);
-    odd |= (s->floor_revision ^ mover->world->revision) | bits_of(s->jump_hold) | bits_of(f->perch_distance);
+    other = words_or(other, other_three(&s->floor_position, &s->position));
+    uint64_t odd = other_company(mover) | bits_of(s->jump_hold) | bits_of(f->perch_distance);
+    odd |= s->floor_revision ^ mover->world->revision;
     odd |= ((f->flags & ~(uint32_t)TAHR_FLOOR_SLOPE) ^ TAHR__READY_FACE) | other_asked(&pace->asked, input, dt);
     odd |= other_report(report);
     if (odd || !words_are_zero(other)) {
         return 0;
     }
     const double places = length_squared(s->position) + (length_squared(f->point) + f->distance * f->distance);
-    const double steep = pace->upright ? f->surface_normal.z : dot(f->surface_normal, s->up);
-    return are_within(places, length_squared(s->velocity)) && (steep > TAHR__GENTLE || (f->flags & TAHR_FLOOR_SLOPE));
+    return are_within(places, length_squared(s->velocity)) &&
+           (f->surface_normal.z > TAHR__GENTLE || (f->flags & TAHR_FLOOR_SLOPE));
 }
 
 /* A rise or fall like the last short one, over no floor. */
@@ -73,10 +82,10 @@ static inline int ready_to_fall(const tahr_mover *mover, const tahr_input *input
     static const tahr_floor none = {.body = TAHR_NO_BODY};
     const tahr__held *held = &mover->pace.held;
     const tahr__asked *asked = &mover->dive.asked;
-    tahr__words other = words_or(other_memory(s), other_head(asked, input));
+    tahr__words other = words_or(other_memory(s, &mover->pace.bare), other_head(asked, input));
     other = words_or(other, other_words(&s->orientation, held, offsetof(tahr__held, mode)));
     other = words_or(other, other_words(&s->floor, &none, sizeof none));
-    uint64_t odd = other_sizes(s, &mover->limits.shape) | bits_of(s->jump_hold);
+    uint64_t odd = other_company(mover) | bits_of(s->jump_hold);
     odd |= (s->mode ^ (uint32_t)TAHR_MODE_FALLING) | (s->flags & ~(uint32_t)TAHR__READY_FLIGHT);
     odd |= other_asked(asked, input, dt) | other_report(report);
     return odd == 0 && words_are_zero(other) &&

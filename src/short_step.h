@@ -5,27 +5,25 @@
 #define TAHR_SHORT_STEP_H
 
 #include "plummet.h"
+#include "sleep.h"
 #include "stroll.h"
 
-/* tahr__short_step. */
-static inline uint32_t short_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                                  tahr_report *report)
+/* tahr__quick_step. It is not asleep, and no step is under way. */
+static inline tahr_status quick_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                                     tahr_report *report)
 {
     int done;
-    if (state->mode == TAHR_MODE_WALKING) {
-        if (!ready_to_walk(mover, input, dt, state, report)) {
-            return TAHR__NOT_READY;
-        }
-        done = backoff_tries(&mover->short_way) ? stroll(mover, input, dt, state, report, 1) : -1;
+    if (state->mode == TAHR_MODE_WALKING && ready_to_walk(mover, input, dt, state, report)) {
+        done = stroll(mover, input, dt, state, report, 1);
     } else if (state->mode == TAHR_MODE_FALLING && ready_to_fall(mover, input, dt, state, report)) {
-        done = backoff_tries(&mover->short_way) ? plummet(mover, input, dt, state, report, 1) : -1;
+        done = plummet(mover, input, dt, state, report, 1);
     } else {
-        return TAHR__NOT_READY;
+        return tahr__step_awake(mover, input, dt, state, report);
     }
-    if (done >= 0) {
-        tahr__note_short_way(mover, done);
+    if (!done || mover->short_way.failed) {
+        backoff_note(&mover->short_way, done);
     }
-    return done > 0 ? TAHR__WENT : TAHR__IN_VAIN;
+    return done ? TAHR_OK : tahr__take_step(mover, input, dt, state, report);
 }
 
 #endif

@@ -2,7 +2,8 @@
  * short_way.c: the short way on any processor. */
 #include "short_step.h"
 
-uint32_t tahr__short_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report)
+tahr_status tahr__quick_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report)
 {
-    return short_step(mover, input, dt, state, report);
+    return quick_step(mover, input, dt, state, report);
 }

@@ -26,14 +26,19 @@ tahr__dive tahr__dive_of(const tahr_config *config, const tahr__limits *limits);
 int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
 int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
 
-/* A step whose arguments have not been checked. NOT_READY: they are not, or it is none of those. IN_VAIN: they are in
- * order, but the way is not known to be free, or was not looked at. WENT: it is done. */
-enum { TAHR__NOT_READY = 0, TAHR__IN_VAIN = 1, TAHR__WENT = 2 };
-uint32_t tahr__short_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                          tahr_report *report);
+/* tahr_mover_step, input and state not NULL, of who takes quick steps (tahr__is_quick). */
+tahr_status tahr__quick_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report);
 /* The same where the processor has 32-byte vectors (tahr__is_wide). */
-uint32_t tahr__short_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                               tahr_report *report);
+tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                                  tahr_report *report);
+
+/* The long way, for a state that remembers nothing, and an input that asks for nothing but to go and to jump: checked. */
+tahr_status tahr__take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report);
+
+/* Has a short walk come to no other place? Seldom asked, and therefore far away. */
+int tahr__rests(const tahr_vec3 *from, const tahr_vec3 *to);
 
 /* Along walls and on rough ground steps are like the ones before: who went the long way and asked for more than a short
  * one knows is likely to do so again. And where the short way was tried in vain it is not for a while. */
@@ -43,34 +48,29 @@ static inline void tahr__note_long_way(tahr_mover *mover, const tahr_report *r, 
     mover->long_way = r->sweeps > most || r->slides > 0 || r->contact_queries > 0 || r->rays > 0;
 }
 
-/* Is the short way for this mover's step? That is tried, or not this time. */
-static inline int tahr__has_short_way(const tahr_mover *mover)
+/* Is the next step likely to be a short one like the last one? In one branch. */
+static inline int tahr__is_quick(const tahr_mover *mover)
 {
-    return mover->may_go_short_way && !mover->long_way && !(mover->company && mover->company->neighbours);
+    return (mover->busy | mover->dozes | mover->not_quick | mover->long_way | mover->short_way.rest) == 0;
 }
 
 /* All is in order. */
-/* Of a try. */
-static inline void tahr__note_short_way(tahr_mover *mover, int done)
-{
-    if (backoff_note(&mover->short_way, done)) {
-        mover_wake(mover);
-    }
-}
-
-/* All is in order, but the step is not ready as the last one was. */
+/* All is in order, but the step is not ready to be a quick one. */
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report)
 {
     const int traced = report && (report->decisions || report->queries);
-    if (traced || (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) ||
+    if (!mover->may_go_short_way || mover->long_way || traced || (mover->company && mover->company->neighbours) ||
+        (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) ||
         !backoff_tries(&mover->short_way)) {
         return 0;
     }
     const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)
                      : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report)
                                                         : 0;
-    tahr__note_short_way(mover, done);
+    if (backoff_note(&mover->short_way, done)) {
+        mover_wake(mover);
+    }
     return done;
 }
 

@@ -15,16 +15,16 @@
 #pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
 #else
 #pragma GCC push_options
-#pragma GCC target("avx2")
+#pragma GCC target("avx2,prefer-vector-width=128")
 #endif
 
 #define TAHR__WIDE_WORDS
 #include "short_step.h"
 
-uint32_t tahr__short_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                tahr_report *report)
 {
-    return short_step(mover, input, dt, state, report);
+    return quick_step(mover, input, dt, state, report);
 }
 
 #if defined(__clang__)
@@ -35,10 +35,10 @@ uint32_t tahr__short_step_wide(tahr_mover *mover, const tahr_input *input, doubl
 
 #else
 
-uint32_t tahr__short_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                tahr_report *report)
 {
-    return tahr__short_step(mover, input, dt, state, report);
+    return tahr__quick_step(mover, input, dt, state, report);
 }
 
 #endif

@@ -16,6 +16,9 @@ tahr__pace tahr__pace_of(const tahr_config *c, const tahr__limits *limits)
     const tahr__decay unknown = {0, 0};
     const vec3 up = limits->pull.size > 0 ? clean(limits->pull.up) : vec(0, 0, 1);
     tahr__pace pace = {.asked = {.struct_size = sizeof(tahr_input), .dt = c->max_dt},
+                       .bare = {.radius = limits->shape.radius,
+                                .half_height = limits->shape.half_height,
+                                .body = tahr__blank.base.body},
                        .held = {.orientation = {0, 0, 0, 1}, .up = up, .mode = TAHR__NOTHING_HELD},
                        .reach = scale(up, -foot_range(c, c->snap_distance)),
                        .range = foot_range(c, c->snap_distance),
@@ -31,6 +34,11 @@ tahr__pace tahr__pace_of(const tahr_config *c, const tahr__limits *limits)
                        .max_dt = c->max_dt,
                        .special = limits->in_plane || !shape_is_round(&limits->shape)};
     return pace;
+}
+
+int tahr__rests(const tahr_vec3 *from, const tahr_vec3 *to)
+{
+    return vec_equal(*from, *to);
 }
 
 int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report)

@@ -35,39 +35,33 @@ static inline void learn_law(tahr_mover *mover, const tahr_input *input, double 
     decay_learn(&pace->law.decay, pace->law.turn_friction, dt);
 }
 
-/* dot(v, up), and what is across. That of +z is a part of it: what else the sums hold are products with zero, which
- * change at most the sign of a zero, and no answer hangs on that. */
-static inline double along_up(const tahr__pace *pace, vec3 v)
+/* dot(v, up), and what is across. That of +z (upright) is a part of it: what else the sums hold are products with zero,
+ * which change at most the sign of a zero, and no answer hangs on that. */
+static inline double along_up(const tahr__pace *pace, int upright, vec3 v)
 {
-    return pace->upright ? v.z : dot(v, pace->held.up);
+    return upright ? v.z : dot(v, pace->held.up);
 }
 
-static inline vec3 across_up(const tahr__pace *pace, vec3 v)
+static inline vec3 across_up(const tahr__pace *pace, int upright, vec3 v)
 {
-    return pace->upright ? vec(v.x, v.y, 0) : reject(v, pace->held.up);
+    return upright ? vec(v.x, v.y, 0) : reject(v, pace->held.up);
 }
 
-static inline tahr__motion advance(const tahr__pace *pace, vec3 v, double dt)
+static inline tahr__motion advance(const tahr__pace *pace, int upright, vec3 v, double dt)
 {
-    return pace->upright ? law_advance_level(&pace->law, pace->wishes, v.x, v.y, dt)
-                         : law_advance(&pace->law, pace->wishes, reject(v, pace->held.up), dt);
+    return upright ? law_advance_level(&pace->law, pace->wishes, v.x, v.y, dt)
+                   : law_advance(&pace->law, pace->wishes, reject(v, pace->held.up), dt);
 }
 
 /* A step up or down a face, which keeps the speed along it. */
-static inline vec3 along_face(const tahr__pace *pace, vec3 level, vec3 n)
+static inline vec3 along_face(const tahr__pace *pace, int upright, vec3 level, vec3 n)
 {
-    const double against = pace->upright ? n.x * level.x + n.y * level.y : dot(n, level), steep = along_up(pace, n);
+    const double against = upright ? n.x * level.x + n.y * level.y : dot(n, level), steep = along_up(pace, upright, n);
     if (against == 0 && steep > 0) {
         return level;
     }
     const double rise = -against / steep;
     return rise == 0 ? level : tahr__lift(level, pace->held.up, rise, rise);
-}
-
-/* Has it come to no other place? 1e-8 m are more than the last bit of the farthest one (2e7 m). */
-static inline int rests(vec3 motion, vec3 from, vec3 to)
-{
-    return fabs(motion.x) < 1e-8 && vec_equal(to, from);
 }
 
 /* Is that the face that it began on, which needs no second look? Number by number: so they were written, and what was
@@ -78,22 +72,24 @@ static inline int is_held(const tahr__held *held, const tahr_hit *hit)
 }
 
 /* A face that holds, with normals that need not be made exact? */
-static inline int is_good_face(const tahr__pace *pace, const tahr_hit *hit)
+static inline int is_good_face(const tahr__pace *pace, int upright, const tahr_hit *hit)
 {
     return normal_is_exact(hit->normal) && normal_is_exact(hit->surface_normal) &&
-           along_up(pace, hit->surface_normal) >= pace->level && dot(hit->normal, hit->surface_normal) > TAHR__ON_FACE;
+           along_up(pace, upright, hit->surface_normal) >= pace->level &&
+           dot(hit->normal, hit->surface_normal) > TAHR__ON_FACE;
 }
 
 /* Is what was met under the end of the walk, on a face that holds, well inside of the foot's rim, in the band of
  * clearance, and is nothing about it that hit_is_flawless (answer.h) would not let pass? The point is not far out: it
  * is no farther from the character across up than the rim; nor is the clearance below the band, as the fraction is not
  * below zero. */
-static inline int ends_on_it(const tahr__pace *pace, vec3 position, const tahr_hit *hit, double clearance)
+static inline int ends_on_it(const tahr__pace *pace, int upright, vec3 position, const tahr_hit *hit,
+                             double clearance)
 {
     const double z = hit->point.z, most = 0.05 * TAHR__FARTHEST * TAHR__FARTHEST;
-    const double away = length(across_up(pace, sub(hit->point, position)));
+    const double away = length(across_up(pace, upright, sub(hit->point, position)));
     const double sum = (hit->distance * hit->distance + hit->walkable_angle * hit->walkable_angle) +
-                       (pace->upright ? z * z : length_squared(hit->point));
+                       (upright ? z * z : length_squared(hit->point));
     const uint32_t odd = hit->start_overlap | hit->unknown | (hit->walkable_rule ^ (uint32_t)TAHR_WALKABLE_DEFAULT);
     return hit->blocking && odd == 0 && sum <= most && pace->rim - away >= pace->tolerance &&
            (hit->fraction > 0 || (hit->fraction == 0 && hit->distance >= pace->skin)) && hit->fraction <= 1 &&
@@ -127,6 +123,9 @@ static inline void write_rest(tahr__pace *pace, tahr_state *s, const tahr_hit *h
     pace->asked.dt = dt;
 }
 
+/* m2: who goes so far, 3e-8 m, comes to another place: the last bit of the farthest one (2e7 m) is 4e-9 m. */
+static const double FAR2 = 1e-15;
+
 /* tahr__stroll. ready: as ready_to_walk says. */
 static inline int stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report,
                          int ready)
@@ -138,13 +137,14 @@ static inline int stroll(tahr_mover *mover, const tahr_input *input, double dt, 
         }
         learn_law(mover, input, dt);
     }
-    const tahr__motion m = advance(pace, state->velocity, dt);
+    const int upright = ready || pace->upright;
+    const tahr__motion m = advance(pace, upright, state->velocity, dt);
     if (m.stop_time >= 0) {
         return 0;
     }
-    const vec3 motion = along_face(pace, m.displacement, state->floor.surface_normal);
+    const vec3 motion = along_face(pace, upright, m.displacement, state->floor.surface_normal);
     const vec3 position = add_scaled(state->position, motion, 1), up = pace->held.up;
-    if (rests(motion, state->position, position)) {
+    if (length_squared(motion) < FAR2 && tahr__rests(&state->position, &position)) {
         return 0;
     }
     const tahr_walk walk = {.shape = &mover->limits.shape,
@@ -165,7 +165,7 @@ static inline int stroll(tahr_mover *mover, const tahr_input *input, double dt, 
     }
     const double clearance = hit.fraction * pace->range + pace->skin;
     const int same = ready && is_held(&pace->held, &hit);
-    if (!(same || is_good_face(pace, &hit)) || !ends_on_it(pace, position, &hit, clearance) ||
+    if (!(same || is_good_face(pace, upright, &hit)) || !ends_on_it(pace, upright, position, &hit, clearance) ||
         goes_astray(mover, position)) {
         return 0;
     }

@@ -80,4 +80,15 @@ static inline tahr__words other_words(const void *a, const void *b, size_t size)
     return other;
 }
 
+/* The same of three numbers, behind which both have at least one more. */
+static inline tahr__words other_three(const void *a, const void *b)
+{
+#ifdef TAHR__WIDE_WORDS
+    const tahr__words three = {~(uint64_t)0, ~(uint64_t)0, ~(uint64_t)0, 0};
+    return words_xor(words_at(a, 0), words_at(b, 0)) & three;
+#else
+    return other_words(a, b, 3 * sizeof(double));
+#endif
+}
+
 #endif
