@@ -374,13 +374,13 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     if (!input || !state) {
         return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
     }
-    if (tahr__is_quick(mover)) {
-        return mover->wide ? tahr__quick_step_wide(mover, input, dt, state, report)
-                           : tahr__quick_step(mover, input, dt, state, report);
+    if (mover->dozes) {
+        return mover->dozes == 2 ? tahr__step_wide(mover, input, dt, state, report)
+                                 : tahr__step_noted(mover, input, dt, state, report);
     }
-    if (mover->dozes == 0) {
+    if (!tahr__is_quick(mover)) {
         return tahr__step_awake(mover, input, dt, state, report);
     }
-    return mover->dozes == 2 ? tahr__step_wide(mover, input, dt, state, report)
-                             : tahr__step_noted(mover, input, dt, state, report);
+    return mover->wide ? tahr__quick_step_wide(mover, input, dt, state, report)
+                       : tahr__quick_step(mover, input, dt, state, report);
 }

@@ -38,7 +38,7 @@ tahr_status tahr__take_step(tahr_mover *mover, const tahr_input *input, double d
                             tahr_report *report);
 
 /* Has a short walk come to no other place? Seldom asked, and therefore far away. */
-int tahr__rests(const tahr_vec3 *from, const tahr_vec3 *to);
+int tahr__stays(const tahr_vec3 *from, const tahr_vec3 *to);
 
 /* Along walls and on rough ground steps are like the ones before: who went the long way and asked for more than a short
  * one knows is likely to do so again. And where the short way was tried in vain it is not for a while. */
@@ -51,7 +51,7 @@ static inline void tahr__note_long_way(tahr_mover *mover, const tahr_report *r, 
 /* Is the next step likely to be a short one like the last one? In one branch. */
 static inline int tahr__is_quick(const tahr_mover *mover)
 {
-    return (mover->busy | mover->dozes | mover->not_quick | mover->long_way | mover->short_way.rest) == 0;
+    return (mover->busy | mover->not_quick | mover->long_way | mover->short_way.rest) == 0;
 }
 
 /* All is in order. */

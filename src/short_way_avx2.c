@@ -10,13 +10,7 @@
 
 #if defined(__GNUC__) && defined(__x86_64__)
 
-#if defined(__clang__)
-#pragma STDC FP_CONTRACT OFF
-#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx2,prefer-vector-width=128")
-#endif
+#include "avx2_begin.h"
 
 #define TAHR__WIDE_WORDS
 #include "short_step.h"
@@ -27,11 +21,7 @@ tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, do
     return quick_step(mover, input, dt, state, report);
 }
 
-#if defined(__clang__)
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
+#include "avx2_end.h"
 
 #else
 

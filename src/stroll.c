@@ -36,7 +36,7 @@ tahr__pace tahr__pace_of(const tahr_config *c, const tahr__limits *limits)
     return pace;
 }
 
-int tahr__rests(const tahr_vec3 *from, const tahr_vec3 *to)
+int tahr__stays(const tahr_vec3 *from, const tahr_vec3 *to)
 {
     return vec_equal(*from, *to);
 }

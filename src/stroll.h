@@ -144,7 +144,7 @@ static inline int stroll(tahr_mover *mover, const tahr_input *input, double dt, 
     }
     const vec3 motion = along_face(pace, upright, m.displacement, state->floor.surface_normal);
     const vec3 position = add_scaled(state->position, motion, 1), up = pace->held.up;
-    if (length_squared(motion) < FAR2 && tahr__rests(&state->position, &position)) {
+    if (length_squared(motion) < FAR2 && tahr__stays(&state->position, &position)) {
         return 0;
     }
     const tahr_walk walk = {.shape = &mover->limits.shape,

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT
+ * crowd_rest.c: who of a crowd sleeps, on any processor; and how that is noted. */
+#include "crowd_rest.h"
+
+uint32_t tahr__rests(const tahr__tick *t, uint32_t begin, uint32_t end)
+{
+    return rests_among(t, begin, end);
+}
+
+uint32_t tahr__rest_note(tahr__rest *rest, const tahr_mover *mover, const tahr_member *member)
+{
+    const tahr__sleep *s = &mover->sleep;
+    rest->valid = s->noted == 1 && s->blank && s->input.struct_size == sizeof s->input && s->input.flags == 0 &&
+                  memcmp(&s->state.radius, &mover->pace.bare, sizeof mover->pace.bare) == 0;
+    if (!rest->valid) {
+        return 0;
+    }
+    rest->dt = s->dt;
+    rest->revision = s->revision;
+    rest->plain = !member;
+    memcpy(rest->head, &s->input, sizeof rest->head);
+    memcpy(rest->state, &s->state, sizeof rest->state);
+    return 1;
+}
