@@ -308,6 +308,81 @@ static void a_mover_remembers_no_wish_of_another(void **unused)
     close_pair(&p);
 }
 
+enum { CHARACTERS = 4 };
+
+/* A level ground and two ramps of 14 and 27 degrees, as they lie to gravity along -up; four characters, two on the
+ * ground, one over each ramp and the last high up. axis: 0: up is +z, 1: +x, and the level is turned likewise. */
+static void open_slopes(rig *r, const tahr_config *config, int axis, tahr_state states[CHARACTERS])
+{
+    tahr_body_desc b[3];
+    const double places[CHARACTERS][3] = {{0, 0, 1}, {-40, 0, 4}, {40, 0, 4}, {0, 40, 60}};
+    const double slopes[3] = {0, 0.25, -0.5}; /* tangents, about the level y */
+    for (int i = 0; i < 3; i++) {
+        const double half = 0.5 * atan(slopes[i]), x = 40.0 * (i == 0 ? 0 : i == 1 ? -1 : 1);
+        tahr_body_desc_init(&b[i], sizeof b[i], TAHR_BODY_BOX);
+        b[i].half_extents = i ? (tahr_vec3){15, 15, 1} : (tahr_vec3){100, 100, 1};
+        b[i].pose.position = (tahr_vec3){x, 0, i ? 0 : -1};
+        b[i].pose.orientation = (tahr_quat){0, -sin(half), 0, cos(half)};
+        if (axis) { /* (x, y, z) to (z, x, y): a third of a turn about (1, 1, 1) */
+            const tahr_quat q = b[i].pose.orientation;
+            const tahr_vec3 h = b[i].half_extents;
+            b[i].pose.position = (tahr_vec3){i ? 0 : -1, x, 0};
+            b[i].pose.orientation = (tahr_quat){q.z, q.x, q.y, q.w};
+            b[i].half_extents = (tahr_vec3){h.z, h.x, h.y};
+        }
+    }
+    rig_open_bodies(r, b, 3, config, axis ? (tahr_vec3){30, 60, 60} : (tahr_vec3){60, 60, 30});
+    for (int k = 0; k < CHARACTERS; k++) {
+        const double *p = places[k];
+        const tahr_vec3 at = axis ? (tahr_vec3){p[2], p[0], p[1]} : (tahr_vec3){p[0], p[1], p[2]};
+        assert_int_equal(tahr_state_init(&states[k], config, &at), TAHR_OK);
+    }
+}
+
+/* One mover steps all of them in random turns, now and then the same one for a while: what it holds of a face, a wish
+ * or a flight of one is not taken for another's. With 32-byte vectors and without, upright and lying. */
+static void a_mover_holds_no_face_of_another(void **unused)
+{
+    (void)unused;
+    for (int way = 0; way < 3; way++) {
+        oracle_random dice = {21};
+        tahr_config config = rig_config();
+        tahr_state on[CHARACTERS], off[CHARACTERS];
+        tahr_vec3 moves[CHARACTERS] = {{0.5, 0.1, 0}, {0.3, 0.4, 0}, {-0.2, 0.5, 0}, {0.7, 0, 0}};
+        rig a, b;
+        uint64_t spared = 0, steps = 0;
+        uint32_t who = 0;
+        const int axis = way == 2;
+        config.gravity = axis ? (tahr_vec3){-9.81, 0, 0} : config.gravity;
+        open_slopes(&a, &config, axis, on);
+        config.short_ways = config.sleep = 0;
+        open_slopes(&b, &config, axis, off);
+        a.mover->wide = way == 1 ? 0 : a.mover->wide;
+        for (int n = 0; n < 12000; n++) {
+            const double angle = oracle_uniform(&dice, 0, 6.2831853), size = oracle_uniform(&dice, 0, 1);
+            tahr_report report = {.struct_size = sizeof report};
+            who = oracle_below(&dice, 20) ? who : oracle_below(&dice, CHARACTERS);
+            if (oracle_below(&dice, 50) == 0) {
+                moves[who] = (tahr_vec3){size * cos(angle), size * sin(angle), 0};
+            }
+            a.input.move = axis ? (tahr_vec3){0, moves[who].x, moves[who].y} : moves[who];
+            a.input.jump = b.input.jump = oracle_below(&dice, 60) == 0;
+            b.input.move = a.input.move;
+            assert_int_equal(tahr_mover_step(a.mover, &a.input, DT, &on[who], &report), TAHR_OK);
+            assert_int_equal(tahr_mover_step(b.mover, &b.input, DT, &off[who], NULL), TAHR_OK);
+            if (memcmp(&on[who], &off[who], sizeof on[who]) != 0) {
+                fail_msg("way %d, step %d, character %u", way, n, who);
+            }
+            steps += report.sweeps > 0;
+            spared += report.sweeps > 0 && report.spared == report.sweeps;
+        }
+        print_message("    %d of %d steps asked nothing\n", (int)spared, (int)steps);
+        assert_true(spared > steps / 4);
+        rig_close(&a);
+        rig_close(&b);
+    }
+}
+
 static void a_decay_that_is_known_changes_no_bit(void **unused)
 {
     oracle_random dice = {5};
@@ -372,6 +447,7 @@ int main(void)
                                        cmocka_unit_test(what_is_wrong_in_who_walks_is_named),
                                        cmocka_unit_test(without_gravity_up_is_still_checked),
                                        cmocka_unit_test(a_mover_remembers_no_wish_of_another),
+                                       cmocka_unit_test(a_mover_holds_no_face_of_another),
                                        cmocka_unit_test(a_decay_that_is_known_changes_no_bit),
                                        cmocka_unit_test(a_lean_crowd_takes_no_short_way_for_who_may_not)};
     return cmocka_run_group_tests(tests, NULL, NULL);
