@@ -158,6 +158,49 @@ static void every_bit_of_who_falls_is_seen(void **unused)
     }
 }
 
+/* Who walks, and who falls: a report that wants to see decisions or queries gets all of them, one of another size is
+ * refused, and one with room for events is told of none. */
+static void what_a_report_asks_for_is_seen(void **unused)
+{
+    (void)unused;
+    for (int falls = 0; falls < 2; falls++) {
+        tahr_decision decisions[2][64];
+        tahr_query_record queries[2][64];
+        tahr_event events[4];
+        pair p;
+        tahr_state good;
+        open_pair(&p, 0);
+        p.on.state.position.z += falls ? 400 : 0;
+        settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
+        for (int what = 0; what < 4; what++) {
+            tahr_state ends[2] = {good, good};
+            tahr_report r[2] = {{.struct_size = sizeof r[0]}, {.struct_size = sizeof r[0]}};
+            tahr_status is[2];
+            for (int k = 0; k < 2; k++) {
+                tahr_state before = good;
+                r[k].decisions = what == 0 ? decisions[k] : NULL;
+                r[k].queries = what == 1 ? queries[k] : NULL;
+                r[k].decision_capacity = r[k].query_capacity = 64;
+                r[k].struct_size = what == 2 ? 8 : sizeof r[k];
+                r[k].events = what == 3 ? events : NULL;
+                r[k].event_capacity = 4;
+                tahr_mover *mover = k ? p.off.mover : p.on.mover;
+                assert_int_equal(tahr_mover_step(mover, &p.on.input, DT, &before, NULL), TAHR_OK);
+                is[k] = tahr_mover_step(mover, &p.on.input, DT, &ends[k], &r[k]);
+            }
+            assert_int_equal(is[0], is[1]);
+            assert_int_equal(is[0], what == 2 ? TAHR_E_STRUCT_SIZE : TAHR_OK);
+            assert_memory_equal(&ends[0], &ends[1], sizeof good);
+            assert_int_equal(r[0].decision_count, r[1].decision_count);
+            assert_int_equal(r[0].query_count, r[1].query_count);
+            assert_int_equal(r[0].query_count > 0, what == 1);
+            assert_int_equal(r[0].event_count, 0);
+            assert_true(what == 2 || r[0].event_capacity == (what == 3 ? 4 : 0));
+        }
+        close_pair(&p);
+    }
+}
+
 static void is_asleep(pair *p, const tahr_state *good)
 {
     tahr_state end = *good;
@@ -465,6 +508,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_bit_of_who_walks_is_seen),
                                        cmocka_unit_test(every_bit_of_who_falls_is_seen),
+                                       cmocka_unit_test(what_a_report_asks_for_is_seen),
                                        cmocka_unit_test(every_bit_of_who_sleeps_is_seen),
                                        cmocka_unit_test(every_bit_of_an_input_is_seen),
                                        cmocka_unit_test(what_is_wrong_in_who_walks_is_named),
