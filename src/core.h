@@ -143,12 +143,12 @@ typedef struct tahr__pace {
     tahr__asked asked; /* of the last short walk */
     tahr__held held;
     tahr__bare bare;
-    vec3 reach; /* m, the sweep of the foot: downward */
-    double range; /* m, the length of it */
-    double skin;  /* m */
-    double foot;  /* m, its offset */
-    double most;  /* m, clearance of the band in which a floor is left as it is */
-    double rim;   /* m, radius and skin */
+    vec3 reach;       /* m, the sweep of the foot: downward */
+    double range;     /* m, the length of it */
+    double skin;      /* m */
+    double foot;      /* m, its offset */
+    double most;      /* m, clearance of the band in which a floor is left as it is */
+    double rim;       /* m, radius and skin */
     double tolerance; /* m, from the rim */
     double level;     /* cosine of the steepest face that may be stood on without a look at what was */
     uint32_t mask;
@@ -194,13 +194,13 @@ typedef struct tahr__clear {
 /* What a rise or fall the short way (plummet.c) asks of config and limits, and what it remembers. */
 typedef struct tahr__dive {
     tahr__asked asked; /* of the last one, */
-    tahr__law law;    /* and how its move is approached */
-    uint32_t wishes;  /* law_wishes of law */
-    uint32_t upright; /* 1: up is exactly +z */
-    double gravity;   /* m/s2 */
-    double chord;     /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
-    double longest;   /* s: longer steps go the long way */
-    double terminal;  /* m/s */
+    tahr__law law;     /* and how its move is approached */
+    uint32_t wishes;   /* law_wishes of law */
+    uint32_t upright;  /* 1: up is exactly +z */
+    double gravity;    /* m/s2 */
+    double chord;      /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
+    double longest;    /* s: longer steps go the long way */
+    double terminal;   /* m/s */
     tahr__clear clear;
 } tahr__dive;
 
@@ -228,8 +228,8 @@ struct tahr_mover {
     uint8_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide looks first */
     uint8_t plain;       /* 1: neither world nor config hold anything that a state remembers */
     uint8_t may_go_short_way;
-    uint8_t long_way; /* 1: the last step could have been no short one (short_way.h) */
-    uint8_t wide;     /* tahr__is_wide */
+    uint8_t long_way;  /* 1: the last step could have been no short one (short_way.h) */
+    uint8_t wide;      /* tahr__is_wide */
     uint8_t not_quick; /* 1: it takes no step as short_step.h does: it may not go the short way, or up is not +z */
     tahr__backoff short_way;
     tahr__pace pace;

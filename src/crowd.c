@@ -87,9 +87,8 @@ static int identify(tahr__figure *f, const tahr_member *m, uint32_t id)
 static int is_still(const tahr__tick *t, uint32_t i, const tahr_input *input, const tahr_state *state)
 {
     const tahr_crowd *c = t->crowd;
-    return t->looked && c->rests[i].valid
-               ? c->still[i]
-               : sleeps_on(&c->movers[i]->sleep, t->revision, input, t->asked->dt, state);
+    return t->looked && c->rests[i].valid ? c->still[i]
+                                          : sleeps_on(&c->movers[i]->sleep, t->revision, input, t->asked->dt, state);
 }
 
 /* Of a character: its figure, unless that and its step are those of the last tick. */

@@ -44,8 +44,8 @@ struct tahr_crowd {
     double *strayed; /* m, of who would have gone farther than foreseen */
     uint32_t *keys;  /* ids of a tick, to find one that is there twice */
     tahr__part *parts;
-    tahr__rest *rests; /* of each place in the arrays of a tick; lean: none */
-    uint8_t *still;    /* 1: it rests on in this tick */
+    tahr__rest *rests;  /* of each place in the arrays of a tick; lean: none */
+    uint8_t *still;     /* 1: it rests on in this tick */
     uint32_t has_rests; /* 1: some are valid */
     uint32_t settled;   /* 1: everybody rested in the last tick, which was in order */
     tahr_status worst;  /* then: what that came to */

@@ -77,8 +77,8 @@ static size_t take(size_t *used, size_t count, size_t size)
 }
 
 typedef struct plan {
-    size_t kinds, movers, kind_of, figures, looks, statuses, strayed, keys, parts, rests, still, bucket, corner, start, order,
-        size;
+    size_t kinds, movers, kind_of, figures, looks, statuses, strayed, keys, parts, rests, still, bucket, corner, start,
+        order, size;
 } plan;
 
 static plan plan_of(const tahr_crowd *c)

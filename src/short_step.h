@@ -8,11 +8,30 @@
 #include "sleep.h"
 #include "stroll.h"
 
+/* Lines of memory at the begin of a cache that a walk reads: asked for as long as the step is looked at, they are there
+ * when the backend needs them. Of many characters they lie far away. Asking for what is not there does nothing. */
+enum { TAHR__CACHE_LINES = 11 };
+
+static inline void fetch_cache(const tahr_mover *mover)
+{
+#ifdef __GNUC__
+    const uintptr_t cache = (uintptr_t)mover->cache;
+    for (uintptr_t i = 0; i < TAHR__CACHE_LINES; i++) {
+        __builtin_prefetch((const void *)(cache + 64 * i));
+    }
+#else
+    (void)mover;
+#endif
+}
+
 /* tahr__quick_step. It is not asleep, and no step is under way. */
 static inline tahr_status quick_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report)
 {
     int done;
+    if (state->mode == TAHR_MODE_WALKING) {
+        fetch_cache(mover);
+    }
     if (state->mode == TAHR_MODE_WALKING && ready_to_walk(mover, input, dt, state, report)) {
         done = stroll(mover, input, dt, state, report, 1);
     } else if (state->mode == TAHR_MODE_FALLING && ready_to_fall(mover, input, dt, state, report)) {

@@ -61,8 +61,7 @@ static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input,
 {
     const int traced = report && (report->decisions || report->queries);
     if (!mover->may_go_short_way || mover->long_way || traced || (mover->company && mover->company->neighbours) ||
-        (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) ||
-        !backoff_tries(&mover->short_way)) {
+        (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) || !backoff_tries(&mover->short_way)) {
         return 0;
     }
     const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)

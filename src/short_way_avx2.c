@@ -16,7 +16,7 @@
 #include "short_step.h"
 
 tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                               tahr_report *report)
+                                  tahr_report *report)
 {
     return quick_step(mover, input, dt, state, report);
 }
@@ -26,7 +26,7 @@ tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, do
 #else
 
 tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                               tahr_report *report)
+                                  tahr_report *report)
 {
     return tahr__quick_step(mover, input, dt, state, report);
 }

@@ -83,8 +83,7 @@ static inline int is_good_face(const tahr__pace *pace, int upright, const tahr_h
  * clearance, and is nothing about it that hit_is_flawless (answer.h) would not let pass? The point is not far out: it
  * is no farther from the character across up than the rim; nor is the clearance below the band, as the fraction is not
  * below zero. */
-static inline int ends_on_it(const tahr__pace *pace, int upright, vec3 position, const tahr_hit *hit,
-                             double clearance)
+static inline int ends_on_it(const tahr__pace *pace, int upright, vec3 position, const tahr_hit *hit, double clearance)
 {
     const double z = hit->point.z, most = 0.05 * TAHR__FARTHEST * TAHR__FARTHEST;
     const double away = length(across_up(pace, upright, sub(hit->point, position)));
