@@ -87,8 +87,8 @@ static int identify(tahr__figure *f, const tahr_member *m, uint32_t id)
 static int is_still(const tahr__tick *t, uint32_t i, const tahr_input *input, const tahr_state *state)
 {
     const tahr_crowd *c = t->crowd;
-    return t->looked && c->rests[i].valid ? c->still[i]
-                                          : sleeps_on(&c->movers[i]->sleep, t->revision, input, t->asked->dt, state);
+    return t->looked && c->resting[i] ? c->still[i]
+                                      : sleeps_on(&c->movers[i]->sleep, t->revision, input, t->asked->dt, state);
 }
 
 /* Of a character: its figure, unless that and its step are those of the last tick. */
@@ -296,12 +296,13 @@ static inline tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__compa
         mover->company = NULL;
         if (mover->sleep.noted && status >= 0 && t->asked->dt > 0 && !c->is_lean) {
             c->figures[i].flags |= TAHR__FIGURE_NOTED;
-            part->rests += tahr__rest_note(&c->rests[i], mover, member);
+            c->resting[i] = tahr__rest_note(&c->rests[i], mover, member);
+            part->rests += c->resting[i] != 0;
             noted = 1;
         }
     }
-    if (!noted && !c->is_lean && c->rests[i].valid) {
-        c->rests[i].valid = 0;
+    if (!noted) {
+        c->resting[i] = 0;
     }
     if (status == TAHR__STRAYED) {
         c->strayed[i] = company->strayed;
@@ -343,14 +344,14 @@ static void step_part(void *argument, uint32_t index)
     part->rests = part->woken = 0;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t flags = c->figures[i].flags & (TAHR__FIGURE_STILL | TAHR__FIGURE_BESIDE);
-        if (untold && flags == TAHR__FIGURE_STILL && c->rests[i].valid) { /* its status is that of the last tick */
+        if (untold && flags == TAHR__FIGURE_STILL && c->resting[i]) { /* its status is that of the last tick */
             part->rests++;
             continue;
         }
         part->woken++;
         if (flags == TAHR__FIGURE_STILL &&
             tahr__sleep_again(&c->movers[i]->sleep, tick_report(t, i), &c->statuses[i])) {
-            part->rests += !c->is_lean && c->rests[i].valid;
+            part->rests += c->resting[i] != 0;
             continue;
         }
         tahr__company company = {.range = &c->figures[i].range};
@@ -418,6 +419,12 @@ static int rests_on(tahr__tick *t)
 {
     tahr_crowd *c = t->crowd;
     uint32_t rests = 0;
+    if (bits_of(c->rest_dt) != bits_of(t->asked->dt) || c->rest_revision != t->revision) {
+        memset(c->resting, 0, c->capacity * sizeof *c->resting);
+        c->rest_dt = t->asked->dt;
+        c->rest_revision = t->revision;
+        c->has_rests = 0;
+    }
     if (!c->has_rests || t->input_stride != sizeof(tahr_input)) {
         return 0;
     }

@@ -44,11 +44,14 @@ struct tahr_crowd {
     double *strayed; /* m, of who would have gone farther than foreseen */
     uint32_t *keys;  /* ids of a tick, to find one that is there twice */
     tahr__part *parts;
-    tahr__rest *rests;  /* of each place in the arrays of a tick; lean: none */
-    uint8_t *still;     /* 1: it rests on in this tick */
-    uint32_t has_rests; /* 1: some are valid */
-    uint32_t settled;   /* 1: everybody rested in the last tick, which was in order */
-    tahr_status worst;  /* then: what that came to */
+    tahr__rest *rests;      /* of each place in the arrays of a tick; lean: none */
+    uint8_t *resting;       /* TAHR__RESTS*; 0: it does not, and nothing of its rest counts */
+    uint8_t *still;         /* 1: it rests on in this tick */
+    double rest_dt;         /* s, and */
+    uint64_t rest_revision; /* of the world: of the steps that were noted */
+    uint32_t has_rests;     /* 1: some are valid */
+    uint32_t settled;       /* 1: everybody rested in the last tick, which was in order */
+    tahr_status worst;      /* then: what that came to */
     tahr__grid grid;
     tahr_crowd_counts counts;
 };

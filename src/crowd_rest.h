@@ -7,33 +7,38 @@
 #include "arguments.h"
 #include "crowd.h"
 
-/* A character whose mover has noted a step of a state that remembers nothing, with an input without a flag, and no
- * events: all that a tick compares but the begin of what is remembered, which is that of its config, and zeros. */
-enum { TAHR__REST_PART = 256 };
+/* A character whose mover has noted a step of a state that remembers nothing and knows its floor, with an input without
+ * a flag, and no events: all that a tick compares but what is the same of all that rest: the length of the step, the
+ * world, the begin of what is remembered, which is that of its config, and zeros. Four lines. */
+enum { TAHR__REST_PART = offsetof(tahr_state, floor_position) };
 struct tahr__rest {
-    _Alignas(64) double dt;
-    uint64_t revision;
+    _Alignas(64) unsigned char state[TAHR__REST_PART];
     unsigned char head[offsetof(tahr_input, facing)]; /* of the input */
-    uint32_t valid;                                   /* 0: nothing of this counts */
-    uint32_t plain;                                   /* 1: it is who a character without a member is */
-    unsigned char state[TAHR__REST_PART];
 };
 
-_Static_assert(offsetof(tahr_state, radius) == TAHR__REST_PART, "up to the radius");
-_Static_assert(sizeof(struct tahr__rest) == 64 + TAHR__REST_PART, "no hole: five lines");
+_Static_assert(sizeof(struct tahr__rest) == 256, "no hole: four lines");
 
-/* Nothing but the state: are dt, revision, input and state those of the rest? */
-static inline int rest_holds(const tahr__rest *rest, const tahr__bare *bare, const tahr__tick *t,
+/* crowd->resting of a character. */
+enum { TAHR__RESTS = 1 << 0, TAHR__RESTS_PLAIN = 1 << 1 }; /* PLAIN: it is who a character without a member is */
+
+/* Does the state know the floor where it is, in the world as it is, and is gravity not held back? */
+static inline uint64_t other_floor(const tahr_state *s, const tahr_world *world)
+{
+    return (s->floor_revision ^ world->revision) | bits_of(s->jump_hold);
+}
+
+/* Are input and state those of the rest? */
+static inline int rest_holds(const tahr__rest *rest, const tahr__bare *bare, const tahr_world *world,
                              const tahr_input *input, const tahr_state *state)
 {
     const size_t z = offsetof(tahr_input, move.z);
     double move_z;
     memcpy(&move_z, rest->head + z, sizeof move_z);
-    const uint64_t odd = (bits_of(t->asked->dt) ^ bits_of(rest->dt)) | (t->revision ^ rest->revision) |
-                         (bits_of(input->move.z) ^ bits_of(move_z)) | input->reserved;
+    const uint64_t odd = (bits_of(input->move.z) ^ bits_of(move_z)) | input->reserved | other_floor(state, world);
     tahr__words other = words_or(other_words(input, rest->head, z), other_memory(state, bare));
     other = words_or(other, other_words(state, rest->state, sizeof rest->state));
-    return rest->valid && odd == 0 && words_are_zero(other);
+    other = words_or(other, other_three(&state->floor_position, &state->position));
+    return odd == 0 && words_are_zero(other);
 }
 
 /* Is it who it was in the last tick? */
@@ -57,12 +62,12 @@ static inline uint32_t rests_among(const tahr__tick *t, uint32_t begin, uint32_t
     uint32_t count = 0;
     for (uint32_t i = begin; i < end; i++) {
         const tahr__rest *rest = &c->rests[i];
-        int his = rest->plain != 0;
+        int his = (c->resting[i] & TAHR__RESTS_PLAIN) != 0;
         if (members) {
-            his = rest_is_his(t, i, &members[i]);
+            his = c->resting[i] && rest_is_his(t, i, &members[i]);
             bare = his ? &c->kinds[members[i].config]->pace.bare : bare;
         }
-        const int still = his && rest_holds(rest, bare, t, &t->asked->inputs[i], &t->asked->states[i]);
+        const int still = his && rest_holds(rest, bare, c->world, &t->asked->inputs[i], &t->asked->states[i]);
         c->still[i] = (uint8_t)still;
         count += (uint32_t)still;
     }
@@ -75,7 +80,8 @@ uint32_t tahr__rests(const tahr__tick *tick, uint32_t begin, uint32_t end);
 /* The same where the processor has 32-byte vectors. */
 uint32_t tahr__rests_wide(const tahr__tick *tick, uint32_t begin, uint32_t end);
 
-/* What a character's mover has noted, or has not. member: NULL: it has none. Returns whether it rests. */
-uint32_t tahr__rest_note(tahr__rest *rest, const tahr_mover *mover, const tahr_member *member);
+/* What a character's mover has noted, or has not. member: NULL: it has none. Returns its crowd->resting; 0: it does not
+ * rest. */
+uint8_t tahr__rest_note(tahr__rest *rest, const tahr_mover *mover, const tahr_member *member);
 
 #endif
