@@ -137,7 +137,7 @@ typedef struct tahr__bare {
     double x;
 } tahr__bare;
 
-/* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.c) remembers:
+/* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.h) remembers:
  * a step is mostly like the last one. */
 typedef struct tahr__pace {
     tahr__asked asked; /* of the last short walk */
@@ -191,7 +191,7 @@ typedef struct tahr__clear {
     uint64_t revision; /* of the world; 0: nothing is known */
 } tahr__clear;
 
-/* What a rise or fall the short way (plummet.c) asks of config and limits, and what it remembers. */
+/* What a rise or fall the short way (plummet.h) asks of config and limits, and what it remembers. */
 typedef struct tahr__dive {
     tahr__asked asked; /* of the last one, */
     tahr__law law;     /* and how its move is approached */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * short_way.h: the steps that most steps are, in one go: a walk with nothing in its way (stroll.c), a fall with nothing
- * below (plummet.c). What is left out of the long way (mover.c, walking.c, falling.c) is what finds nothing to do in
+ * short_way.h: the steps that most steps are, in one go: a walk with nothing in its way (stroll.h), a fall with nothing
+ * below (plummet.h). What is left out of the long way (mover.c, walking.c, falling.c) is what finds nothing to do in
  * such a step; what is decided here is decided there by the same operations, so that the bits are the same; and
  * whatever is not plainly so goes there. */
 #ifndef TAHR_SHORT_WAY_H
