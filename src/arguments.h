@@ -7,40 +7,22 @@
 
 #include "core.h"
 #include "shape.h"
-
-static inline uint64_t state_word(const tahr_state *s, size_t at)
-{
-    uint64_t word;
-    memcpy(&word, (const char *)s + at, sizeof word);
-    return word;
-}
-
-/* All bits that are in any of its 8-byte words in [from, to). */
-static inline uint64_t state_words(const tahr_state *s, size_t from, size_t to)
-{
-    uint64_t any = 0;
-    for (size_t at = from; at < to; at += sizeof any) {
-        any |= state_word(s, at);
-    }
-    return any;
-}
+#include "words.h"
 
 /* Does the state remember nothing, from radius on? Then all of that is in order. */
+static inline tahr__words other_memory(const tahr_state *s, const tahr__bare *bare)
+{
+    static const tahr_state blank = TAHR__BLANK; /* known here: most of it is zero, and need not be read */
+    const size_t at = offsetof(tahr_state, radius), rest = at + sizeof *bare;
+    _Static_assert(offsetof(tahr_state, base.pose.position.y) == offsetof(tahr_state, radius) + sizeof(tahr__bare),
+                   "so much of a state is bare");
+    return words_or(other_words(&s->radius, bare, sizeof *bare),
+                    other_words((const char *)s + rest, (const char *)&blank + rest, sizeof *s - rest));
+}
+
 static inline int state_is_blank(const tahr_mover *mover, const tahr_state *s)
 {
-    const tahr_shape *shape = &mover->limits.shape;
-    const tahr_base *b = &s->base;
-    const size_t pose = offsetof(tahr_state, base.pose), velocity = offsetof(tahr_state, base.velocity);
-    const size_t touched = offsetof(tahr_state, touched), counts = offsetof(tahr_state, touched_count);
-    const size_t wall = offsetof(tahr_state, wall_body), reserved = offsetof(tahr_state, reserved);
-    uint64_t odd = state_words(s, pose, velocity - sizeof(double)) | state_words(s, velocity, touched);
-    odd |= state_words(s, counts, wall) | state_words(s, reserved, sizeof *s);
-    odd |= bits_of(b->pose.orientation.w) ^ bits_of(1.0);
-    odd |= (bits_of(s->radius) ^ bits_of(shape->radius)) | (bits_of(s->half_height) ^ bits_of(shape->half_height));
-    odd |= b->seen | s->wall_feature | s->drop_feature | ~(b->body & s->wall_body & s->drop_body);
-    odd |= ~(state_word(s, touched) & state_word(s, touched + 8) & state_word(s, touched + 16) &
-             state_word(s, touched + 24));
-    return odd == 0;
+    return words_are_zero(other_memory(s, &mover->pace.bare));
 }
 
 /* Is everything else in order too, and as simple as it almost always is? What is not gets the whole check, which names
@@ -51,7 +33,7 @@ static inline int arguments_are_usual(const tahr_mover *mover, const tahr_input 
     const tahr_floor *f = &s->floor;
     const tahr_quat q = s->orientation;
     double turn = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
-    double lean = other_bits(&s->up, &mover->pace.up) ? length_squared(s->up) - 1 : 0;
+    double lean = other_bits(&s->up, &mover->pace.held.up) ? length_squared(s->up) - 1 : 0;
     double places = (length_squared(s->position) + length_squared(s->floor_position)) + length_squared(f->point);
     places += f->distance * f->distance + f->perch_distance * f->perch_distance;
     double speeds = length_squared(s->velocity) + length_squared(in->move);

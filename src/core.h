@@ -109,23 +109,54 @@ typedef struct tahr__limits {
     uint32_t usual;             /* 1: EXACT, JOINT slides and depenetration, MARGIN */
 } tahr__limits;
 
-/* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.c) remembers:
- * a wish is mostly that of the last step. */
+/* What a short step was asked for: an input's begin, in its order and without a hole, and how long it was. Has been
+ * checked. */
+typedef struct tahr__asked {
+    uint32_t struct_size, flags, jump, crouch;
+    vec3 move;
+    double dt; /* s */
+} tahr__asked;
+
+/* A part of a state as a short walk left it, in its order and without a hole: bits that are known to be in order. The
+ * orientation is unit and has no -0.0, up is that of the mover, and the face is one that a short walk may begin on and
+ * end on, with normals that are unit to double precision. */
+enum { TAHR__NOTHING_HELD = 0xFF }; /* a mode that is none */
+typedef struct tahr__held {
+    tahr_quat orientation;
+    vec3 up; /* pull.up without -0.0, +z without gravity: only who stands so goes the short way */
+    uint32_t mode;
+    uint32_t flags;
+    vec3 normal;
+    vec3 surface_normal;
+} tahr__held;
+
+/* A state from radius on, as of who remembers nothing: the begin, which differs from one shape to the next. */
+typedef struct tahr__bare {
+    double radius, half_height;
+    uint32_t body, seen;
+    double x;
+} tahr__bare;
+
+/* What most steps ask of config and limits, side by side in memory, and what a walk the short way (stroll.h) remembers:
+ * a step is mostly like the last one. */
 typedef struct tahr__pace {
-    vec3 up;          /* pull.up without -0.0, +z without gravity: only who stands so walks the short way */
-    double max_dt;    /* s */
-    uint32_t special; /* 1: held in a plane, or not round */
-    uint32_t mask;
-    double foot;      /* m, offset of the foot */
-    double range;     /* m, of its sweep */
+    tahr__asked asked; /* of the last short walk */
+    tahr__held held;
+    tahr__bare bare;
+    vec3 reach;       /* m, the sweep of the foot: downward */
+    double range;     /* m, the length of it */
     double skin;      /* m */
+    double foot;      /* m, its offset */
     double most;      /* m, clearance of the band in which a floor is left as it is */
     double rim;       /* m, radius and skin */
     double tolerance; /* m, from the rim */
     double level;     /* cosine of the steepest face that may be stood on without a look at what was */
-    vec3 move;        /* the last input.move, */
-    tahr__law law;    /* and how it is approached */
-    uint32_t wishes;  /* law_wishes of that */
+    uint32_t mask;
+    uint16_t upright; /* 1: up is exactly +z */
+    uint16_t wishes;  /* law_wishes of */
+    tahr__law law;    /* how that move is approached */
+    double max_dt;    /* s */
+    uint32_t special; /* 1: held in a plane, or not round */
 } tahr__pace;
 
 /* Events of a step that can be repeated; a step with more is computed again. */
@@ -160,17 +191,17 @@ typedef struct tahr__clear {
     uint64_t revision; /* of the world; 0: nothing is known */
 } tahr__clear;
 
-/* What a rise or fall the short way (plummet.c) asks of config and limits, and what it remembers. */
+/* What a rise or fall the short way (plummet.h) asks of config and limits, and what it remembers. */
 typedef struct tahr__dive {
-    double gravity;   /* m/s2 */
-    double chord;     /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
-    double longest;   /* s: longer steps go the long way */
-    double terminal;  /* m/s */
-    uint32_t upright; /* 1: up is exactly +z */
-    uint32_t wishes;  /* law_wishes of law */
+    tahr__asked asked; /* of the last one, */
+    tahr__law law;     /* and how its move is approached */
+    uint32_t wishes;   /* law_wishes of law */
+    uint32_t upright;  /* 1: up is exactly +z */
+    double gravity;    /* m/s2 */
+    double chord;      /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
+    double longest;    /* s: longer steps go the long way */
+    double terminal;   /* m/s */
     tahr__clear clear;
-    vec3 move;     /* the last input.move, */
-    tahr__law law; /* and how it is approached */
 } tahr__dive;
 
 /* What a state remembers, from base on, that has nothing to remember; and how it is made, for who needs to know it when
@@ -186,25 +217,27 @@ extern const tahr_state tahr__blank;
         .wall_body = TAHR_NO_BODY, .drop_body = TAHR_NO_BODY                                                         \
     }
 
-/* In the order in which a step reads it: the short way (short_way.h) costs the lines of memory up to the limits'
- * foot. */
+/* In the order in which a step reads it: what a short walk (short_way.h) costs of memory ends with the limits' foot,
+ * what a short fall costs is the begin, up to what is held, and the dive. */
 struct tahr_mover {
-    tahr_world *world;
+    _Alignas(64) tahr_world *world;
     struct tahr__company *company; /* in a step of a crowd: who else is there (neighbours.h), else NULL */
     void *cache;
-    uint32_t busy;
-    uint32_t is_recorded; /* 1: the step under way has been told of */
-    uint32_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide looks first */
-    uint32_t plain;       /* 1: neither world nor config hold anything that a state remembers */
-    uint32_t may_go_short_way;
-    uint32_t long_way; /* 1: the last step could have been no short one (short_way.h) */
+    uint8_t busy;
+    uint8_t is_recorded; /* 1: the step under way has been told of */
+    uint8_t dozes;       /* 0: sleep.noted is 0; 2: tahr__step_wide looks first */
+    uint8_t plain;       /* 1: neither world nor config hold anything that a state remembers */
+    uint8_t may_go_short_way;
+    uint8_t long_way;  /* 1: the last step could have been no short one (short_way.h) */
+    uint8_t wide;      /* tahr__is_wide */
+    uint8_t not_quick; /* 1: it takes no step as short_step.h does: it may not go the short way, or up is not +z */
     tahr__backoff short_way;
+    tahr__pace pace;
+    tahr__limits limits;
+    tahr__dive dive;
+    tahr__backoff onward;   /* of the looks of onward.h */
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
-    tahr__pace pace;
-    tahr__dive dive;
-    tahr__backoff onward; /* of the looks of onward.h */
-    tahr__limits limits;
     tahr_config config;
     size_t cache_size;
     tahr__custom custom;

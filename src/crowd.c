@@ -6,6 +6,7 @@
  * which a push out of a deep overlap may, did not look far enough around: it is taken again, against everybody. */
 #include "crowd.h"
 #include "crowd_delay.h"
+#include "crowd_rest.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -53,6 +54,7 @@ static tahr_mover *mover_of(const tahr__tick *t, uint32_t i, const tahr__part *p
         m->pace = c->kinds[kind]->pace;
         m->dive = c->kinds[kind]->dive;
         m->may_go_short_way = c->kinds[kind]->may_go_short_way;
+        m->not_quick = c->kinds[kind]->not_quick;
         mover_wake(m);
         c->kind_of[at] = kind;
     }
@@ -81,6 +83,14 @@ static int identify(tahr__figure *f, const tahr_member *m, uint32_t id)
     return same;
 }
 
+/* Would its step be the one that its mover has noted? */
+static int is_still(const tahr__tick *t, uint32_t i, const tahr_input *input, const tahr_state *state)
+{
+    const tahr_crowd *c = t->crowd;
+    return t->looked && c->resting[i] ? c->still[i]
+                                      : sleeps_on(&c->movers[i]->sleep, t->revision, input, t->asked->dt, state);
+}
+
 /* Of a character: its figure, unless that and its step are those of the last tick. */
 static void look_at(const tahr__tick *t, uint32_t i, const tahr_member *m, tahr__part *part)
 {
@@ -90,7 +100,7 @@ static void look_at(const tahr__tick *t, uint32_t i, const tahr_member *m, tahr_
     tahr__figure *f = &c->figures[i];
     const int same = identify(f, m, m == &PLAIN ? i : m->id);
     if (same && f->flags & TAHR__FIGURE_NOTED && c->kind_of[i] == m->config && m->budget == 0 &&
-        t->input_stride == sizeof *input && sleeps_on(&c->movers[i]->sleep, t->revision, input, t->asked->dt, state)) {
+        t->input_stride == sizeof *input && is_still(t, i, input, state)) {
         f->flags = (f->flags & ~(uint32_t)TAHR__FIGURE_STRAYED) | TAHR__FIGURE_STILL;
         f->range.extra = 0;
         part->still++;
@@ -115,6 +125,14 @@ static void fetch_sleep(const tahr_mover *mover)
 #endif
 }
 
+static void find_rests(void *argument, uint32_t index)
+{
+    const tahr__tick *t = argument;
+    tahr__part *part = &t->crowd->parts[index];
+    const uint32_t begin = part_begin(t, index), end = part_begin(t, index + 1);
+    part->rests = t->crowd->kinds[0]->wide ? tahr__rests_wide(t, begin, end) : tahr__rests(t, begin, end);
+}
+
 static void look_at_part(void *argument, uint32_t index)
 {
     const tahr__tick *t = argument;
@@ -127,7 +145,7 @@ static void look_at_part(void *argument, uint32_t index)
     const uint32_t begin = part_begin(t, index), end = part_begin(t, index + 1);
     const tahr_member *members = t->asked->members;
     for (uint32_t i = begin; i < end; i++) {
-        if (i + 3 < end && c->figures[i + 3].flags & TAHR__FIGURE_NOTED) {
+        if (!t->looked && i + 3 < end && c->figures[i + 3].flags & TAHR__FIGURE_NOTED) {
             fetch_sleep(c->movers[i + 3]);
         }
         part->field = tahr__tick_check_one(t, i, &part->status, &part->why);
@@ -262,6 +280,7 @@ static inline tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__compa
     tahr_state *state = &t->asked->states[i];
     tahr_mover *mover = mover_of(t, i, part);
     tahr_status status;
+    int noted = 0;
     if (member && member->budget > 0) {
         const tahr__turn turn = {.mover = mover,
                                  .input = tick_input(t, i),
@@ -277,7 +296,13 @@ static inline tahr_status take_step(const tahr__tick *t, uint32_t i, tahr__compa
         mover->company = NULL;
         if (mover->sleep.noted && status >= 0 && t->asked->dt > 0 && !c->is_lean) {
             c->figures[i].flags |= TAHR__FIGURE_NOTED;
+            c->resting[i] = tahr__rest_note(&c->rests[i], mover, member);
+            part->rests += c->resting[i] != 0;
+            noted = 1;
         }
+    }
+    if (!noted) {
+        c->resting[i] = 0;
     }
     if (status == TAHR__STRAYED) {
         c->strayed[i] = company->strayed;
@@ -315,10 +340,18 @@ static void step_part(void *argument, uint32_t index)
     tahr_crowd *c = t->crowd;
     tahr__part *part = &c->parts[index];
     const uint32_t begin = part_begin(t, index), end = part_begin(t, index + 1);
+    const uint32_t untold = t->looked && !t->asked->reports;
+    part->rests = part->woken = 0;
     for (uint32_t i = begin; i < end; i++) {
         const uint32_t flags = c->figures[i].flags & (TAHR__FIGURE_STILL | TAHR__FIGURE_BESIDE);
+        if (untold && flags == TAHR__FIGURE_STILL && c->resting[i]) { /* its status is that of the last tick */
+            part->rests++;
+            continue;
+        }
+        part->woken++;
         if (flags == TAHR__FIGURE_STILL &&
             tahr__sleep_again(&c->movers[i]->sleep, tick_report(t, i), &c->statuses[i])) {
+            part->rests += c->resting[i] != 0;
             continue;
         }
         tahr__company company = {.range = &c->figures[i].range};
@@ -365,6 +398,50 @@ static void step_again(const tahr__tick *t)
         }
     }
     c->counts.again += count;
+}
+
+/* Did everybody rest? Then as long as everybody does the next ticks come to the same. */
+static void settle(const tahr__tick *t, tahr_status status)
+{
+    tahr_crowd *c = t->crowd;
+    uint32_t rests = 0, woken = 0;
+    for (uint32_t i = 0; i < t->tasks; i++) {
+        rests += c->parts[i].rests;
+        woken += c->parts[i].woken;
+    }
+    c->has_rests = rests > 0;
+    c->settled = woken == 0;
+    c->worst = status;
+}
+
+/* A tick of who all rest, and did in the last one, and tell nobody. Looks who does. Returns 0: it is not that. */
+static int rests_on(tahr__tick *t)
+{
+    tahr_crowd *c = t->crowd;
+    uint32_t rests = 0;
+    if (bits_of(c->rest_dt) != bits_of(t->asked->dt) || c->rest_revision != t->revision) {
+        memset(c->resting, 0, c->capacity * sizeof *c->resting);
+        c->rest_dt = t->asked->dt;
+        c->rest_revision = t->revision;
+        c->has_rests = 0;
+    }
+    if (!c->has_rests || t->input_stride != sizeof(tahr_input)) {
+        return 0;
+    }
+    run(t, find_rests);
+    t->looked = 1;
+    for (uint32_t i = 0; i < t->tasks; i++) {
+        rests += c->parts[i].rests;
+    }
+    if (!c->settled || rests < t->asked->count || c->grid.count != t->asked->count || t->asked->reports) {
+        return 0;
+    }
+    if (t->asked->statuses) {
+        memcpy(t->asked->statuses, c->statuses, rests * sizeof c->statuses[0]);
+    }
+    c->counts.ticks++;
+    c->counts.steps += rests;
+    return 1;
 }
 
 /* Returns what the tick came to. */
@@ -456,6 +533,11 @@ tahr_status tahr_crowd_step(tahr_crowd *crowd, const tahr_crowd_tick *asked)
     const uint32_t parts = asked->count / LEAST_PART;
     t.tasks = parts < 1 ? 1 : (parts < crowd->tasks ? parts : crowd->tasks);
     crowd->busy = 1;
+    if (rests_on(&t)) {
+        crowd->busy = 0;
+        return crowd->worst;
+    }
+    crowd->settled = 0;
     run(&t, look_at_part);
     status = find_bad(&t);
     if (status >= 0) {
@@ -463,6 +545,7 @@ tahr_status tahr_crowd_step(tahr_crowd *crowd, const tahr_crowd_tick *asked)
         run(&t, step_part);
         step_again(&t);
         status = finish(&t);
+        settle(&t, status);
     }
     crowd->busy = 0;
     return status;

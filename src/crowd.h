@@ -12,6 +12,8 @@ enum { TAHR__NEIGHBOURS = 128 };
 typedef struct tahr__part {
     tahr__spread spread;
     tahr_crowd_counts counts;
+    uint32_t rests;    /* characters that rest (crowd_rest.h), */
+    uint32_t woken;    /* and all others, in the steps of a tick */
     uint32_t still;    /* figures that are those of the last tick */
     uint32_t strays;   /* steps that must be taken again */
     uint32_t bad;      /* first character with something wrong that stops the tick, or ~0u, */
@@ -19,6 +21,8 @@ typedef struct tahr__part {
     const char *why;
     tahr_status status;
 } tahr__part;
+
+typedef struct tahr__rest tahr__rest;
 
 struct tahr_crowd {
     tahr_world *world;
@@ -40,6 +44,14 @@ struct tahr_crowd {
     double *strayed; /* m, of who would have gone farther than foreseen */
     uint32_t *keys;  /* ids of a tick, to find one that is there twice */
     tahr__part *parts;
+    tahr__rest *rests;      /* of each place in the arrays of a tick; lean: none */
+    uint8_t *resting;       /* TAHR__RESTS*; 0: it does not, and nothing of its rest counts */
+    uint8_t *still;         /* 1: it rests on in this tick */
+    double rest_dt;         /* s, and */
+    uint64_t rest_revision; /* of the world: of the steps that were noted */
+    uint32_t has_rests;     /* 1: some are valid */
+    uint32_t settled;       /* 1: everybody rested in the last tick, which was in order */
+    tahr_status worst;      /* then: what that came to */
     tahr__grid grid;
     tahr_crowd_counts counts;
 };
@@ -51,6 +63,7 @@ typedef struct tahr__tick {
     size_t input_stride, report_stride;
     uint64_t revision; /* of the world */
     uint32_t tasks;
+    uint32_t looked;     /* 1: crowd->still is known */
     uint32_t rules;      /* TAHR__PAIR_* */
     uint32_t same_cells; /* 1: the grid's cells are those of the last tick, and so many figures are in them */
 } tahr__tick;

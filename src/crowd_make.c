@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "crowd.h"
+#include "crowd_rest.h"
 #include "message.h"
 #include "sized.h"
 #include "world_memory.h"
@@ -77,7 +77,8 @@ static size_t take(size_t *used, size_t count, size_t size)
 }
 
 typedef struct plan {
-    size_t kinds, movers, kind_of, figures, looks, statuses, strayed, keys, parts, bucket, corner, start, order, size;
+    size_t kinds, movers, kind_of, figures, looks, statuses, strayed, keys, parts, rests, resting, still, bucket,
+        corner, start, order, size;
 } plan;
 
 static plan plan_of(const tahr_crowd *c)
@@ -93,6 +94,9 @@ static plan plan_of(const tahr_crowd *c)
     p.strayed = take(&p.size, n, sizeof *c->strayed);
     p.keys = take(&p.size, table, sizeof *c->keys);
     p.parts = take(&p.size, c->tasks, sizeof *c->parts);
+    p.rests = take(&p.size, c->is_lean ? 0 : n, sizeof *c->rests);
+    p.resting = take(&p.size, n, sizeof *c->resting);
+    p.still = take(&p.size, n, sizeof *c->still);
     p.bucket = take(&p.size, n, sizeof *c->grid.bucket);
     p.corner = take(&p.size, n, sizeof *c->grid.corner);
     p.start = take(&p.size, table + 3, sizeof *c->grid.start);
@@ -112,6 +116,9 @@ static void divide(tahr_crowd *c, const plan *p)
     c->strayed = (double *)(void *)(m + p->strayed);
     c->keys = (uint32_t *)(void *)(m + p->keys);
     c->parts = (tahr__part *)(void *)(m + p->parts);
+    c->rests = (tahr__rest *)(void *)(m + p->rests);
+    c->resting = (uint8_t *)(void *)(m + p->resting);
+    c->still = (uint8_t *)(void *)(m + p->still);
     c->grid = (tahr__grid){.figures = c->figures,
                            .mask = c->key_mask,
                            .bucket = (uint32_t *)(void *)(m + p->bucket),

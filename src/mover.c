@@ -62,13 +62,14 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
         memset(cache, 0, cache_size);
     }
     mover->world = world;
-    mover->sleep.wide = tahr__is_wide();
+    mover->wide = mover->sleep.wide = tahr__is_wide();
     memcpy(&mover->config, config, sizeof mover->config);
     mover->limits = tahr__limits_of(&mover->config, &config->shape, world->backend->capabilities);
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
     mover->pace = tahr__pace_of(&mover->config, &mover->limits);
     mover->dive = tahr__dive_of(&mover->config, &mover->limits);
-    mover->may_go_short_way = (uint32_t)tahr__may_go_short_way(world, config, &mover->limits);
+    mover->may_go_short_way = (uint8_t)tahr__may_go_short_way(world, config, &mover->limits);
+    mover->not_quick = !mover->may_go_short_way || !mover->pace.upright;
     mover->cache = cache;
     mover->cache_size = cache_size;
     *out = mover;
@@ -352,10 +353,16 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
         if (status < 0) {
             return status;
         }
-    } else if (!(mover->company && mover->company->neighbours) && tahr__go_short_way(mover, input, dt, state, report)) {
+    } else if (tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
     }
     return take_step(mover, input, dt, state, report, plain);
+}
+
+tahr_status tahr__take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report)
+{
+    return take_step(mover, input, dt, state, report, 1);
 }
 
 tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
@@ -367,9 +374,13 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     if (!input || !state) {
         return tahr__complain(&mover->world->log, TAHR_E_NULL, "tahr_mover_step", input ? "state" : "input", "is NULL");
     }
-    if (mover->dozes == 0) {
+    if (mover->dozes) {
+        return mover->dozes == 2 ? tahr__step_wide(mover, input, dt, state, report)
+                                 : tahr__step_noted(mover, input, dt, state, report);
+    }
+    if (!tahr__is_quick(mover)) {
         return tahr__step_awake(mover, input, dt, state, report);
     }
-    return mover->dozes == 2 ? tahr__step_wide(mover, input, dt, state, report)
-                             : tahr__step_noted(mover, input, dt, state, report);
+    return mover->wide ? tahr__quick_step_wide(mover, input, dt, state, report)
+                       : tahr__quick_step(mover, input, dt, state, report);
 }

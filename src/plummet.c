@@ -1,165 +1,22 @@
 /* SPDX-License-Identifier: MIT
  * plummet.c: a rise or a fall in free air. See short_way.h. */
-#include "falling.h"
-#include "short_way.h"
-
-/* m/s, squared: faster than this a fall is capped (mover.c). */
-static const double FASTEST2 = 1e10;
-
-/* What a flight may remember: buttons do nothing in the air without the settings under "Feel". */
-enum { REMEMBERED = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMPING | TAHR_STATE_FLOOR_MOVED };
-
-/* A flight so far. */
-typedef struct flight {
-    vec3 position, velocity;
-    uint32_t chords, apexes;
-} flight;
+#include "plummet.h"
 
 tahr__dive tahr__dive_of(const tahr_config *c, const tahr__limits *limits)
 {
     const double gravity = limits->pull.size;
     const vec3 up = limits->pull.up, none = vec(0, 0, 0);
-    tahr__dive dive = {.gravity = gravity,
+    tahr__dive dive = {.asked = {.struct_size = sizeof(tahr_input), .dt = c->max_dt},
+                       .gravity = gravity,
                        .terminal = c->terminal_speed,
                        .upright = up.z == 1 && up.x == 0 && up.y == 0,
-                       .move = none,
                        .law = tahr__arc_law(c, none)};
     dive.chord = gravity > 0 ? sqrt(8 * c->arc_tolerance / gravity) : 0;
     dive.longest = gravity > 1e-6 ? TAHR__MOST_CHORDS * dive.chord : 0;
     return dive;
 }
 
-/* Does all of a motion lie where nothing is, as far as a backend has told? */
-static inline int is_in_clear(const tahr_mover *mover, vec3 from, vec3 to)
-{
-    const tahr__clear *clear = &mover->dive.clear;
-    return clear->revision == mover->world->revision && length_squared(sub(from, clear->at)) <= clear->far2 &&
-           length_squared(sub(to, clear->at)) <= clear->far2;
-}
-
-/* Field by field: compilers clear what is left out with a slow string instruction. */
-static int is_known_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 up, tahr_query_context *context)
-{
-    tahr_walk walk;
-    tahr_hit none;
-    uint32_t known = 0;
-    walk.shape = &mover->limits.shape;
-    walk.foot = NULL;
-    walk.position = walk.foot_position = from;
-    walk.motion = walk.foot_motion = motion;
-    walk.up = up;
-    walk.margin = mover->pace.skin;
-    walk.mask = mover->pace.mask;
-    walk.reserved = 0;
-    none.distance = 0;
-    if (mover->world->backend->walk(mover->world->self, context, &walk, &none, &known) != TAHR_OK || !known) {
-        return 0;
-    }
-    if (none.distance > 0) {
-        mover->dive.clear = (tahr__clear){from, none.distance * none.distance, mover->world->revision};
-    }
-    return 1;
-}
-
-static inline int is_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 to, vec3 up, tahr_query_context *context)
-{
-    if (is_in_clear(mover, from, to)) {
-        context->spared++;
-        return 1;
-    }
-    return is_known_free(mover, from, motion, up, context);
-}
-
-/* Across up, as falling.c's arc_at. Without a wish, and with nothing to brake, there is nothing to work out. */
-static inline tahr__motion drift(tahr__dive *dive, vec3 level, double t)
-{
-    tahr__law *law = &dive->law;
-    if (!dive->wishes && level.x == 0 && level.y == 0 && level.z == 0) {
-        return (tahr__motion){level, level, -1};
-    }
-    decay_learn(&law->decay, law->turn_friction, t);
-    return law_advance(law, dive->wishes != 0, level, t);
-}
-
-/* Almost every step: one chord, no apex on it, and an up whose x and y are 0 and need not be multiplied with. */
-static inline int drop(tahr_mover *mover, double dt, const tahr_state *s, flight *f, tahr_query_context *context)
-{
-    tahr__dive *dive = &mover->dive;
-    double fall;
-    const tahr__motion m = drift(dive, vec(s->velocity.x, s->velocity.y, 0), dt);
-    const double way = fall_for(s->velocity.z, dive->gravity, dive->terminal, dt, &fall);
-    const vec3 motion = vec(m.displacement.x, m.displacement.y, way), to = add(s->position, motion);
-    *f = (flight){to, vec(m.velocity.x, m.velocity.y, fall), 1, 0};
-    return is_free(mover, s->position, motion, to, s->up, context);
-}
-
-/* One chord, as falling.c's fall_chord cuts it. Returns the s of it; 0: it is not known to be free. */
-static double fly(tahr_mover *mover, flight *f, double left, vec3 up, tahr_query_context *context)
-{
-    tahr__dive *dive = &mover->dive;
-    const double rise = dot(f->velocity, up), apex = rise > 1e-9 * dive->gravity ? rise / dive->gravity : 0;
-    double t = min_of(left, dive->chord), fall;
-    const int meets_apex = apex > 0 && apex <= t;
-    if (meets_apex) {
-        t = apex;
-    } else if (left > t) {
-        t = left / (double)(int)(left / t + 1);
-    }
-    const double way = fall_for(rise, dive->gravity, dive->terminal, t, &fall);
-    const tahr__motion m = drift(dive, add_scaled(f->velocity, up, -rise), t);
-    const vec3 motion = add_scaled(m.displacement, up, way), to = add(f->position, motion);
-    if (!is_free(mover, f->position, motion, to, up, context)) {
-        return 0;
-    }
-    f->position = to;
-    f->velocity = add_scaled(m.velocity, up, fall);
-    if (meets_apex) {
-        f->velocity = reject(f->velocity, up);
-        f->apexes++;
-    }
-    f->chords++;
-    return t;
-}
-
-static int fly_all(tahr_mover *mover, double dt, const tahr_state *s, flight *f, tahr_query_context *context)
-{
-    double used = 1;
-    *f = (flight){s->position, s->velocity, 0, 0};
-    for (double left = dt; left >= 1e-12 && used > 0; left -= used) { /* less is rounding */
-        used = fly(mover, f, left, s->up, context);
-    }
-    return used > 0;
-}
-
 int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report)
 {
-    tahr__dive *dive = &mover->dive;
-    tahr_query_context context = {.cache = mover->cache};
-    flight f;
-    if (!(dt > TAHR__SHORTEST && dt <= dive->longest) || state->flags & ~(uint32_t)REMEMBERED ||
-        other_bits(&state->up, &mover->pace.up)) {
-        return 0;
-    }
-    if (other_bits(&dive->move, &input->move)) {
-        const tahr__decay known = dive->law.decay;
-        dive->law = tahr__arc_law(&mover->config, reject(input->move, state->up));
-        dive->law.decay = known;
-        dive->wishes = (uint32_t)law_wishes(&dive->law);
-        dive->move = input->move;
-    }
-    const double rise = state->velocity.z;
-    const int simple = dt <= dive->chord && dive->upright && (rise <= 0 || rise > dt * dive->gravity * (1 + 1e-9));
-    const int done = simple ? drop(mover, dt, state, &f, &context) : fly_all(mover, dt, state, &f, &context);
-    const int rests = f.position.z == state->position.z && vec_equal(f.position, state->position);
-    if (!done || rests || length_squared(f.velocity) > FASTEST2 || (f.apexes > 0 && report && report->events) ||
-        goes_astray(mover, f.position)) {
-        return 0;
-    }
-    const uint32_t ended = TAHR_STATE_JUMP_HELD | (f.apexes > 0 ? TAHR_STATE_JUMPING : 0u);
-    state->position = f.position;
-    state->velocity = f.velocity;
-    state->flags = (state->flags & ~ended) | (input->jump ? TAHR_STATE_JUMP_HELD : 0u);
-    tahr__clean_state(state, state);
-    tahr__report_short_way(report, f.chords, &context);
-    return 1;
+    return plummet(mover, input, dt, state, report, 0);
 }

@@ -25,14 +25,18 @@ static inline void tahr__report_begin(tahr_report *r, const tahr_report *user)
     }
 }
 
-/* The same in place, of a user who asks for neither decisions nor queries. */
+/* The same in place, of a user who asks for neither decisions nor queries. In pieces that compilers clear with a few
+ * stores: more than 96 bytes at once they clear with a slow string instruction. */
 static inline void tahr__report_clear(tahr_report *r)
 {
-    const size_t from = offsetof(tahr_report, event_count), half = (sizeof *r - from) / 2;
+    char *from = (char *)&r->events_lost;
+    enum { SIZE = sizeof *r - offsetof(tahr_report, events_lost), PIECE = 64 };
+    _Static_assert(SIZE == 2 * PIECE, "two pieces");
     r->flags = 0;
     r->event_capacity = r->events ? r->event_capacity : 0;
-    memset((char *)r + from, 0, half);
-    memset((char *)r + from + half, 0, sizeof *r - from - half);
+    r->event_count = 0;
+    memset(from, 0, PIECE);
+    memset(from + PIECE, 0, PIECE);
 }
 
 /* Appends an event at step->time + step->ahead; hit may be NULL. */

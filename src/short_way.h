@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * short_way.h: the steps that most steps are, in one go: a walk with nothing in its way (stroll.c), a fall with nothing
- * below (plummet.c). What is left out of the long way (mover.c, walking.c, falling.c) is what finds nothing to do in
+ * short_way.h: the steps that most steps are, in one go: a walk with nothing in its way (stroll.h), a fall with nothing
+ * below (plummet.h). What is left out of the long way (mover.c, walking.c, falling.c) is what finds nothing to do in
  * such a step; what is decided here is decided there by the same operations, so that the bits are the same; and
  * whatever is not plainly so goes there. */
 #ifndef TAHR_SHORT_WAY_H
@@ -26,26 +26,42 @@ tahr__dive tahr__dive_of(const tahr_config *config, const tahr__limits *limits);
 int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
 int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
 
+/* tahr_mover_step, input and state not NULL, of who takes quick steps (tahr__is_quick). */
+tahr_status tahr__quick_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                             tahr_report *report);
+/* The same where the processor has 32-byte vectors (tahr__is_wide). */
+tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                                  tahr_report *report);
+
+/* The long way, for a state that remembers nothing, and an input that asks for nothing but to go and to jump: checked. */
+tahr_status tahr__take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report);
+
+/* Has a short walk come to no other place? Seldom asked, and therefore far away. */
+int tahr__stays(const tahr_vec3 *from, const tahr_vec3 *to);
+
 /* Along walls and on rough ground steps are like the ones before: who went the long way and asked for more than a short
  * one knows is likely to do so again. And where the short way was tried in vain it is not for a while. */
-static inline int tahr__tries_short_way(tahr_mover *mover)
-{
-    return !mover->long_way && backoff_tries(&mover->short_way);
-}
-
-/* Of a step that went the long way. */
 static inline void tahr__note_long_way(tahr_mover *mover, const tahr_report *r, uint32_t mode)
 {
     const uint32_t most = mode == TAHR_MODE_WALKING ? 2 : TAHR__MOST_CHORDS;
     mover->long_way = r->sweeps > most || r->slides > 0 || r->contact_queries > 0 || r->rays > 0;
 }
 
+/* Is the next step likely to be a short one like the last one? In one branch. */
+static inline int tahr__is_quick(const tahr_mover *mover)
+{
+    return (mover->busy | mover->not_quick | mover->long_way | mover->short_way.rest) == 0;
+}
+
+/* All is in order. */
+/* All is in order, but the step is not ready to be a quick one. */
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report)
 {
     const int traced = report && (report->decisions || report->queries);
-    if (!mover->may_go_short_way || traced || (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) ||
-        !tahr__tries_short_way(mover)) {
+    if (!mover->may_go_short_way || mover->long_way || traced || (mover->company && mover->company->neighbours) ||
+        (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) || !backoff_tries(&mover->short_way)) {
         return 0;
     }
     const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)

@@ -10,11 +10,7 @@
 
 #include "elementary.h"
 
-/* Below this f t the quotient expm1(-f t) / f is replaced by its series, which keeps 1 ulp down to f = 0. */
-static const double SMALL = 1e-4;
-
-/* Up to here, likewise, V - c and what it takes off the way are below half a unit in the last place: q^2 / (2 V^2). */
-static const double FLAT_CAP = 2.5e-17;
+static const double SMALL = TAHR__SMALL_DECAY;
 
 /* A Newton step of this part of the time leaves an error of its square: the last one. */
 static const double NEWTON_ENDS = 1e-9;
@@ -22,23 +18,14 @@ static const double NEWTON_ENDS = 1e-9;
 /* (1 - e^(-f t)) / f */
 static double decay_integral(double f, double t)
 {
-    double x = f * t;
-    if (x < SMALL) {
-        return t * (1 - x * (0.5 - x * (1.0 / 6 - x * (1.0 / 24))));
-    }
-    return -tahr__expm1(-x) / f;
+    const double x = f * t;
+    return x < SMALL ? decay_series(x, t) : -tahr__expm1(-x) / f;
 }
 
 tahr__decay tahr__decay_of(double exponent)
 {
     const tahr__decay decay = {exponent, tahr__expm1(-exponent)};
     return decay;
-}
-
-/* expm1(-x) */
-static inline double decayed(const tahr__law *law, double x)
-{
-    return x == law->decay.exponent ? law->decay.rate : tahr__expm1(-x);
 }
 
 /* Time to brake from v to v1 < v. */
@@ -136,9 +123,7 @@ static double brake_phase(const tahr__law *law, vec3 v, double t, tahr__motion *
  * billionth of a micrometre in a step. Who is told to be below it looks for the way back there. */
 #define ON_CAP (1 - 1e-14)
 
-/* Along the wish: the free line, and from where it meets the cap along the cap. q2 = q(0)^2, e = expm1(-f t). Returns
- * the way, [out] the speed at the end. */
-static double bent(const tahr__law *law, double p, double q2, double e, double t, double *p1)
+double tahr__law_bent(const tahr__law *law, double p, double q2, double e, double t, double *p1)
 {
     double f = law->turn_friction, a = law->acceleration, c = cap(law, q2);
     if (p >= c * ON_CAP && a > 0 && a * c >= f * q2) { /* on the cap, and the line is steeper: stays on it */
@@ -156,17 +141,14 @@ static double bent(const tahr__law *law, double p, double q2, double e, double t
     return along;
 }
 
+double tahr__decayed(double x)
+{
+    return tahr__expm1(-x);
+}
+
 tahr__motion tahr__law_turn(const tahr__law *law, vec3 across, double p, double t)
 {
-    const double most = law->speed, f = law->turn_friction, q2 = length_squared(across);
-    const double e = decayed(law, f * t), sideways = f * t < SMALL ? decay_integral(f, t) : -e / f;
-    double p1;
-    const double along =
-        q2 <= FLAT_CAP * most * most ? law_straight(law, min_of(p, most), t, &p1) : bent(law, p, q2, e, t, &p1);
-    const tahr__motion m = {.displacement = add_scaled(scale(law->wish, along), across, sideways),
-                            .velocity = add_scaled(scale(law->wish, p1), across, 1 + e),
-                            .stop_time = -1};
-    return m;
+    return law_turn(law, across, p, t);
 }
 
 /* Brakes to rest or to the speed asked for, and goes on from there. */

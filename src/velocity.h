@@ -18,9 +18,9 @@ typedef struct tahr__law {
     double speed;         /* m/s asked for, >= 0 */
     double acceleration;  /* m/s2 along the wish */
     double turn_friction; /* 1/s decay of the part across the wish */
+    tahr__decay decay;    /* of a whole step, or zero: a result that is known, no setting */
     double braking;       /* m/s2 without input or above speed */
     double drag;          /* 1/s added to it */
-    tahr__decay decay;    /* of a whole step, or zero: a result that is known, no setting */
 } tahr__law;
 
 typedef struct tahr__motion {
@@ -102,6 +102,59 @@ static inline tahr__motion law_toward_wish(const tahr__law *law, vec3 v, double 
 static inline tahr__motion law_advance(const tahr__law *law, int wishes, vec3 v, double t)
 {
     return wishes && !law_brakes(law, v) ? law_toward_wish(law, v, t) : tahr__law_brake(law, v, t);
+}
+
+/* Below this f t the quotient expm1(-f t) / f is replaced by its series, which keeps 1 ulp down to f = 0. */
+#define TAHR__SMALL_DECAY 1e-4
+
+static inline double decay_series(double x, double t)
+{
+    return t * (1 - x * (0.5 - x * (1.0 / 6 - x * (1.0 / 24))));
+}
+
+/* expm1(-x) */
+double tahr__decayed(double x);
+
+/* Along the wish: the free line, and from where it meets the cap along the cap. q2 = q(0)^2, e = expm1(-f t). Returns
+ * the way, [out] the speed at the end. */
+double tahr__law_bent(const tahr__law *law, double p, double q2, double e, double t, double *p1);
+
+/* A part across the wish, squared and relative to the speed asked for: up to here V - c and what it takes off the way
+ * are below half a unit in the last place, q^2 / (2 V^2). */
+#define TAHR__FLAT_CAP 2.5e-17
+
+/* tahr__law_turn. */
+static inline tahr__motion law_turn(const tahr__law *law, vec3 across, double p, double t)
+{
+    const double most = law->speed, f = law->turn_friction, x = f * t, q2 = length_squared(across);
+    const double e = x == law->decay.exponent ? law->decay.rate : tahr__decayed(x);
+    const double sideways = x < TAHR__SMALL_DECAY ? decay_series(x, t) : -e / f;
+    double p1;
+    const double along = q2 <= TAHR__FLAT_CAP * most * most ? law_straight(law, min_of(p, most), t, &p1)
+                                                            : tahr__law_bent(law, p, q2, e, t, &p1);
+    const tahr__motion m = {.displacement = add_scaled(scale(law->wish, along), across, sideways),
+                            .velocity = add_scaled(scale(law->wish, p1), across, 1 + e),
+                            .stop_time = -1};
+    return m;
+}
+
+/* law_advance of a velocity (x, y, 0) and a wish without z, which adds no more than zeros to the sums. */
+static inline tahr__motion law_advance_level(const tahr__law *law, int wishes, double x, double y, double t)
+{
+    const double most = law->speed, over = most * (1 + TAHR__OVER_SPEED);
+    if (!wishes || x * x + y * y > over * over) {
+        return tahr__law_brake(law, vec(x, y, 0), t);
+    }
+    const double p = x * law->wish.x + y * law->wish.y;
+    const vec3 across = vec(x + law->wish.x * -p, y + law->wish.y * -p, 0);
+    double p1;
+    if (!(across.x * across.x + across.y * across.y <= TAHR__STRAIGHT * most * most)) {
+        return law_turn(law, across, p, t);
+    }
+    const double along = law_straight(law, min_of(p, most), t, &p1);
+    const tahr__motion m = {vec(law->wish.x * along, law->wish.y * along, 0),
+                            vec(law->wish.x * p1, law->wish.y * p1, 0), -1};
+    return m;
 }
 
 /* s within duration at which a part (0..1) of the way is covered, measured along the whole of it; whole is the

@@ -15,7 +15,7 @@
 /* The unreal preset on ground: V 6, A = B 20.48, f 8, F 16. */
 static tahr__law whole_stick(tahr_vec3 wish)
 {
-    tahr__law law = {wish, 6, 20.48, 8, 20.48, 16, {0, 0}};
+    tahr__law law = {wish, 6, 20.48, 8, {0, 0}, 20.48, 16};
     return law;
 }
 

@@ -11,30 +11,55 @@
 #include <cmocka.h>
 
 #include "oracle.h"
+#include "ready.h"
 #include "rig.h"
 #include "short_way.h"
+#include "vec.h"
 
 static const double DT = 1.0 / 60;
 
-/* The same character twice, on a box of 200 m, maybe within a sensor: with all shortcuts and with none. */
+/* 200 m each way, to either side of an axis: the way along which it slopes. */
+static const double CORNERS[12] = {-100, -100, 0, 100, -100, 0, 100, 100, 0, -100, 100, 0};
+static const uint32_t TRIANGLES[6] = {0, 1, 2, 0, 2, 3};
+
+static void make_sheet(tahr_body_desc *b)
+{
+    tahr_body_desc_init(b, sizeof *b, TAHR_BODY_MESH);
+    b->vertices = CORNERS;
+    b->indices = TRIANGLES;
+    b->vertex_count = 4;
+    b->triangle_count = 2;
+}
+
+/* The same character twice, on a box of 200 m, or a sheet that slopes by an angle, maybe within a sensor: with all
+ * shortcuts and with none. */
 typedef struct pair {
     rig on, off;
     tahr_body_desc bodies[2];
 } pair;
 
-static void open_pair(pair *p, int senses)
+static void open_pair_on(pair *p, int senses, double slope)
 {
     tahr_config config = rig_config();
-    const tahr_vec3 at = {0, 0, config.shape.half_height + 0.02};
+    const tahr_vec3 at = {0, 0, config.shape.half_height + (slope > 0 ? 0.3 : 0.02)};
     for (int i = 0; i < 2; i++) {
         tahr_body_desc_init(&p->bodies[i], sizeof p->bodies[i], TAHR_BODY_BOX);
         p->bodies[i].half_extents = (tahr_vec3){100, 100, 1};
         p->bodies[i].pose.position.z = i - 1;
+        if (i == 0 && slope > 0) {
+            make_sheet(&p->bodies[0]);
+            p->bodies[0].pose.orientation = (tahr_quat){0, sin(0.5 * slope), 0, cos(0.5 * slope)};
+        }
     }
     p->bodies[1].flags = TAHR_BODY_SENSOR;
     rig_open_bodies(&p->on, p->bodies, senses ? 2 : 1, &config, at);
     config.short_ways = config.sleep = 0;
     rig_open_bodies(&p->off, p->bodies, senses ? 2 : 1, &config, at);
+}
+
+static void open_pair(pair *p, int senses)
+{
+    open_pair_on(p, senses, 0);
 }
 
 static void close_pair(pair *p)
@@ -94,17 +119,86 @@ static void assert_every_bit_counts(pair *p, const tahr_state *good)
     assert_true(refused > 8 * 40); /* the reserved bytes at least */
 }
 
+/* With 32-byte vectors, where the processor has them, and without; on a level, and on a slope of 29 degrees. */
 static void every_bit_of_who_walks_is_seen(void **unused)
 {
-    pair p;
-    tahr_state good, end;
+    for (int way = 0; way < 4; way++) {
+        pair p;
+        tahr_state good, end;
+        (void)unused;
+        open_pair_on(&p, 0, way & 2 ? 0.5 : 0);
+        p.on.mover->wide = way & 1 ? 0 : p.on.mover->wide;
+        settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
+        end = good;
+        assert_true(tahr__stroll(p.on.mover, &p.on.input, DT, &end, NULL));
+        assert_true(ready_to_walk(p.on.mover, &p.on.input, DT, &good, NULL)); /* that is what is tried */
+        assert_every_bit_counts(&p, &good);
+        close_pair(&p);
+    }
+}
+
+/* Far above the box, with the jump button up and down. */
+static void every_bit_of_who_falls_is_seen(void **unused)
+{
+    for (int way = 0; way < 4; way++) {
+        pair p;
+        tahr_state good, end;
+        (void)unused;
+        open_pair(&p, 0);
+        p.on.state.position = (tahr_vec3){0, 0, 400};
+        p.on.input.jump = (uint32_t)(way & 1);
+        p.on.mover->wide = way & 2 ? 0 : p.on.mover->wide;
+        settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
+        end = good;
+        assert_true(tahr__plummet(p.on.mover, &p.on.input, DT, &end, NULL));
+        assert_int_equal(good.mode, TAHR_MODE_FALLING);
+        assert_true(ready_to_fall(p.on.mover, &p.on.input, DT, &good, NULL)); /* that is what is tried */
+        assert_every_bit_counts(&p, &good);
+        close_pair(&p);
+    }
+}
+
+/* Who walks, and who falls: a report that wants to see decisions or queries gets all of them, one of another size is
+ * refused, and one with room for events is told of none. */
+static void what_a_report_asks_for_is_seen(void **unused)
+{
     (void)unused;
-    open_pair(&p, 0);
-    settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
-    end = good;
-    assert_true(tahr__stroll(p.on.mover, &p.on.input, DT, &end, NULL)); /* that is what is tried */
-    assert_every_bit_counts(&p, &good);
-    close_pair(&p);
+    for (int falls = 0; falls < 2; falls++) {
+        tahr_decision decisions[2][64];
+        tahr_query_record queries[2][64];
+        tahr_event events[4];
+        pair p;
+        tahr_state good;
+        open_pair(&p, 0);
+        p.on.state.position.z += falls ? 400 : 0;
+        settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
+        for (int what = 0; what < 4; what++) {
+            tahr_state ends[2] = {good, good};
+            tahr_report r[2] = {{.struct_size = sizeof r[0]}, {.struct_size = sizeof r[0]}};
+            tahr_status is[2];
+            for (int k = 0; k < 2; k++) {
+                tahr_state before = good;
+                r[k].decisions = what == 0 ? decisions[k] : NULL;
+                r[k].queries = what == 1 ? queries[k] : NULL;
+                r[k].decision_capacity = r[k].query_capacity = 64;
+                r[k].struct_size = what == 2 ? 8 : sizeof r[k];
+                r[k].events = what == 3 ? events : NULL;
+                r[k].event_capacity = 4;
+                tahr_mover *mover = k ? p.off.mover : p.on.mover;
+                assert_int_equal(tahr_mover_step(mover, &p.on.input, DT, &before, NULL), TAHR_OK);
+                is[k] = tahr_mover_step(mover, &p.on.input, DT, &ends[k], &r[k]);
+            }
+            assert_int_equal(is[0], is[1]);
+            assert_int_equal(is[0], what == 2 ? TAHR_E_STRUCT_SIZE : TAHR_OK);
+            assert_memory_equal(&ends[0], &ends[1], sizeof good);
+            assert_int_equal(r[0].decision_count, r[1].decision_count);
+            assert_int_equal(r[0].query_count, r[1].query_count);
+            assert_int_equal(r[0].query_count > 0, what == 1);
+            assert_int_equal(r[0].event_count, 0);
+            assert_true(what == 2 || r[0].event_capacity == (what == 3 ? 4 : 0));
+        }
+        close_pair(&p);
+    }
 }
 
 static void is_asleep(pair *p, const tahr_state *good)
@@ -281,6 +375,80 @@ static void a_mover_remembers_no_wish_of_another(void **unused)
     close_pair(&p);
 }
 
+enum { CHARACTERS = 4 };
+
+/* A level ground and two slopes of 14 and 27 degrees that come out of it; four characters, one on the ground, one over
+ * each slope, and the last high up. axis: 0: up is +z, 1: +x, and the level is turned likewise. */
+static void open_slopes(rig *r, const tahr_config *config, int axis, tahr_state states[CHARACTERS])
+{
+    tahr_body_desc b[3];
+    const double places[CHARACTERS][3] = {{0, 0, 1}, {-40, 0, 4}, {40, 0, 4}, {0, 40, 60}};
+    const double slopes[3] = {0, 0.25, -0.5}; /* tangents, about the level y */
+    for (int i = 0; i < 3; i++) {
+        const double half = 0.5 * atan(slopes[i]), x = 40.0 * (i == 0 ? 0 : i == 1 ? -1 : 1);
+        make_sheet(&b[i]);
+        b[i].pose.position = (tahr_vec3){x, 0, 0};
+        b[i].pose.orientation = (tahr_quat){0, -sin(half), 0, cos(half)};
+        if (axis) { /* (x, y, z) to (z, x, y): a third of a turn about (1, 1, 1) */
+            const tahr_quat q = b[i].pose.orientation;
+            const tahr_quat turn = {0.5, 0.5, 0.5, 0.5};
+            b[i].pose.position = (tahr_vec3){0, x, 0};
+            b[i].pose.orientation = quat_multiply(turn, q);
+        }
+    }
+    rig_open_bodies(r, b, 3, config, axis ? (tahr_vec3){30, 60, 60} : (tahr_vec3){60, 60, 30});
+    for (int k = 0; k < CHARACTERS; k++) {
+        const double *p = places[k];
+        const tahr_vec3 at = axis ? (tahr_vec3){p[2], p[0], p[1]} : (tahr_vec3){p[0], p[1], p[2]};
+        assert_int_equal(tahr_state_init(&states[k], config, &at), TAHR_OK);
+    }
+}
+
+/* One mover steps all of them in random turns, now and then the same one for a while: what it holds of a face, a wish
+ * or a flight of one is not taken for another's. With 32-byte vectors and without, upright and lying. */
+static void a_mover_holds_no_face_of_another(void **unused)
+{
+    (void)unused;
+    for (int way = 0; way < 3; way++) {
+        oracle_random dice = {21};
+        tahr_config config = rig_config();
+        tahr_state on[CHARACTERS], off[CHARACTERS];
+        tahr_vec3 moves[CHARACTERS] = {{0.5, 0.1, 0}, {0.3, 0.4, 0}, {-0.2, 0.5, 0}, {0.7, 0, 0}};
+        rig a, b;
+        uint64_t spared = 0, steps = 0;
+        uint32_t who = 0;
+        const int axis = way == 2;
+        config.gravity = axis ? (tahr_vec3){-9.81, 0, 0} : config.gravity;
+        open_slopes(&a, &config, axis, on);
+        config.short_ways = config.sleep = 0;
+        open_slopes(&b, &config, axis, off);
+        a.mover->wide = way == 1 ? 0 : a.mover->wide;
+        for (int n = 0; n < 12000; n++) {
+            const double angle = oracle_uniform(&dice, 0, 6.2831853), size = oracle_uniform(&dice, 0, 1);
+            tahr_report report = {.struct_size = sizeof report};
+            who = oracle_below(&dice, 20) ? who : oracle_below(&dice, CHARACTERS);
+            if (oracle_below(&dice, 50) == 0) {
+                moves[who] = (tahr_vec3){size * cos(angle), size * sin(angle), 0};
+            }
+            a.input.move = axis ? (tahr_vec3){0, moves[who].x, moves[who].y} : moves[who];
+            a.input.jump = b.input.jump = oracle_below(&dice, 60) == 0;
+            b.input.move = a.input.move;
+            const tahr_status is = tahr_mover_step(a.mover, &a.input, DT, &on[who], &report);
+            assert_int_equal(is, tahr_mover_step(b.mover, &b.input, DT, &off[who], NULL));
+            assert_true(is >= 0);
+            if (memcmp(&on[who], &off[who], sizeof on[who]) != 0) {
+                fail_msg("way %d, step %d, character %u", way, n, who);
+            }
+            steps += report.sweeps > 0;
+            spared += report.sweeps > 0 && report.spared == report.sweeps;
+        }
+        print_message("    %d of %d steps asked nothing\n", (int)spared, (int)steps);
+        assert_true(spared > steps / 4);
+        rig_close(&a);
+        rig_close(&b);
+    }
+}
+
 static void a_decay_that_is_known_changes_no_bit(void **unused)
 {
     oracle_random dice = {5};
@@ -339,11 +507,14 @@ static void a_lean_crowd_takes_no_short_way_for_who_may_not(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_bit_of_who_walks_is_seen),
+                                       cmocka_unit_test(every_bit_of_who_falls_is_seen),
+                                       cmocka_unit_test(what_a_report_asks_for_is_seen),
                                        cmocka_unit_test(every_bit_of_who_sleeps_is_seen),
                                        cmocka_unit_test(every_bit_of_an_input_is_seen),
                                        cmocka_unit_test(what_is_wrong_in_who_walks_is_named),
                                        cmocka_unit_test(without_gravity_up_is_still_checked),
                                        cmocka_unit_test(a_mover_remembers_no_wish_of_another),
+                                       cmocka_unit_test(a_mover_holds_no_face_of_another),
                                        cmocka_unit_test(a_decay_that_is_known_changes_no_bit),
                                        cmocka_unit_test(a_lean_crowd_takes_no_short_way_for_who_may_not)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,7 @@
+/* SPDX-License-Identifier: MIT
+ * avx2_end.h: see avx2_begin.h. */
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
