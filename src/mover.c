@@ -181,6 +181,7 @@ static void run(tahr__step *step, double dt, int plain)
         step->report.time_lost += left;
     }
     if (step->report.time_lost > 0) {
+        step->report.time_lost = min_of(step->report.time_lost, dt); /* a sum of parts is rounded */
         step->report.flags |= TAHR_REPORT_TIME_LOST;
     }
     if (!step->limits->usual && step->iterations + step->apexes > step->report.slices) {

@@ -54,7 +54,6 @@ static inline int tahr__is_quick(const tahr_mover *mover)
     return (mover->busy | mover->not_quick | mover->long_way | mover->short_way.rest) == 0;
 }
 
-/* All is in order. */
 /* All is in order, but the step is not ready to be a quick one. */
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report)
