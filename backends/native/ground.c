@@ -91,6 +91,12 @@ static void forget_sides(const tahr__native *world, tahr__cache *cache)
            (cache->count + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES * sizeof(float));
 }
 
+static void forget_spot(tahr__cache *cache)
+{
+    cache->vicinity.alone = cache->footing.inside = cache->footing.clear = 0;
+    cache->footing.under = TAHR__NONE;
+}
+
 void tahr__ground_know(const tahr__query *query)
 {
     tahr__vicinity *v = &query->cache->vicinity;
@@ -101,8 +107,7 @@ void tahr__ground_know(const tahr__query *query)
     if (p->kind & (TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR | TAHR__UNFORMED)) return;
     const tahr__facet *f = &p->facet;
     v->floor = (tahr__level){f->cross.z < 0 ? v_scale(f->cross, -1) : f->cross, f->v[0], f->length};
-    v->alone = 0;
-    v->under = TAHR__NONE;
+    forget_spot(query->cache);
     forget_sides(query->world, query->cache);
 }
 
@@ -161,6 +166,32 @@ static int is_within_edges(const tahr__vicinity *v, tahr_vec3 place)
     return within;
 }
 
+/* What a walk on it reads (footing.c). */
+static void know_triangle(const tahr__query *query, const tahr__prim *prim)
+{
+    tahr__footing *f = &query->cache->footing;
+    const tahr__facet *facet = &prim->facet;
+    f->cross = facet->cross.z < 0 ? v_scale(facet->cross, -1) : facet->cross;
+    f->on = facet->v[0];
+    f->length = facet->length;
+    f->inverse = 1.0 / facet->length;
+    f->normal = tahr__frame_to_world(query->frame, query->cache->vicinity.face);
+    f->walkable_angle = prim->walkable_angle;
+    f->walkable_rule = prim->walkable_rule;
+    f->surface = prim->surface;
+    f->body = prim->body;
+    f->feature = prim->feature;
+}
+
+/* m from a place on the triangle to where it is no longer well inside of an edge. */
+static double inside_of_edges(const tahr__vicinity *v, tahr_vec3 place)
+{
+    double least = SPOT;
+    for (int i = 0; i < 3; i++)
+        least = d_min(least, (v->border[i] - v->hem[i] - v_dot(v->across[i], place)) / v_length(v->across[i]));
+    return least;
+}
+
 /* Takes another triangle of the floor for the one under the spot. */
 static int stand_on(const tahr__query *query, uint32_t index)
 {
@@ -170,8 +201,9 @@ static int stand_on(const tahr__query *query, uint32_t index)
     const int behind = v_dot(face, v->floor.normal) < 0;
     if (behind && !(prim->kind & TAHR__TWO_SIDED)) return 0;
     v->face = behind ? v_scale(face, -1) : face;
-    v->under = index;
     know_edges(v, &prim->facet);
+    know_triangle(query, prim);
+    query->cache->footing.under = index;
     return 1;
 }
 
@@ -180,13 +212,14 @@ static int stand_on(const tahr__query *query, uint32_t index)
 static void find_spot(const tahr__query *query, tahr_vec3 place)
 {
     tahr__vicinity *v = &query->cache->vicinity;
+    tahr__footing *f = &query->cache->footing;
     tahr__lanes_found found[TAHR__CACHE_MOST];
     const tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
     const tahr__lanes_query q = tahr__lanes_at(place, 0, SPOT);
     uint32_t near = query->world->lanes->near(&lanes, &q, found), count = 0, under = TAHR__NONE;
     const tahr__prim *prims = tahr__cache_prims(query->world, query->cache);
     double alone = SPOT;
-    v->alone = 0;
+    v->alone = query->cache->footing.inside = 0;
     for (uint32_t i = 0; i < near; i++) {
         const uint32_t index = found[i].index;
         if ((prims[index].item & TAHR__ITEM_SOLID) || ground_side(query, index) < TAHR__BELOW) continue;
@@ -197,13 +230,14 @@ static void find_spot(const tahr__query *query, tahr_vec3 place)
         }
         found[count++] = found[i];
     }
-    if (under == TAHR__NONE || (under != v->under && !stand_on(query, under))) return;
+    if (under == TAHR__NONE || (under != f->under && !stand_on(query, under))) return;
     for (uint32_t i = 0; i < count && alone > 0; i++) {
         const double far = d_max(found[i].time - TAHR__LANE_SLACK, 0);
         if (far < alone && !is_beside(query, found[i].index)) alone = far;
     }
-    v->spot = place;
+    f->spot = place;
     v->alone = alone - APART;
+    f->inside = d_min(v->alone, inside_of_edges(v, place)) - HEM;
 }
 
 /* Is it worth finding one again? */
@@ -216,9 +250,10 @@ static int tries_spot(tahr__vicinity *v)
     return 1;
 }
 
-static inline int is_at_spot(const tahr__vicinity *v, tahr_vec3 place)
+static inline int is_at_spot(const tahr__cache *cache, tahr_vec3 place)
 {
-    const tahr_vec3 off = v_sub(place, v->spot);
+    const tahr__vicinity *v = &cache->vicinity;
+    const tahr_vec3 off = v_sub(place, cache->footing.spot);
     return v->alone > 0 && v_dot(off, off) <= v->alone * v->alone && is_within_edges(v, place);
 }
 
@@ -227,14 +262,14 @@ static const tahr__prim *floor_under(const tahr__query *query)
 {
     tahr__vicinity *v = &query->cache->vicinity;
     const tahr_vec3 place = place_on(&v->floor, query);
-    if (!is_at_spot(v, place)) {
+    if (!is_at_spot(query->cache, place)) {
         if (!tries_spot(v)) return NULL;
         find_spot(query, place);
         v->rests = v->alone >= NARROW ? FEWEST : v->rests < MOST ? 2 * v->rests : MOST;
         v->rest = v->alone >= NARROW ? 0 : v->rests;
-        if (!is_at_spot(v, place)) return NULL;
+        if (!is_at_spot(query->cache, place)) return NULL;
     }
-    return &tahr__cache_prims(query->world, query->cache)[v->under];
+    return &tahr__cache_prims(query->world, query->cache)[query->cache->footing.under];
 }
 
 int tahr__ground_meets(const tahr__query *query, tahr__found *found)
@@ -247,8 +282,7 @@ int tahr__ground_meets(const tahr__query *query, tahr__found *found)
 
 void tahr__ground_forget(const tahr__native *world, tahr__cache *cache)
 {
-    tahr__vicinity *v = &cache->vicinity;
-    v->alone = 0;
-    v->under = v->stood = TAHR__NONE;
+    forget_spot(cache);
+    cache->vicinity.stood = TAHR__NONE;
     if (!world->no_cache) forget_sides(world, cache);
 }

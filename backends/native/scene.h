@@ -158,37 +158,50 @@ typedef struct tahr__level {
     double length;
 } tahr__level;
 
-/* What was measured at a place where the character was (vicinity.c): the distances are behind the header of the
- * cache. */
+/* All that a walk on the inside of one triangle reads, with a few words of the cache behind it: five lines of memory
+ * (footing.c). */
+typedef struct tahr__footing {
+    tahr_vec3 origin, up; /* of the frame */
+    tahr_vec3 at;         /* local, the middle of an upright segment at the place where all has been measured */
+    double half;          /* of it */
+    double clear;         /* m: nothing but what lies in the floor or below it is nearer to it; 0: not known */
+    tahr_vec3 cross, on;  /* of the triangle under the spot: its normal, up and not unit, and a corner */
+    double length, inverse;
+    tahr_vec3 spot; /* on the floor */
+    double inside;  /* m: so far around it there is that triangle of the floor alone, well inside of its edges; <= 0: none */
+    tahr_vec3 normal; /* the exact one, world, toward the character */
+    double walkable_angle;
+    uint32_t walkable_rule, surface, body, feature;
+    uint32_t under; /* index of the triangle */
+    uint32_t turned;
+} tahr__footing;
+
+/* What else is known of the place (vicinity.c, ground.c): the distances are behind the header of the cache. */
 typedef struct tahr__vicinity {
-    tahr_vec3 at;      /* local, the middle of an upright segment */
-    double half;       /* of it */
     tahr__level floor; /* of this frame: what stopped the last foot */
-    tahr_vec3
-        spot; /* on the floor: within `alone` m (<= 0: none) no triangle of it reaches over the edges of `under` */
-    double alone;
+    double alone;      /* m around the spot (<= 0: none) where no triangle of the floor reaches over the edges of `under` */
     tahr_vec3 across[3];      /* outward of those edges, not unit; what is on one has this much along it, */
     double border[3], hem[3]; /* and this much less is well inside */
     tahr_vec3 face;           /* the exact normal of that, toward the character */
-    uint32_t under;           /* index */
     uint32_t stood;           /* index of what had stopped the last foot when the floor was found */
     uint32_t known;           /* 0: nothing has been measured */
-    uint32_t reserved;
-    uint32_t rest, rests; /* feet until a spot is looked for again, and after the next that was none */
+    uint32_t rest, rests;     /* feet until a spot is looked for again, and after the next that was none */
 } tahr__vicinity;
 
 /* One character's memory (gather.c): */
 typedef struct tahr__cache {
+    tahr__footing footing;
+    uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
+    tahr_bounds local;  /* everything static in it has been gathered */
+    uint64_t revision;  /* of the user's triangles in it */
+    uint32_t mask, announced;
     tahr__frame frame;
     tahr_bounds bounds; /* world: what was announced, grown by the margin */
-    tahr_bounds local;  /* everything static in it has been gathered */
     double volume;      /* m3, of what was announced */
     tahr_vec3 place;    /* world: where the character was then */
-    uint32_t announced, gathered, overflow, mask, count;
-    uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
-    uint64_t revision;  /* of the user's triangles in it */
-    double margin;      /* to gather with the next time, 0: the most */
-    uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
+    uint32_t gathered, overflow, count;
+    uint32_t plain; /* no sensors: what has been gathered concerns every query of the same mask */
+    double margin;  /* to gather with the next time, 0: the most */
     tahr__vicinity vicinity;
 } tahr__cache;
 
@@ -362,9 +375,15 @@ int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
  * it is not clear where the floor is. */
 enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
 int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit);
+/* Of a body that has stayed OVER the floor: finds how far all is that is above it (footing.clear), once a look. */
+void tahr__vicinity_clear(const tahr__query *query);
 /* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting
  * anything; < 0: not known. What has not been gathered may be anywhere. */
 double tahr__vicinity_room(const tahr__query *query);
+
+/* footing.c: the same of a walk that stays in what is known to be clear and ends on the one triangle under it; 0: it is
+ * to be asked in full. */
+int tahr__footing_holds(tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit);
 
 /* m from a place (world) to everything that is static: 0 within the bounds of all of it, and no more than 16. */
 double tahr__outside_of_all(const tahr__native *world, tahr_vec3 position);

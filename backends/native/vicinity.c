@@ -19,6 +19,8 @@
 #define DOWNWARD 0.02
 /* Who has come farther (m) from the place looks around anew: a runner after two steps or three. */
 #define DRIFT 0.12
+/* So far (m) beyond the reach it is looked for what is nearest of all that is above the floor. */
+#define ROUND 0.6
 /* Longer motions (m) are spanned by no place. */
 #define LONGEST 0.5
 /* Taken off what is known, against rounding and arrival (TAHR__ARRIVED) (m). */
@@ -31,17 +33,17 @@
 #define LARGE 8.0
 
 /* Square of how far the query's segment, centred at p, comes from that of the place. */
-static double away2(const tahr__vicinity *v, const tahr__query *query, tahr_vec3 p)
+static double away2(const tahr__query *query, tahr_vec3 p)
 {
-    double x = p.x - v->at.x, y = p.y - v->at.y, z = d_max(fabs(p.z - v->at.z) + query->half - v->half, 0);
+    const tahr__footing *f = &query->cache->footing;
+    double x = p.x - f->at.x, y = p.y - f->at.y, z = d_max(fabs(p.z - f->at.z) + query->half - f->half, 0);
     return (x * x + y * y) + z * z;
 }
 
 /* The same at this fraction of the motion, if that is farther than at its start. */
 static inline double farthest2(const tahr__query *query, double until)
 {
-    const tahr__vicinity *v = &query->cache->vicinity;
-    return d_max(away2(v, query, query->start), away2(v, query, v_mad(query->start, query->motion, until)));
+    return d_max(away2(query, query->start), away2(query, v_mad(query->start, query->motion, until)));
 }
 
 /* m: what is farther than this from the place is not met by who comes so far from it. */
@@ -75,15 +77,16 @@ static double outside_of_all(const tahr__query *query)
 /* Measures all that the cache holds. A foot alone looks as the whole that it is the foot of. */
 static void look_around(const tahr__query *query)
 {
-    tahr__vicinity *v = &query->cache->vicinity;
-    v->at = query->start;
+    tahr__footing *f = &query->cache->footing;
+    f->at = query->start;
+    f->clear = 0;
     if (query->half > 0)
-        v->half = query->half;
+        f->half = query->half;
     else
-        v->at.z += v->half;
-    v->known = 1;
+        f->at.z += f->half;
+    query->cache->vicinity.known = 1;
     const tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
-    const tahr__lanes_query q = tahr__lanes_at(v->at, v->half, reach_of(query) + LOOK);
+    const tahr__lanes_query q = tahr__lanes_at(f->at, f->half, reach_of(query) + LOOK);
     query->world->lanes->measure(&lanes, &q, tahr__cache_far(query->cache));
 }
 
@@ -102,9 +105,8 @@ static int serves(const tahr__query *query)
 /* May a look around here be of more help? */
 static int is_stale(const tahr__query *query)
 {
-    const tahr__vicinity *v = &query->cache->vicinity;
     if (query->motion_length > LONGEST && outside_of_all(query) <= query->motion_length) return 0;
-    return !v->known || away2(v, query, query->start) > DRIFT * DRIFT;
+    return !query->cache->vicinity.known || away2(query, query->start) > DRIFT * DRIFT;
 }
 
 static inline uint32_t way_of(const tahr__query *query)
@@ -199,7 +201,7 @@ static double tied(const tahr__query *query, double t)
 
 static void tell(const tahr__query *query, const tahr__found *found, tahr_hit *hit)
 {
-    query->cache->recent[1] = query->cache->vicinity.under;
+    query->cache->recent[1] = query->cache->footing.under;
     tahr__fill_hit(query, found, hit);
 }
 
@@ -231,9 +233,22 @@ int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_
     return TAHR__LANDED;
 }
 
+void tahr__vicinity_clear(const tahr__query *query)
+{
+    tahr__footing *f = &query->cache->footing;
+    tahr__lanes_found found[TAHR__CACHE_MOST];
+    if (f->clear > 0) return;
+    const double most = reach_of(query) + ROUND;
+    const uint32_t count = pick(query, most, 1, found);
+    double least = most_of(most);
+    for (uint32_t i = 0; i < count; i++) {
+        if (ground_side(query, found[i].index) < TAHR__BELOW) least = d_min(least, found[i].time);
+    }
+    f->clear = d_max((least - TAHR__LANE_SLACK) * (1 - 4e-6), SPARE);
+}
+
 double tahr__vicinity_room(const tahr__query *query)
 {
-    const tahr__vicinity *v = &query->cache->vicinity;
     const float *far = tahr__cache_far(query->cache);
     const tahr_bounds *box = &query->cache->local;
     const tahr_vec3 low = v_sub(v_sub(query->start, query->extent), box->min);
@@ -241,12 +256,15 @@ double tahr__vicinity_room(const tahr__query *query)
     float least = (float)FARTHEST;
     for (uint32_t i = 0; i < query->cache->count; i++)
         least = far[i] < least ? far[i] : least;
-    const double nearest = (least - TAHR__LANE_SLACK) * (1 - 4e-6) - sqrt(away2(v, query, query->start));
+    const double nearest = (least - TAHR__LANE_SLACK) * (1 - 4e-6) - sqrt(away2(query, query->start));
     return d_min(nearest, d_min(edge.x, d_min(edge.y, edge.z))) - reach_of(query) - 2 * SPARE;
 }
 
 void tahr__vicinity_forget(const tahr__native *world, tahr__cache *cache)
 {
     cache->vicinity.known = 0;
+    cache->footing.origin = cache->frame.origin;
+    cache->footing.up = cache->frame.up;
+    cache->footing.turned = cache->frame.turned;
     tahr__ground_forget(world, cache);
 }
