@@ -7,7 +7,8 @@
  * here it is only asked whether it still holds. What is left is to say when the point of the foot comes to a plane:
  * plane_earliest, tahr__probe_face and tahr__fill_hit, the same operations in the same order, where none of their
  * exceptions can happen. */
-#include "scene.h"
+#include "fence.h"
+#include "ground.h"
 
 /* As in vicinity.c: against rounding and arrival (m), twice, for planes that are one but for rounding; and shapes of
  * less and more reach are left to it. */
@@ -16,14 +17,18 @@
 #define LARGE 8.0
 /* Side of a cell (m, frame.c). */
 #define CELL 4.0
+/* Places that are one but for rounding (m). */
+#define SAME 1e-9
 /* Of the foot's way it comes down this part at least, squared: far from what probe.c takes for along a face, even where
  * the exact normal is off the triangle's by what it allows (2.6 degrees). */
 #define STEEP2 0.04
 
-/* A walk in the frame of the cache. */
+/* A walk in the frame of the cache, whose foot goes straight down from where the body ends: all of both is between an
+ * upright segment at the start of the body and one at its end, which is longer by the way of the foot. */
 typedef struct local_walk {
     tahr_vec3 from, way, to, foot, down;
     double half, reach, foot_radius, foot_reach;
+    double most; /* of both reaches */
 } local_walk;
 
 static inline tahr_vec3 turned(const tahr__cache *cache, tahr_vec3 v)
@@ -34,14 +39,19 @@ static inline tahr_vec3 turned(const tahr__cache *cache, tahr_vec3 v)
 /* Half the axis of a round shape; < 0: it is not one. */
 static inline double half_of(const tahr_shape *shape)
 {
-    if (shape->type == TAHR_SHAPE_SPHERE) return 0;
-    return shape->type == TAHR_SHAPE_CAPSULE ? d_max(shape->half_height - shape->radius, 0) : -1;
+    if (shape->type == TAHR_SHAPE_CAPSULE) return d_max(shape->half_height - shape->radius, 0);
+    return shape->type == TAHR_SHAPE_SPHERE ? 0 : -1;
 }
 
 /* Is it in the cell of the frame? By a difference, which is rounded: less is said than tahr__frame_holds does. */
 static inline int is_in_cell(tahr_vec3 p)
 {
-    return (p.x >= 0) & (p.x < CELL) & (p.y >= 0) & (p.y < CELL) & (p.z >= 0) & (p.z < CELL);
+    return p.x >= 0 && p.x < CELL && p.y >= 0 && p.y < CELL && p.z >= 0 && p.z < CELL;
+}
+
+static inline int is_over(tahr_vec3 a, tahr_vec3 b)
+{
+    return fabs(a.x - b.x) <= SAME && fabs(a.y - b.y) <= SAME;
 }
 
 /* 0: it is not a walk that concerns this cache. */
@@ -49,83 +59,124 @@ static inline int read_walk(const tahr__cache *cache, const tahr_walk *walk, loc
 {
     const tahr__footing *f = &cache->footing;
     const tahr_vec3 p = v_sub(walk->position, f->origin);
-    const double least = d_min(walk->shape->radius, walk->foot->radius) + walk->margin;
+    if (!is_in_cell(p) || !tahr__same_vec(&f->up, &walk->up) || walk->mask != cache->mask) return 0;
     w->half = half_of(walk->shape);
     w->reach = walk->shape->radius + walk->margin;
     w->foot_radius = walk->foot->radius;
-    w->foot_reach = walk->foot->radius + walk->margin;
-    if (!is_in_cell(p) || !tahr__same_vec(&f->up, &walk->up) || walk->mask != cache->mask) return 0;
-    if (w->half < 0 || half_of(walk->foot) != 0 || !(least > SMALL && d_max(w->reach, w->foot_reach) < LARGE)) return 0;
+    w->foot_reach = w->foot_radius + walk->margin;
+    w->most = d_max(w->reach, w->foot_reach);
+    if (w->half < 0 || half_of(walk->foot) != 0) return 0;
+    if (!(w->reach > SMALL && w->foot_reach > SMALL && w->most < LARGE)) return 0;
     w->from = turned(cache, p);
     w->way = turned(cache, walk->motion);
     w->to = v_add(w->from, w->way);
     w->foot = turned(cache, v_sub(walk->foot_position, f->origin));
     w->down = turned(cache, walk->foot_motion);
-    return 1;
+    return is_over(w->foot, w->to);
 }
 
 /* Does the body stay over the floor, which it may go along? way_of (vicinity.c) without a root. */
 static inline int stays_over(const tahr__footing *f, const local_walk *w)
 {
-    const double height = v_dot(f->cross, v_sub(w->from, f->on)) - w->half * f->cross.z;
-    const double change = v_dot(f->cross, w->way), slope = 0.5 * TAHR__PARALLEL * f->length;
+    const double height = v_dot(f->cross, v_sub(w->from, f->on)) - w->half * f->cross.z,
+                 change = v_dot(f->cross, w->way);
     if (height < (w->reach - 0.5 * TAHR__ARRIVED) * f->length) return 0;
-    return change >= 0 || change * change <= slope * slope * v_dot(w->way, w->way) ||
-           height + change >= (w->reach + SPARE) * f->length;
+    if (change >= 0 || height + change >= (w->reach + SPARE) * f->length) return 1;
+    const double slope = 0.5 * TAHR__PARALLEL * f->length;
+    return change * change <= slope * slope * v_dot(w->way, w->way);
 }
 
-/* Where the foot is stopped by the plane; 0: not, or not plainly. */
-static inline int comes_down(const tahr__footing *f, const local_walk *w, tahr__found *found)
+/* Where the foot is stopped by the plane. */
+typedef struct landing {
+    double t, gap;
+    tahr_vec3 centre, point; /* of the foot; on the floor */
+} landing;
+
+/* 0: it is not, or not plainly. */
+static inline int comes_down(const tahr__footing *f, const local_walk *w, landing *out)
 {
     const double first = v_dot(f->cross, v_sub(w->foot, f->on)), rate = -v_dot(f->cross, w->down);
-    const double gap = first - (w->foot_reach + 0.5 * TAHR__ARRIVED) * f->length;
-    if (gap < -0.5 * TAHR__ARRIVED * f->length || !(first - rate < w->foot_reach * f->length)) return 0;
-    if (!(rate > 0) || rate * rate < STEEP2 * (f->length * f->length) * v_dot(w->down, w->down) || gap > rate) return 0;
-    found->t = gap <= 0 ? 0 : gap / rate;
-    const tahr_vec3 centre = v_mad(w->foot, w->down, found->t), unit = v_scale(f->cross, f->inverse);
-    const double height = v_dot(f->cross, v_sub(centre, f->on)) * f->inverse;
-    found->point = v_mad(centre, unit, -height);
-    found->gap = height - w->foot_radius;
-    return height - w->foot_reach <= TAHR__ARRIVED && height >= w->foot_radius && height > SPARE;
+    const double reach = w->foot_reach * f->length, gap = first - (w->foot_reach + 0.5 * TAHR__ARRIVED) * f->length;
+    if (!(first >= reach && first - rate < reach && rate > 0 && gap <= rate)) return 0;
+    if (rate * rate < STEEP2 * (f->length * f->length) * v_dot(w->down, w->down)) return 0;
+    out->t = gap <= 0 ? 0 : gap / rate;
+    out->centre = v_mad(w->foot, w->down, out->t);
+    const double height = v_dot(f->cross, v_sub(out->centre, f->on)) * f->inverse;
+    out->point = v_mad(out->centre, v_scale(f->cross, f->inverse), -height);
+    out->gap = height - w->foot_radius;
+    return height - w->foot_reach <= TAHR__ARRIVED && height >= w->foot_radius && height > SPARE &&
+           is_over(out->centre, w->to);
 }
 
-/* Squares of how far an upright segment comes from that of the place. */
-static inline double away2(const tahr__footing *f, tahr_vec3 p, double half)
+/* An upright segment. */
+typedef struct upright {
+    tahr_vec3 middle;
+    double half;
+} upright;
+
+/* Of the body at its end and all of the foot. */
+static inline upright end_of(const local_walk *w, const landing *end)
 {
-    double x = p.x - f->at.x, y = p.y - f->at.y, z = d_max(fabs(p.z - f->at.z) + half - f->half, 0);
-    return (x * x + y * y) + z * z;
+    const double low = d_min(w->to.z - w->half, end->centre.z), high = d_max(w->to.z + w->half, w->foot.z);
+    return (upright){v_make(w->to.x, w->to.y, 0.5 * (low + high)), 0.5 * (high - low)};
 }
 
-/* Is all of it in what has been gathered, and as near to the place as nothing else is? Of what is convex the ends say
- * enough. */
-static inline int is_in_clear(const tahr__cache *cache, const local_walk *w, tahr_vec3 end)
+/* Is all of it in what has been gathered? */
+static inline int is_gathered(const tahr__cache *cache, const upright *a, const upright *b, double reach)
+{
+    const tahr_bounds *in = &cache->local;
+    const double more = reach + 10 * TAHR__SLACK;
+    return d_min(a->middle.x, b->middle.x) - more >= in->min.x && d_max(a->middle.x, b->middle.x) + more <= in->max.x &&
+           d_min(a->middle.y, b->middle.y) - more >= in->min.y && d_max(a->middle.y, b->middle.y) + more <= in->max.y &&
+           d_min(a->middle.z - a->half, b->middle.z - b->half) - more >= in->min.z &&
+           d_max(a->middle.z + a->half, b->middle.z + b->half) + more <= in->max.z;
+}
+
+/* Square of how far one comes from that of the place. */
+static inline double away2(const tahr__footing *f, const upright *u)
+{
+    const tahr_vec3 p = v_sub(u->middle, f->at);
+    const double z = d_max(fabs(p.z) + u->half - f->half, 0);
+    return (p.x * p.x + p.y * p.y) + z * z;
+}
+
+/* What plane.h reads of a query, and tahr__ground_see. */
+static void ask_of(tahr__query *query, const tahr__native *world, tahr_query_context *context, tahr_vec3 start,
+                   tahr_vec3 motion)
+{
+    query->world = world;
+    query->context = context;
+    query->cache = context->cache;
+    query->frame = &query->cache->frame;
+    query->start = start;
+    query->motion = motion;
+    query->motion_length = v_length(motion);
+}
+
+/* Of all that is not farther than this from the place: is none of it met? */
+static int passes(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk, const local_walk *w,
+                  double most, double until)
+{
+    tahr__query body, foot;
+    ask_of(&body, world, context, w->from, w->way);
+    ask_of(&foot, world, context, w->foot, w->down);
+    body.half = w->half;
+    body.core.axis_count = w->half > 0;
+    foot.half = foot.core.axis_count = 0;
+    body.radius = walk->shape->radius;
+    foot.radius = walk->foot->radius;
+    body.margin = foot.margin = walk->margin;
+    return tahr__vicinity_passes(&body, &foot, most, until);
+}
+
+static inline void fill(const tahr__cache *cache, const landing *end, tahr_hit *hit)
 {
     const tahr__footing *f = &cache->footing;
-    const double reach = d_max(w->reach, w->foot_reach), room = f->clear - reach - SPARE,
-                 more = reach + 10 * TAHR__SLACK;
-    const tahr_vec3 low = v_min(v_min(w->from, w->to), v_min(w->foot, end)),
-                    high = v_max(v_max(w->from, w->to), v_max(w->foot, end));
-    const tahr_bounds box = {v_make(low.x - more, low.y - more, low.z - (w->half + more)),
-                             v_make(high.x + more, high.y + more, high.z + (w->half + more))};
-    const double far2 = d_max(d_max(away2(f, w->from, w->half), away2(f, w->to, w->half)),
-                              d_max(away2(f, w->foot, 0), away2(f, end, 0)));
-    return room > 0 && far2 <= room * room && box_inside(&box, &cache->local);
-}
-
-static inline int is_inside(const tahr__footing *f, tahr_vec3 place)
-{
-    const tahr_vec3 off = v_sub(place, f->spot);
-    return f->inside > 0 && v_dot(off, off) <= f->inside * f->inside;
-}
-
-static inline void fill(const tahr__cache *cache, const tahr__found *found, tahr_hit *hit)
-{
-    const tahr__footing *f = &cache->footing;
-    const tahr_vec3 point = f->turned ? m_unapply(&cache->frame.turn, found->point) : found->point;
+    const tahr_vec3 point = f->turned ? m_unapply(&cache->frame.turn, end->point) : end->point;
     hit->blocking = 1;
     hit->start_overlap = hit->unknown = hit->sensor = 0;
-    hit->fraction = found->t;
-    hit->distance = found->gap;
+    hit->fraction = end->t;
+    hit->distance = end->gap;
     hit->depth = 0;
     hit->normal = hit->surface_normal = f->normal;
     hit->point = v_add(f->origin, point);
@@ -136,19 +187,38 @@ static inline void fill(const tahr__cache *cache, const tahr__found *found, tahr
     hit->feature = f->feature;
 }
 
-int tahr__footing_holds(tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit)
+/* Of the body at its start, and at its end with the foot: nothing is met between them, if nothing is at either. */
+static inline uint32_t goes_clear(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
+                                  const local_walk *w, const landing *end)
+{
+    const tahr__cache *cache = context->cache;
+    const tahr__footing *f = &cache->footing;
+    const upright first = {w->from, w->half}, last = end_of(w, end);
+    if (!is_gathered(cache, &first, &last, w->most)) return TAHR__UNCLEAR;
+    const double from2 = away2(f, &first), far2 = d_max(from2, away2(f, &last)), room = f->clear - w->most - SPARE;
+    const int near = room > 0 && far2 <= room * room;
+    if (near && (!f->fenced || tahr__fences_hold(&cache->fences, first.middle, first.half, w->most)))
+        if (!f->fenced || tahr__fences_hold(&cache->fences, last.middle, last.half, w->most)) return TAHR__LANDED;
+    if (!near && from2 > TAHR__DRIFT * TAHR__DRIFT) return TAHR__UNCLEAR;
+    return passes(world, context, walk, w, sqrt(far2) + w->most + SPARE, end->t) ? TAHR__LANDED : TAHR__BARRED;
+}
+
+uint32_t tahr__footing_walk(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
+                            tahr_hit *hit)
 {
     tahr__cache *cache = context->cache;
     const tahr__footing *f = &cache->footing;
     local_walk w;
-    tahr__found found;
-    if (!(f->clear > 0) || !read_walk(cache, walk, &w) || !stays_over(f, &w) || !comes_down(f, &w, &found) ||
-        !is_inside(f, found.point) || !is_in_clear(cache, &w, v_mad(w.foot, w.down, found.t))) {
-        return 0;
+    landing end;
+    if (!(f->clear > 0) || !read_walk(cache, walk, &w) || !stays_over(f, &w) || !comes_down(f, &w, &end) ||
+        !ground_is_at_spot(cache, end.point)) {
+        return TAHR__UNCLEAR;
     }
-    fill(cache, &found, hit);
+    const uint32_t way = goes_clear(world, context, walk, &w, &end);
+    if (way != TAHR__LANDED) return way;
+    fill(cache, &end, hit);
     cache->recent[1] = f->under;
     context->narrow_tests++;
     context->narrow_iterations++;
-    return 1;
+    return TAHR__LANDED;
 }

@@ -23,6 +23,7 @@
 #define HEM 1e-6
 /* Around a place on the floor other triangles are looked for as far as this (m). */
 #define SPOT 0.35
+#define WIDEST 1.4
 /* A spot (m) that the next steps leave is not worth finding: so many feet are then left to what is near, twice as many
  * each time. */
 #define NARROW 0.04
@@ -158,14 +159,6 @@ static int is_beside(const tahr__query *query, uint32_t index)
     return 0;
 }
 
-static int is_within_edges(const tahr__vicinity *v, tahr_vec3 place)
-{
-    int within = 1;
-    for (int i = 0; i < 3; i++)
-        within &= v_dot(v->across[i], place) <= v->border[i] - v->hem[i];
-    return within;
-}
-
 /* What a walk on it reads (footing.c). */
 static void know_triangle(const tahr__query *query, const tahr__prim *prim)
 {
@@ -183,10 +176,10 @@ static void know_triangle(const tahr__query *query, const tahr__prim *prim)
     f->feature = prim->feature;
 }
 
-/* m from a place on the triangle to where it is no longer well inside of an edge. */
+/* m from a place on the triangle to where it is no longer alone, or well inside of an edge. */
 static double inside_of_edges(const tahr__vicinity *v, tahr_vec3 place)
 {
-    double least = SPOT;
+    double least = v->alone;
     for (int i = 0; i < 3; i++)
         least = d_min(least, (v->border[i] - v->hem[i] - v_dot(v->across[i], place)) / v_length(v->across[i]));
     return least;
@@ -215,10 +208,11 @@ static void find_spot(const tahr__query *query, tahr_vec3 place)
     tahr__footing *f = &query->cache->footing;
     tahr__lanes_found found[TAHR__CACHE_MOST];
     const tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
-    const tahr__lanes_query q = tahr__lanes_at(place, 0, SPOT);
+    const double scope = d_max(v->scope, SPOT);
+    const tahr__lanes_query q = tahr__lanes_at(place, 0, scope);
     uint32_t near = query->world->lanes->near(&lanes, &q, found), count = 0, under = TAHR__NONE;
     const tahr__prim *prims = tahr__cache_prims(query->world, query->cache);
-    double alone = SPOT;
+    double alone = scope;
     v->alone = query->cache->footing.inside = 0;
     for (uint32_t i = 0; i < near; i++) {
         const uint32_t index = found[i].index;
@@ -237,7 +231,8 @@ static void find_spot(const tahr__query *query, tahr_vec3 place)
     }
     f->spot = place;
     v->alone = alone - APART;
-    f->inside = d_min(v->alone, inside_of_edges(v, place)) - HEM;
+    f->inside = inside_of_edges(v, place);
+    v->scope = f->inside >= scope - APART ? d_min(2 * scope, WIDEST) : SPOT;
 }
 
 /* Is it worth finding one again? */
@@ -250,32 +245,33 @@ static int tries_spot(tahr__vicinity *v)
     return 1;
 }
 
-static inline int is_at_spot(const tahr__cache *cache, tahr_vec3 place)
-{
-    const tahr__vicinity *v = &cache->vicinity;
-    const tahr_vec3 off = v_sub(place, cache->footing.spot);
-    return v->alone > 0 && v_dot(off, off) <= v->alone * v->alone && is_within_edges(v, place);
-}
-
-/* The one triangle of the floor that may be met; NULL: it is not known which. */
-static const tahr__prim *floor_under(const tahr__query *query)
+/* Is it known which triangle of the floor alone may be met? found: it has just been found out. */
+static int knows_floor(const tahr__query *query, int *finds)
 {
     tahr__vicinity *v = &query->cache->vicinity;
     const tahr_vec3 place = place_on(&v->floor, query);
-    if (!is_at_spot(query->cache, place)) {
-        if (!tries_spot(v)) return NULL;
-        find_spot(query, place);
-        v->rests = v->alone >= NARROW ? FEWEST : v->rests < MOST ? 2 * v->rests : MOST;
-        v->rest = v->alone >= NARROW ? 0 : v->rests;
-        if (!is_at_spot(query->cache, place)) return NULL;
-    }
-    return &tahr__cache_prims(query->world, query->cache)[query->cache->footing.under];
+    *finds = 0;
+    if (ground_is_at_spot(query->cache, place)) return 1;
+    if (!tries_spot(v)) return 0;
+    find_spot(query, place);
+    v->rests = v->alone >= NARROW ? FEWEST : v->rests < MOST ? 2 * v->rests : MOST;
+    v->rest = v->alone >= NARROW ? 0 : v->rests;
+    *finds = ground_is_at_spot(query->cache, place);
+    return *finds;
+}
+
+int tahr__ground_finds(const tahr__query *query)
+{
+    int finds;
+    knows_floor(query, &finds);
+    return finds;
 }
 
 int tahr__ground_meets(const tahr__query *query, tahr__found *found)
 {
-    const tahr__prim *floor = floor_under(query);
-    if (!floor) return 0;
+    int finds;
+    if (!knows_floor(query, &finds)) return 0;
+    const tahr__prim *floor = &tahr__cache_prims(query->world, query->cache)[query->cache->footing.under];
     const double t = plane_earliest(query, floor, 1);
     return t <= 1 && tahr__probe_face(query, floor, query->cache->vicinity.face, t, found);
 }

@@ -164,7 +164,7 @@ typedef struct tahr__footing {
     tahr_vec3 origin, up; /* of the frame */
     tahr_vec3 at;         /* local, the middle of an upright segment at the place where all has been measured */
     double half;          /* of it */
-    double clear;         /* m: nothing but what lies in the floor or below it is nearer to it; 0: not known */
+    double clear; /* m: nothing but what lies in the floor or below it, or behind a fence, is nearer; 0: not known */
     tahr_vec3 cross, on;  /* of the triangle under the spot: its normal, up and not unit, and a corner */
     double length, inverse;
     tahr_vec3 spot; /* on the floor */
@@ -173,13 +173,22 @@ typedef struct tahr__footing {
     double walkable_angle;
     uint32_t walkable_rule, surface, body, feature;
     uint32_t under; /* index of the triangle */
-    uint32_t turned;
+    uint32_t turned; /* as of the frame */
+    uint32_t fenced; /* 1: there are fences */
 } tahr__footing;
+
+/* Planes between the place that was measured and what is nearest to it (fence.c), rounded to single precision: all of
+ * that has x, y, z . p <= far. Those not in use keep nothing off. */
+enum { TAHR__FENCES = 8 };
+typedef struct tahr__fences {
+    float x[TAHR__FENCES], y[TAHR__FENCES], z[TAHR__FENCES], far[TAHR__FENCES];
+} tahr__fences;
 
 /* What else is known of the place (vicinity.c, ground.c): the distances are behind the header of the cache. */
 typedef struct tahr__vicinity {
     tahr__level floor; /* of this frame: what stopped the last foot */
     double alone;      /* m around the spot (<= 0: none) where no triangle of the floor reaches over the edges of `under` */
+    double scope;      /* m: so far around the next spot others are looked for */
     tahr_vec3 across[3];      /* outward of those edges, not unit; what is on one has this much along it, */
     double border[3], hem[3]; /* and this much less is well inside */
     tahr_vec3 face;           /* the exact normal of that, toward the character */
@@ -194,7 +203,8 @@ typedef struct tahr__cache {
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
     tahr_bounds local;  /* everything static in it has been gathered */
     uint64_t revision;  /* of the user's triangles in it */
-    uint32_t mask, announced;
+    uint32_t mask, announced, reserved[2];
+    tahr__fences fences;
     tahr__frame frame;
     tahr_bounds bounds; /* world: what was announced, grown by the margin */
     double volume;      /* m3, of what was announced */
@@ -360,6 +370,9 @@ int tahr__margin_choose(const tahr__native *world, double width, uint32_t count,
 /* The most it may be. */
 double tahr__margin_most(const tahr__native *world, double width);
 
+/* Who has come farther (m) from the place looks around anew, but in the open: a runner after two steps or three. */
+#define TAHR__DRIFT 0.12
+
 /* vicinity.c: what a sweep need not ask. Where a motion leads: UNKNOWN: the cache or more is to be asked; AROUND: all
  * that is near; OVER: of that, what is above the floor; DOWN: the floor too. */
 enum { TAHR__UNKNOWN, TAHR__AROUND, TAHR__OVER, TAHR__DOWN };
@@ -371,19 +384,20 @@ uint32_t tahr__vicinity_way(const tahr__query *query);
 int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
 /* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */
 int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
-/* The same of a body that stays OVER the floor, and then its foot that goes DOWN; or something may be in their way, or
- * it is not clear where the floor is. */
-enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
-int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit);
-/* Of a body that has stayed OVER the floor: finds how far all is that is above it (footing.clear), once a look. */
-void tahr__vicinity_clear(const tahr__query *query);
+/* Of a body that stays OVER the floor and then its foot that goes DOWN on it: is nothing met that is no farther than most
+ * (m) from the place and above the floor, by the foot up to t of its motion? Of both only what plane.h reads is set. */
+int tahr__vicinity_passes(const tahr__query *body, const tahr__query *foot, double most, double t);
+/* Of the same, whole: finds out what a footing needs to know. 1: something of it is new. */
+int tahr__vicinity_learn(const tahr__query *body, const tahr__query *foot);
 /* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting
  * anything; < 0: not known. What has not been gathered may be anywhere. */
 double tahr__vicinity_room(const tahr__query *query);
 
-/* footing.c: the same of a walk that stays in what is known to be clear and ends on the one triangle under it; 0: it is
- * to be asked in full. */
-int tahr__footing_holds(tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit);
+/* footing.c: a walk over the floor, and a foot that comes down on it: LANDED and the hit; BARRED: something may be in the
+ * way; UNCLEAR: there is more to find out. The cache has to be of the revision of the world. */
+enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
+uint32_t tahr__footing_walk(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
+                            tahr_hit *hit);
 
 /* m from a place (world) to everything that is static: 0 within the bounds of all of it, and no more than 16. */
 double tahr__outside_of_all(const tahr__native *world, tahr_vec3 position);

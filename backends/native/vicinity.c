@@ -7,6 +7,7 @@
  * plane or below it cannot be met by who stays above; it is left out then, and a foot that comes down on it meets the
  * triangle under it. Nothing here decides anything but what is asked: every answer has the bits of one from the whole
  * cache (no_vicinity). */
+#include "fence.h"
 #include "form.h"
 #include "ground.h"
 #include "plane.h"
@@ -15,10 +16,6 @@
  * is not told, for the distances of lanes are right within TAHR__LANE_SLACK only near by. */
 #define LOOK 0.4
 #define FARTHEST 16.0
-/* A foot that comes down from a walk goes no farther (m), mostly. */
-#define DOWNWARD 0.02
-/* Who has come farther (m) from the place looks around anew: a runner after two steps or three. */
-#define DRIFT 0.12
 /* So far (m) beyond the reach it is looked for what is nearest of all that is above the floor. */
 #define ROUND 0.6
 /* Longer motions (m) are spanned by no place. */
@@ -106,7 +103,7 @@ static int serves(const tahr__query *query)
 static int is_stale(const tahr__query *query)
 {
     if (query->motion_length > LONGEST && outside_of_all(query) <= query->motion_length) return 0;
-    return !query->cache->vicinity.known || away2(query, query->start) > DRIFT * DRIFT;
+    return !query->cache->vicinity.known || away2(query, query->start) > TAHR__DRIFT * TAHR__DRIFT;
 }
 
 static inline uint32_t way_of(const tahr__query *query)
@@ -216,35 +213,68 @@ int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit)
     return 1;
 }
 
-int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit)
+int tahr__vicinity_passes(const tahr__query *body, const tahr__query *foot, double most, double t)
 {
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    tahr__found floor;
-    const double reach = d_max(reach_of(body), reach_of(foot)), most = need(farthest2(body, 1), reach) + DOWNWARD;
     const int near = passes(body, most, 1, 1, found);
-    if (near < 0) return TAHR__BARRED;
-    if (!tahr__ground_meets(foot, &floor)) return TAHR__UNCLEAR;
-    const double until = tied(foot, floor.t);
-    if (need(farthest2(foot, until), reach) > most) return TAHR__UNCLEAR;
+    const double until = tied(foot, t);
     for (int i = 0; i < near; i++) {
-        if (!is_passed(foot, tahr__formed(foot, found[i].index), until)) return TAHR__BARRED;
+        if (!is_passed(foot, tahr__formed(foot, found[i].index), until)) return 0;
     }
-    tell(foot, &floor, hit);
-    return TAHR__LANDED;
+    return near >= 0;
 }
 
-void tahr__vicinity_clear(const tahr__query *query)
+/* The nearest of those above the floor, nearest first; what is left over is no nearer than `rest`. */
+typedef struct nearest {
+    tahr__lanes_found found[TAHR__FENCES];
+    uint32_t count;
+    float rest;
+} nearest;
+
+static void put_nearest(nearest *n, const tahr__lanes_found *one)
 {
-    tahr__footing *f = &query->cache->footing;
-    tahr__lanes_found found[TAHR__CACHE_MOST];
-    if (f->clear > 0) return;
-    const double most = reach_of(query) + ROUND;
-    const uint32_t count = pick(query, most, 1, found);
-    double least = most_of(most);
-    for (uint32_t i = 0; i < count; i++) {
-        if (ground_side(query, found[i].index) < TAHR__BELOW) least = d_min(least, found[i].time);
+    uint32_t i = n->count;
+    if (i == TAHR__FENCES) {
+        n->rest = d_min(n->rest, d_max(one->time, n->found[i - 1].time));
+        if (one->time >= n->found[i - 1].time) return;
+        i--;
+    } else {
+        n->count++;
     }
-    f->clear = d_max((least - TAHR__LANE_SLACK) * (1 - 4e-6), SPARE);
+    for (; i > 0 && n->found[i - 1].time > one->time; i--)
+        n->found[i] = n->found[i - 1];
+    n->found[i] = *one;
+}
+
+/* How far all is that is above the floor, but for what is nearest, which is fenced off; once a look. */
+static void clear_around(const tahr__query *query)
+{
+    tahr__cache *cache = query->cache;
+    tahr__footing *f = &cache->footing;
+    tahr__lanes_found found[TAHR__CACHE_MOST];
+    const double most = reach_of(query) + ROUND;
+    nearest near = {.count = 0, .rest = most_of(most)};
+    if (f->clear > 0) return;
+    const uint32_t count = pick(query, most, 1, found);
+    for (uint32_t i = 0; i < count; i++) {
+        if (ground_side(query, found[i].index) < TAHR__BELOW) put_nearest(&near, &found[i]);
+    }
+    f->fenced = near.count > 0;
+    const float *blocks = tahr__cache_blocks(query->world, cache);
+    const tahr__lanes_query at = tahr__lanes_at(f->at, f->half, 0);
+    for (uint32_t i = 0; i < TAHR__FENCES; i++) {
+        const int there = i < near.count;
+        const uint32_t index = there ? near.found[i].index : TAHR__NONE;
+        if (!tahr__fences_put(&cache->fences, i, blocks, index, &at)) near.rest = d_min(near.rest, near.found[i].time);
+    }
+    f->clear = d_max((near.rest - TAHR__LANE_SLACK) * (1 - 4e-6), SPARE);
+}
+
+int tahr__vicinity_learn(const tahr__query *body, const tahr__query *foot)
+{
+    const int was_clear = body->cache->footing.clear > 0;
+    clear_around(body);
+    return tahr__ground_finds(foot) || !was_clear;
 }
 
 double tahr__vicinity_room(const tahr__query *query)
