@@ -90,5 +90,15 @@ int tahr__fences_put(tahr__fences *fences, uint32_t i, const float *blocks, uint
     fences->y[i] = p.y;
     fences->z[i] = p.z;
     fences->far[i] = p.far;
+    fences->of[i] = index;
     return away > 0;
+}
+
+uint32_t tahr__fences_fail(const tahr__fences *fences, tahr_vec3 p, double half, double reach)
+{
+    const float x = (float)p.x, y = (float)p.y, z = (float)p.z, most = (float)(reach + TAHR__LANE_SLACK);
+    uint32_t bits = 0;
+    for (int i = 0; i < TAHR__FENCES; i++)
+        bits |= (uint32_t)!(tahr__fence_off(fences, i, x, y, z, (float)half) > most) << i;
+    return bits;
 }

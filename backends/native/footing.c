@@ -153,9 +153,9 @@ static void ask_of(tahr__query *query, const tahr__native *world, tahr_query_con
     query->motion_length = v_length(motion);
 }
 
-/* Of all that is not farther than this from the place: is none of it met? */
+/* Of what a walk may meet, is none of it met? */
 static int passes(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk, const local_walk *w,
-                  double most, double until)
+                  const tahr__doubt *doubt)
 {
     tahr__query body, foot;
     ask_of(&body, world, context, w->from, w->way);
@@ -166,7 +166,8 @@ static int passes(const tahr__native *world, tahr_query_context *context, const 
     body.radius = walk->shape->radius;
     foot.radius = walk->foot->radius;
     body.margin = foot.margin = walk->margin;
-    return tahr__vicinity_passes(&body, &foot, most, until);
+    return doubt->fences ? tahr__vicinity_passes_fences(&body, &foot, doubt)
+                         : tahr__vicinity_passes(&body, &foot, doubt);
 }
 
 static inline void fill(const tahr__cache *cache, const landing *end, tahr_hit *hit)
@@ -197,10 +198,17 @@ static inline uint32_t goes_clear(const tahr__native *world, tahr_query_context 
     if (!is_gathered(cache, &first, &last, w->most)) return TAHR__UNCLEAR;
     const double from2 = away2(f, &first), far2 = d_max(from2, away2(f, &last)), room = f->clear - w->most - SPARE;
     const int near = room > 0 && far2 <= room * room;
-    if (near && (!f->fenced || tahr__fences_hold(&cache->fences, first.middle, first.half, w->most)))
-        if (!f->fenced || tahr__fences_hold(&cache->fences, last.middle, last.half, w->most)) return TAHR__LANDED;
-    if (!near && from2 > TAHR__DRIFT * TAHR__DRIFT) return TAHR__UNCLEAR;
-    return passes(world, context, walk, w, sqrt(far2) + w->most + SPARE, end->t) ? TAHR__LANDED : TAHR__BARRED;
+    if (near && (!f->fenced || (tahr__fences_hold(&cache->fences, first.middle, first.half, w->most) &&
+                                tahr__fences_hold(&cache->fences, last.middle, last.half, w->most)))) {
+        return TAHR__LANDED;
+    }
+    if (from2 > TAHR__DRIFT * TAHR__DRIFT) return TAHR__UNCLEAR;
+    tahr__doubt doubt = {.fences = 0, .most = sqrt(far2) + w->most + SPARE, .until = end->t};
+    if (near) {
+        doubt.fences = tahr__fences_fail(&cache->fences, first.middle, first.half, w->most) |
+                       tahr__fences_fail(&cache->fences, last.middle, last.half, w->most);
+    }
+    return passes(world, context, walk, w, &doubt) ? TAHR__LANDED : TAHR__BARRED;
 }
 
 uint32_t tahr__footing_walk(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,

@@ -78,11 +78,24 @@ static float side_of(const tahr__query *query, const tahr__level *l, const tahr_
     return highest <= LEVEL && is_flat(v, d_min(h[0], d_min(h[1], h[2]))) ? TAHR__IN_IT : TAHR__ABOVE;
 }
 
+/* What stands over the floor by more than HIGH (m), as its box tells, where the floor leans by less over the width of
+ * that. */
+#define HIGH 0.05
+static int stands_over(const tahr__query *query, const tahr__level *l, uint32_t index)
+{
+    const float *blocks = tahr__cache_blocks(query->world, query->cache);
+    const float *low = blocks + tahr__lane(index, TAHR__LANE_LOW), *high = blocks + tahr__lane(index, TAHR__LANE_HIGH);
+    const tahr_vec3 n = l->normal, top = v_make(low[0], low[TAHR__LANES], high[2 * TAHR__LANES]);
+    const double lean = fabs(n.x) * (high[0] - low[0]) + fabs(n.y) * (high[TAHR__LANES] - low[TAHR__LANES]);
+    return v_dot(n, v_sub(top, l->at)) > lean + HIGH * l->length;
+}
+
 float tahr__ground_see(const tahr__query *query, uint32_t index)
 {
     float *side = &tahr__cache_lift(query->world, query->cache)[index];
     const tahr__prim *prim = &tahr__cache_prims(query->world, query->cache)[index];
-    return *side = side_of(query, &query->cache->vicinity.floor, prim);
+    const tahr__level *floor = &query->cache->vicinity.floor;
+    return *side = stands_over(query, floor, index) ? TAHR__ABOVE : side_of(query, floor, prim);
 }
 
 /* All are to be looked at again. */

@@ -182,6 +182,7 @@ typedef struct tahr__footing {
 enum { TAHR__FENCES = 8 };
 typedef struct tahr__fences {
     float x[TAHR__FENCES], y[TAHR__FENCES], z[TAHR__FENCES], far[TAHR__FENCES];
+    uint32_t of[TAHR__FENCES]; /* index */
 } tahr__fences;
 
 /* What else is known of the place (vicinity.c, ground.c): the distances are behind the header of the cache. */
@@ -384,9 +385,16 @@ uint32_t tahr__vicinity_way(const tahr__query *query);
 int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
 /* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */
 int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
-/* Of a body that stays OVER the floor and then its foot that goes DOWN on it: is nothing met that is no farther than most
- * (m) from the place and above the floor, by the foot up to t of its motion? Of both only what plane.h reads is set. */
-int tahr__vicinity_passes(const tahr__query *body, const tahr__query *foot, double most, double t);
+/* What a walk may meet of what is above the floor: what is not farther than this from the place. */
+typedef struct tahr__doubt {
+    double most;  /* m */
+    double until; /* of the motion of the foot */
+    uint32_t fences, reserved; /* and behind these, a bit each */
+} tahr__doubt;
+/* Of a body that stays OVER the floor and then its foot that goes DOWN on it: is nothing of that met? Of both only what
+ * plane.h reads is set. The second asks only what is behind the fences. */
+int tahr__vicinity_passes(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt);
+int tahr__vicinity_passes_fences(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt);
 /* Of the same, whole: finds out what a footing needs to know. 1: something of it is new. */
 int tahr__vicinity_learn(const tahr__query *body, const tahr__query *foot);
 /* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting

@@ -213,15 +213,29 @@ int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit)
     return 1;
 }
 
-int tahr__vicinity_passes(const tahr__query *body, const tahr__query *foot, double most, double t)
+int tahr__vicinity_passes(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt)
 {
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    const int near = passes(body, most, 1, 1, found);
-    const double until = tied(foot, t);
+    const int near = passes(body, doubt->most, 1, 1, found);
+    const double until = tied(foot, doubt->until);
     for (int i = 0; i < near; i++) {
         if (!is_passed(foot, tahr__formed(foot, found[i].index), until)) return 0;
     }
     return near >= 0;
+}
+
+int tahr__vicinity_passes_fences(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt)
+{
+    const tahr__cache *cache = body->cache;
+    const float *far = tahr__cache_far(body->cache), most = most_of(doubt->most);
+    const double until = tied(foot, doubt->until);
+    for (uint32_t i = 0; i < TAHR__FENCES; i++) {
+        const uint32_t index = cache->fences.of[i];
+        if (!(doubt->fences >> i & 1) || far[index] > most) continue;
+        const tahr__prim *prim = tahr__formed(body, index);
+        if (!is_passed(body, prim, 1) || !is_passed(foot, prim, until)) return 0;
+    }
+    return 1;
 }
 
 /* The nearest of those above the floor, nearest first; what is left over is no nearer than `rest`. */
