@@ -94,11 +94,12 @@ int tahr__fences_put(tahr__fences *fences, uint32_t i, const float *blocks, uint
     return away > 0;
 }
 
-uint32_t tahr__fences_fail(const tahr__fences *fences, tahr_vec3 p, double half, double reach)
+uint32_t tahr__fences_fail(const tahr__fences *fences, tahr_vec3 p, double top, double reach)
 {
-    const float x = (float)p.x, y = (float)p.y, z = (float)p.z, most = (float)(reach + TAHR__LANE_SLACK);
+    const float x = (float)p.x, y = (float)p.y, z = (float)p.z, high = (float)top,
+                most = (float)(reach + TAHR__LANE_SLACK);
     uint32_t bits = 0;
     for (int i = 0; i < TAHR__FENCES; i++)
-        bits |= (uint32_t)!(tahr__fence_off(fences, i, x, y, z, (float)half) > most) << i;
+        bits |= (uint32_t)!(tahr__fence_off(fences, i, x, y, z, high) > most) << i;
     return bits;
 }

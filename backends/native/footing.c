@@ -19,9 +19,8 @@
 #define CELL 4.0
 /* Places that are one but for rounding (m). */
 #define SAME 1e-9
-/* Of the foot's way it comes down this part at least, squared: far from what probe.c takes for along a face, even where
- * the exact normal is off the triangle's by what it allows (2.6 degrees). */
-#define STEEP2 0.04
+/* Of a foot that goes less far (m) it is not said that it goes straight down. */
+#define LEAST_WAY 1e-4
 
 /* A walk in the frame of the cache, whose foot goes straight down from where the body ends: all of both is between an
  * upright segment at the start of the body and one at its end, which is longer by the way of the foot. */
@@ -30,11 +29,6 @@ typedef struct local_walk {
     double half, reach, foot_radius, foot_reach;
     double most; /* of both reaches */
 } local_walk;
-
-static inline tahr_vec3 turned(const tahr__cache *cache, tahr_vec3 v)
-{
-    return cache->footing.turned ? m_apply(&cache->frame.turn, v) : v;
-}
 
 /* Half the axis of a round shape; < 0: it is not one. */
 static inline double half_of(const tahr_shape *shape)
@@ -49,9 +43,10 @@ static inline int is_in_cell(tahr_vec3 p)
     return p.x >= 0 && p.x < CELL && p.y >= 0 && p.y < CELL && p.z >= 0 && p.z < CELL;
 }
 
-static inline int is_over(tahr_vec3 a, tahr_vec3 b)
+static inline int is_plumb(const local_walk *w)
 {
-    return fabs(a.x - b.x) <= SAME && fabs(a.y - b.y) <= SAME;
+    return w->down.z < -LEAST_WAY && fabs(w->foot.x - w->to.x) + fabs(w->down.x) <= SAME &&
+           fabs(w->foot.y - w->to.y) + fabs(w->down.y) <= SAME;
 }
 
 /* 0: it is not a walk that concerns this cache. */
@@ -59,6 +54,7 @@ static inline int read_walk(const tahr__cache *cache, const tahr_walk *walk, loc
 {
     const tahr__footing *f = &cache->footing;
     const tahr_vec3 p = v_sub(walk->position, f->origin);
+    if (f->steep) return 0;
     if (!is_in_cell(p) || !tahr__same_vec(&f->up, &walk->up) || walk->mask != cache->mask) return 0;
     w->half = half_of(walk->shape);
     w->reach = walk->shape->radius + walk->margin;
@@ -67,12 +63,19 @@ static inline int read_walk(const tahr__cache *cache, const tahr_walk *walk, loc
     w->most = d_max(w->reach, w->foot_reach);
     if (w->half < 0 || half_of(walk->foot) != 0) return 0;
     if (!(w->reach > SMALL && w->foot_reach > SMALL && w->most < LARGE)) return 0;
-    w->from = turned(cache, p);
-    w->way = turned(cache, walk->motion);
+    w->from = p;
+    w->way = walk->motion;
+    w->foot = v_sub(walk->foot_position, f->origin);
+    w->down = walk->foot_motion;
+    if (f->turned) {
+        const tahr__mat *turn = &cache->frame.turn;
+        w->from = m_apply(turn, w->from);
+        w->way = m_apply(turn, w->way);
+        w->foot = m_apply(turn, w->foot);
+        w->down = m_apply(turn, w->down);
+    }
     w->to = v_add(w->from, w->way);
-    w->foot = turned(cache, v_sub(walk->foot_position, f->origin));
-    w->down = turned(cache, walk->foot_motion);
-    return is_over(w->foot, w->to);
+    return is_plumb(w);
 }
 
 /* Does the body stay over the floor, which it may go along? way_of (vicinity.c) without a root. */
@@ -98,27 +101,29 @@ static inline int comes_down(const tahr__footing *f, const local_walk *w, landin
     const double first = v_dot(f->cross, v_sub(w->foot, f->on)), rate = -v_dot(f->cross, w->down);
     const double reach = w->foot_reach * f->length, gap = first - (w->foot_reach + 0.5 * TAHR__ARRIVED) * f->length;
     if (!(first >= reach && first - rate < reach && rate > 0 && gap <= rate)) return 0;
-    if (rate * rate < STEEP2 * (f->length * f->length) * v_dot(w->down, w->down)) return 0;
     out->t = gap <= 0 ? 0 : gap / rate;
     out->centre = v_mad(w->foot, w->down, out->t);
     const double height = v_dot(f->cross, v_sub(out->centre, f->on)) * f->inverse;
     out->point = v_mad(out->centre, v_scale(f->cross, f->inverse), -height);
     out->gap = height - w->foot_radius;
-    return height - w->foot_reach <= TAHR__ARRIVED && height >= w->foot_radius && height > SPARE &&
-           is_over(out->centre, w->to);
+    return height - w->foot_reach <= TAHR__ARRIVED && height >= w->foot_radius && height > SPARE;
 }
 
 /* An upright segment. */
 typedef struct upright {
-    tahr_vec3 middle;
-    double half;
+    double x, y, low, high;
 } upright;
+
+/* Of the body at its start. */
+static inline upright start_of(const local_walk *w)
+{
+    return (upright){w->from.x, w->from.y, w->from.z - w->half, w->from.z + w->half};
+}
 
 /* Of the body at its end and all of the foot. */
 static inline upright end_of(const local_walk *w, const landing *end)
 {
-    const double low = d_min(w->to.z - w->half, end->centre.z), high = d_max(w->to.z + w->half, w->foot.z);
-    return (upright){v_make(w->to.x, w->to.y, 0.5 * (low + high)), 0.5 * (high - low)};
+    return (upright){w->to.x, w->to.y, d_min(w->to.z - w->half, end->centre.z), d_max(w->to.z + w->half, w->foot.z)};
 }
 
 /* Is all of it in what has been gathered? */
@@ -126,48 +131,22 @@ static inline int is_gathered(const tahr__cache *cache, const upright *a, const 
 {
     const tahr_bounds *in = &cache->local;
     const double more = reach + 10 * TAHR__SLACK;
-    return d_min(a->middle.x, b->middle.x) - more >= in->min.x && d_max(a->middle.x, b->middle.x) + more <= in->max.x &&
-           d_min(a->middle.y, b->middle.y) - more >= in->min.y && d_max(a->middle.y, b->middle.y) + more <= in->max.y &&
-           d_min(a->middle.z - a->half, b->middle.z - b->half) - more >= in->min.z &&
-           d_max(a->middle.z + a->half, b->middle.z + b->half) + more <= in->max.z;
+    return d_min(a->x, b->x) - more >= in->min.x && d_max(a->x, b->x) + more <= in->max.x &&
+           d_min(a->y, b->y) - more >= in->min.y && d_max(a->y, b->y) + more <= in->max.y &&
+           d_min(a->low, b->low) - more >= in->min.z && d_max(a->high, b->high) + more <= in->max.z;
 }
 
 /* Square of how far one comes from that of the place. */
 static inline double away2(const tahr__footing *f, const upright *u)
 {
-    const tahr_vec3 p = v_sub(u->middle, f->at);
-    const double z = d_max(fabs(p.z) + u->half - f->half, 0);
-    return (p.x * p.x + p.y * p.y) + z * z;
+    const double x = u->x - f->at.x, y = u->y - f->at.y,
+                 z = d_max(d_max(u->high - f->at.z, f->at.z - u->low) - f->half, 0);
+    return (x * x + y * y) + z * z;
 }
 
-/* What plane.h reads of a query, and tahr__ground_see. */
-static void ask_of(tahr__query *query, const tahr__native *world, tahr_query_context *context, tahr_vec3 start,
-                   tahr_vec3 motion)
+static inline int is_fenced_off(const tahr__cache *cache, const upright *u, double reach)
 {
-    query->world = world;
-    query->context = context;
-    query->cache = context->cache;
-    query->frame = &query->cache->frame;
-    query->start = start;
-    query->motion = motion;
-    query->motion_length = v_length(motion);
-}
-
-/* Of what a walk may meet, is none of it met? */
-static int passes(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk, const local_walk *w,
-                  const tahr__doubt *doubt)
-{
-    tahr__query body, foot;
-    ask_of(&body, world, context, w->from, w->way);
-    ask_of(&foot, world, context, w->foot, w->down);
-    body.half = w->half;
-    body.core.axis_count = w->half > 0;
-    foot.half = foot.core.axis_count = 0;
-    body.radius = walk->shape->radius;
-    foot.radius = walk->foot->radius;
-    body.margin = foot.margin = walk->margin;
-    return doubt->fences ? tahr__vicinity_passes_fences(&body, &foot, doubt)
-                         : tahr__vicinity_passes(&body, &foot, doubt);
+    return tahr__fences_hold(&cache->fences, v_make(u->x, u->y, u->low), u->high, reach);
 }
 
 static inline void fill(const tahr__cache *cache, const landing *end, tahr_hit *hit)
@@ -188,27 +167,38 @@ static inline void fill(const tahr__cache *cache, const landing *end, tahr_hit *
     hit->feature = f->feature;
 }
 
-/* Of the body at its start, and at its end with the foot: nothing is met between them, if nothing is at either. */
-static inline uint32_t goes_clear(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
-                                  const local_walk *w, const landing *end)
+/* What is not said by distances and fences. Not inline: it is seldom asked. */
+static __attribute__((noinline)) uint32_t look_closer(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
+                            const local_walk *w, const landing *end)
 {
     const tahr__cache *cache = context->cache;
     const tahr__footing *f = &cache->footing;
-    const upright first = {w->from, w->half}, last = end_of(w, end);
-    if (!is_gathered(cache, &first, &last, w->most)) return TAHR__UNCLEAR;
+    const upright first = start_of(w), last = end_of(w, end);
     const double from2 = away2(f, &first), far2 = d_max(from2, away2(f, &last)), room = f->clear - w->most - SPARE;
-    const int near = room > 0 && far2 <= room * room;
-    if (near && (!f->fenced || (tahr__fences_hold(&cache->fences, first.middle, first.half, w->most) &&
-                                tahr__fences_hold(&cache->fences, last.middle, last.half, w->most)))) {
-        return TAHR__LANDED;
-    }
-    if (from2 > TAHR__DRIFT * TAHR__DRIFT) return TAHR__UNCLEAR;
-    tahr__doubt doubt = {.fences = 0, .most = sqrt(far2) + w->most + SPARE, .until = end->t};
+    const int near = room > 0 && far2 <= room * room, drifted = from2 > TAHR__DRIFT * TAHR__DRIFT;
+    if (!near && drifted) return TAHR__UNCLEAR;
+    tahr__doubt doubt = {.body_start = w->from,
+                         .body_motion = w->way,
+                         .foot_start = w->foot,
+                         .foot_motion = w->down,
+                         .half = w->half,
+                         .until = end->t,
+                         .most = sqrt(far2) + w->most + SPARE};
     if (near) {
-        doubt.fences = tahr__fences_fail(&cache->fences, first.middle, first.half, w->most) |
-                       tahr__fences_fail(&cache->fences, last.middle, last.half, w->most);
+        doubt.fences = tahr__fences_fail(&cache->fences, v_make(first.x, first.y, first.low), first.high, w->most) |
+                       tahr__fences_fail(&cache->fences, v_make(last.x, last.y, last.low), last.high, w->most);
     }
-    return passes(world, context, walk, w, &doubt) ? TAHR__LANDED : TAHR__BARRED;
+    if (tahr__doubt_settle(world, context, walk, &doubt)) return TAHR__LANDED;
+    return drifted ? TAHR__UNCLEAR : TAHR__BARRED;
+}
+
+/* Of the body at its start, and at its end with the foot: nothing is met between them, if nothing is at either. */
+static inline int is_clear(const tahr__cache *cache, const local_walk *w, const upright *first, const upright *last)
+{
+    const tahr__footing *f = &cache->footing;
+    const double far2 = d_max(away2(f, first), away2(f, last)), room = f->clear - w->most - SPARE;
+    if (!(room > 0 && far2 <= room * room)) return 0;
+    return !f->fenced || (is_fenced_off(cache, first, w->most) && is_fenced_off(cache, last, w->most));
 }
 
 uint32_t tahr__footing_walk(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
@@ -222,8 +212,12 @@ uint32_t tahr__footing_walk(const tahr__native *world, tahr_query_context *conte
         !ground_is_at_spot(cache, end.point)) {
         return TAHR__UNCLEAR;
     }
-    const uint32_t way = goes_clear(world, context, walk, &w, &end);
-    if (way != TAHR__LANDED) return way;
+    const upright first = start_of(&w), last = end_of(&w, &end);
+    if (!is_gathered(cache, &first, &last, w.most)) return TAHR__UNCLEAR;
+    if (!is_clear(cache, &w, &first, &last)) {
+        const uint32_t way = look_closer(world, context, walk, &w, &end);
+        if (way != TAHR__LANDED) return way;
+    }
     fill(cache, &end, hit);
     cache->recent[1] = f->under;
     context->narrow_tests++;

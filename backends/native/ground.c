@@ -172,6 +172,10 @@ static int is_beside(const tahr__query *query, uint32_t index)
     return 0;
 }
 
+/* A triangle whose normal goes up by less is asked at length: far from what probe.c takes for along a face, even where
+ * the exact normal is off the triangle's by what it allows (2.6 degrees). */
+#define STEEP 0.2
+
 /* What a walk on it reads (footing.c). */
 static void know_triangle(const tahr__query *query, const tahr__prim *prim)
 {
@@ -181,6 +185,7 @@ static void know_triangle(const tahr__query *query, const tahr__prim *prim)
     f->on = facet->v[0];
     f->length = facet->length;
     f->inverse = 1.0 / facet->length;
+    f->steep = f->cross.z < STEEP * f->length;
     f->normal = tahr__frame_to_world(query->frame, query->cache->vicinity.face);
     f->walkable_angle = prim->walkable_angle;
     f->walkable_rule = prim->walkable_rule;

@@ -86,13 +86,18 @@ typedef struct tahr__frame {
     uint32_t turned, reserved;
 } tahr__frame;
 
+static inline uint64_t tahr__other_bits(const double *a, const double *b)
+{
+    uint64_t x, y;
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    return x ^ y;
+}
+
 /* The same bits, where a call of memcmp costs more than it does. */
 static inline int tahr__same_vec(const tahr_vec3 *a, const tahr_vec3 *b)
 {
-    uint64_t x[3], y[3];
-    memcpy(x, a, sizeof x);
-    memcpy(y, b, sizeof y);
-    return ((x[0] ^ y[0]) | (x[1] ^ y[1]) | (x[2] ^ y[2])) == 0;
+    return (tahr__other_bits(&a->x, &b->x) | tahr__other_bits(&a->y, &b->y) | tahr__other_bits(&a->z, &b->z)) == 0;
 }
 
 /* Body coordinates to local ones: offset + turn * v. */
@@ -175,6 +180,7 @@ typedef struct tahr__footing {
     uint32_t under; /* index of the triangle */
     uint32_t turned; /* as of the frame */
     uint32_t fenced; /* 1: there are fences */
+    uint32_t steep;  /* 1: what is said here does not hold for so steep a triangle */
 } tahr__footing;
 
 /* Planes between the place that was measured and what is nearest to it (fence.c), rounded to single precision: all of
@@ -204,7 +210,7 @@ typedef struct tahr__cache {
     uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
     tahr_bounds local;  /* everything static in it has been gathered */
     uint64_t revision;  /* of the user's triangles in it */
-    uint32_t mask, announced, reserved[2];
+    uint32_t mask, announced;
     tahr__fences fences;
     tahr__frame frame;
     tahr_bounds bounds; /* world: what was announced, grown by the margin */
@@ -385,17 +391,19 @@ uint32_t tahr__vicinity_way(const tahr__query *query);
 int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
 /* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */
 int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
-/* What a walk may meet of what is above the floor: what is not farther than this from the place. */
+/* A walk of which it is not known what it may meet of what is above the floor: what is not farther than `most` from the
+ * place; or of that only what is behind some fences. */
 typedef struct tahr__doubt {
-    double most;  /* m */
-    double until; /* of the motion of the foot */
-    uint32_t fences, reserved; /* and behind these, a bit each */
+    tahr_vec3 body_start, body_motion, foot_start, foot_motion; /* local */
+    double half;                                                /* of the body */
+    double most;                                                /* m */
+    double until;                                               /* of the motion of the foot */
+    uint32_t fences, reserved;                                  /* a bit each; 0: all */
 } tahr__doubt;
-/* Of a body that stays OVER the floor and then its foot that goes DOWN on it: is nothing of that met? Of both only what
- * plane.h reads is set. The second asks only what is behind the fences. */
-int tahr__vicinity_passes(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt);
-int tahr__vicinity_passes_fences(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt);
-/* Of the same, whole: finds out what a footing needs to know. 1: something of it is new. */
+/* Is nothing of it met? */
+int tahr__doubt_settle(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
+                       const tahr__doubt *doubt);
+/* Of a body that stays OVER the floor, and then its foot that goes DOWN: finds out what a footing needs to know. 1: something of it is new. */
 int tahr__vicinity_learn(const tahr__query *body, const tahr__query *foot);
 /* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting
  * anything; < 0: not known. What has not been gathered may be anywhere. */

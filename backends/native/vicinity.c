@@ -17,7 +17,9 @@
 #define LOOK 0.4
 #define FARTHEST 16.0
 /* So far (m) beyond the reach it is looked for what is nearest of all that is above the floor. */
-#define ROUND 0.6
+#define ROUND 0.45
+#define WIDE_ROUND 2.0
+enum { FEW = 24 };
 /* Longer motions (m) are spanned by no place. */
 #define LONGEST 0.5
 /* Taken off what is known, against rounding and arrival (TAHR__ARRIVED) (m). */
@@ -213,7 +215,20 @@ int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit)
     return 1;
 }
 
-int tahr__vicinity_passes(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt)
+/* Of a query only what plane.h reads of it, and tahr__ground_see. */
+static void ask_of(tahr__query *query, const tahr__native *world, tahr_query_context *context, tahr_vec3 start,
+                   tahr_vec3 motion)
+{
+    query->world = world;
+    query->context = context;
+    query->cache = context->cache;
+    query->frame = &query->cache->frame;
+    query->start = start;
+    query->motion = motion;
+    query->motion_length = v_length(motion);
+}
+
+static int settle_all(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt)
 {
     tahr__lanes_found found[TAHR__CACHE_MOST];
     const int near = passes(body, doubt->most, 1, 1, found);
@@ -224,18 +239,32 @@ int tahr__vicinity_passes(const tahr__query *body, const tahr__query *foot, cons
     return near >= 0;
 }
 
-int tahr__vicinity_passes_fences(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt)
+static int settle_fences(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt)
 {
-    const tahr__cache *cache = body->cache;
+    const tahr__fences *fences = &body->cache->fences;
     const float *far = tahr__cache_far(body->cache), most = most_of(doubt->most);
     const double until = tied(foot, doubt->until);
     for (uint32_t i = 0; i < TAHR__FENCES; i++) {
-        const uint32_t index = cache->fences.of[i];
-        if (!(doubt->fences >> i & 1) || far[index] > most) continue;
-        const tahr__prim *prim = tahr__formed(body, index);
+        if (!(doubt->fences >> i & 1) || far[fences->of[i]] > most) continue;
+        const tahr__prim *prim = tahr__formed(body, fences->of[i]);
         if (!is_passed(body, prim, 1) || !is_passed(foot, prim, until)) return 0;
     }
     return 1;
+}
+
+int tahr__doubt_settle(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
+                       const tahr__doubt *doubt)
+{
+    tahr__query body, foot;
+    ask_of(&body, world, context, doubt->body_start, doubt->body_motion);
+    ask_of(&foot, world, context, doubt->foot_start, doubt->foot_motion);
+    body.half = doubt->half;
+    body.core.axis_count = doubt->half > 0;
+    foot.half = foot.core.axis_count = 0;
+    body.radius = walk->shape->radius;
+    foot.radius = walk->foot->radius;
+    body.margin = foot.margin = walk->margin;
+    return doubt->fences ? settle_fences(&body, &foot, doubt) : settle_all(&body, &foot, doubt);
 }
 
 /* The nearest of those above the floor, nearest first; what is left over is no nearer than `rest`. */
@@ -266,7 +295,7 @@ static void clear_around(const tahr__query *query)
     tahr__cache *cache = query->cache;
     tahr__footing *f = &cache->footing;
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    const double most = reach_of(query) + ROUND;
+    const double most = reach_of(query) + (cache->count <= FEW ? WIDE_ROUND : ROUND);
     nearest near = {.count = 0, .rest = most_of(most)};
     if (f->clear > 0) return;
     const uint32_t count = pick(query, most, 1, found);
