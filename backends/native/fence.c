@@ -76,22 +76,26 @@ static float by_box(const float *blocks, uint32_t i, const tahr__lanes_query *q,
     return away;
 }
 
-int tahr__fences_put(tahr__fences *fences, uint32_t i, const float *blocks, uint32_t index,
+void tahr__fences_clear(tahr__fences *fences)
+{
+    for (uint32_t i = 0; i < TAHR__FENCES; i++) {
+        fences->x[i] = fences->y[i] = fences->z[i] = 0;
+        fences->far[i] = NOWHERE;
+        fences->of[i] = TAHR__NONE;
+    }
+}
+
+int tahr__fences_put(tahr__fences *fences, uint32_t i, const tahr__lanes *lanes, uint32_t index,
                      const tahr__lanes_query *at)
 {
-    plane p = {0, 0, 0, NOWHERE}, box;
-    float away = 1;
-    if (index != TAHR__NONE) {
-        away = by_planes(blocks, index, at, &p);
-        const float by = away > NEAREST ? 0 : by_box(blocks, index, at, &box);
-        if (by > away) p = box, away = by;
-    }
+    plane p;
+    if (!(by_planes(lanes->blocks, index, at, &p) > 0) && !(by_box(lanes->blocks, index, at, &p) > 0)) return 0;
     fences->x[i] = p.x;
     fences->y[i] = p.y;
     fences->z[i] = p.z;
     fences->far[i] = p.far;
     fences->of[i] = index;
-    return away > 0;
+    return 1;
 }
 
 uint32_t tahr__fences_fail(const tahr__fences *fences, tahr_vec3 p, double top, double reach)

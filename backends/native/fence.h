@@ -6,9 +6,11 @@
 
 #include "scene.h"
 
-/* Puts the fence of a primitive of the lanes, seen from an upright segment at rest; index TAHR__NONE: none. 0: the
- * segment is not apart from it, and there is none. */
-int tahr__fences_put(tahr__fences *fences, uint32_t i, const float *blocks, uint32_t index,
+/* There are none. */
+void tahr__fences_clear(tahr__fences *fences);
+/* Puts the fence of a primitive, seen from an upright segment at rest. 0: that is not apart from it, and there is
+ * none. */
+int tahr__fences_put(tahr__fences *fences, uint32_t i, const tahr__lanes *lanes, uint32_t index,
                      const tahr__lanes_query *at);
 
 /* How far an upright segment, from z up to top, is from what is behind a fence, at least (m). */

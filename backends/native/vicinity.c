@@ -19,7 +19,6 @@
 /* So far (m) beyond the reach it is looked for what is nearest of all that is above the floor. */
 #define ROUND 0.45
 #define WIDE_ROUND 2.0
-enum { FEW = 24 };
 /* Longer motions (m) are spanned by no place. */
 #define LONGEST 0.5
 /* Taken off what is known, against rounding and arrival (TAHR__ARRIVED) (m). */
@@ -289,26 +288,36 @@ static void put_nearest(nearest *n, const tahr__lanes_found *one)
     n->found[i] = *one;
 }
 
+/* Those no farther than this from the place. */
+static void find_nearest(const tahr__query *query, double most, nearest *near)
+{
+    tahr__lanes_found found[TAHR__CACHE_MOST];
+    const uint32_t count = pick(query, most, 1, found);
+    near->count = 0;
+    near->rest = most_of(most);
+    for (uint32_t i = 0; i < count; i++) {
+        if (ground_side(query, found[i].index) < TAHR__BELOW) put_nearest(near, &found[i]);
+    }
+}
+
 /* How far all is that is above the floor, but for what is nearest, which is fenced off; once a look. */
 static void clear_around(const tahr__query *query)
 {
     tahr__cache *cache = query->cache;
     tahr__footing *f = &cache->footing;
-    tahr__lanes_found found[TAHR__CACHE_MOST];
-    const double most = reach_of(query) + (cache->count <= FEW ? WIDE_ROUND : ROUND);
-    nearest near = {.count = 0, .rest = most_of(most)};
+    nearest near;
     if (f->clear > 0) return;
-    const uint32_t count = pick(query, most, 1, found);
-    for (uint32_t i = 0; i < count; i++) {
-        if (ground_side(query, found[i].index) < TAHR__BELOW) put_nearest(&near, &found[i]);
-    }
+    find_nearest(query, reach_of(query) + ROUND, &near);
+    if (near.count == 0) find_nearest(query, reach_of(query) + WIDE_ROUND, &near);
     f->fenced = near.count > 0;
-    const float *blocks = tahr__cache_blocks(query->world, cache);
-    const tahr__lanes_query at = tahr__lanes_at(f->at, f->half, 0);
-    for (uint32_t i = 0; i < TAHR__FENCES; i++) {
-        const int there = i < near.count;
-        const uint32_t index = there ? near.found[i].index : TAHR__NONE;
-        if (!tahr__fences_put(&cache->fences, i, blocks, index, &at)) near.rest = d_min(near.rest, near.found[i].time);
+    if (f->fenced) {
+        const tahr__lanes lanes = tahr__cache_lanes(query->world, cache);
+        const tahr__lanes_query at = tahr__lanes_at(f->at, f->half, 0);
+        tahr__fences_clear(&cache->fences);
+        for (uint32_t i = 0; i < near.count; i++) {
+            const tahr__lanes_found *one = &near.found[i];
+            if (!tahr__fences_put(&cache->fences, i, &lanes, one->index, &at)) near.rest = d_min(near.rest, one->time);
+        }
     }
     f->clear = d_max((near.rest - TAHR__LANE_SLACK) * (1 - 4e-6), SPARE);
 }
