@@ -78,16 +78,19 @@ static float side_of(const tahr__query *query, const tahr__level *l, const tahr_
     return highest <= LEVEL && is_flat(v, d_min(h[0], d_min(h[1], h[2]))) ? TAHR__IN_IT : TAHR__ABOVE;
 }
 
-/* What stands over the floor by more than HIGH (m), as its box tells, where the floor leans by less over the width of
- * that. */
+/* What its box tells without its corners: TAHR__UNSEEN, if it does not. What stands over the floor by more than HIGH (m)
+ * is ABOVE; what is wholly below it by more than the rounding of boxes is BELOW. */
 #define HIGH 0.05
-static int stands_over(const tahr__query *query, const tahr__level *l, uint32_t index)
+#define BOXED 1e-4
+static float side_by_box(const tahr__query *query, const tahr__level *l, uint32_t index)
 {
     const float *blocks = tahr__cache_blocks(query->world, query->cache);
     const float *low = blocks + tahr__lane(index, TAHR__LANE_LOW), *high = blocks + tahr__lane(index, TAHR__LANE_HIGH);
-    const tahr_vec3 n = l->normal, top = v_make(low[0], low[TAHR__LANES], high[2 * TAHR__LANES]);
-    const double lean = fabs(n.x) * (high[0] - low[0]) + fabs(n.y) * (high[TAHR__LANES] - low[TAHR__LANES]);
-    return v_dot(n, v_sub(top, l->at)) > lean + HIGH * l->length;
+    const tahr_vec3 n = l->normal, top = v_make(low[0], low[TAHR__LANES], high[2 * TAHR__LANES]),
+                    width = v_make((double)high[0] - low[0], (double)high[TAHR__LANES] - low[TAHR__LANES], 0);
+    const double height = v_dot(n, v_sub(top, l->at)), lean = fabs(n.x) * width.x + fabs(n.y) * width.y;
+    if (height > lean + HIGH * l->length) return TAHR__ABOVE;
+    return height + lean < -BOXED * l->length ? TAHR__BELOW : TAHR__UNSEEN;
 }
 
 float tahr__ground_see(const tahr__query *query, uint32_t index)
@@ -95,7 +98,9 @@ float tahr__ground_see(const tahr__query *query, uint32_t index)
     float *side = &tahr__cache_lift(query->world, query->cache)[index];
     const tahr__prim *prim = &tahr__cache_prims(query->world, query->cache)[index];
     const tahr__level *floor = &query->cache->vicinity.floor;
-    return *side = stands_over(query, floor, index) ? TAHR__ABOVE : side_of(query, floor, prim);
+    const uint32_t other = TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR;
+    const float boxed = prim->kind & other ? TAHR__UNSEEN : side_by_box(query, floor, index);
+    return *side = boxed != TAHR__UNSEEN ? boxed : side_of(query, floor, prim);
 }
 
 /* All are to be looked at again. */

@@ -19,6 +19,7 @@
 /* So far (m) beyond the reach it is looked for what is nearest of all that is above the floor. */
 #define ROUND 0.45
 #define WIDE_ROUND 2.0
+enum { FEW = 16 };
 /* Longer motions (m) are spanned by no place. */
 #define LONGEST 0.5
 /* Taken off what is known, against rounding and arrival (TAHR__ARRIVED) (m). */
@@ -308,7 +309,7 @@ static void clear_around(const tahr__query *query)
     nearest near;
     if (f->clear > 0) return;
     find_nearest(query, reach_of(query) + ROUND, &near);
-    if (near.count == 0) find_nearest(query, reach_of(query) + WIDE_ROUND, &near);
+    if (near.count == 0 && cache->count <= FEW) find_nearest(query, reach_of(query) + WIDE_ROUND, &near);
     f->fenced = near.count > 0;
     if (f->fenced) {
         const tahr__lanes lanes = tahr__cache_lanes(query->world, cache);
