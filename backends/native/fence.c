@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * fence.c: planes between a place and the primitives nearest to it, from their lanes. */
+ * fence.c: planes between a place and the primitives nearest to it, from their lanes.
+ *
+ * The planes of lanes are right within a quarter of TAHR__LANE_SLACK (lanes.h), and so is what lies between two of them
+ * that are upright to each other, but for a factor of 1.5; products of places of a frame, which are within 16 m, add
+ * 5e-6 m. Who keeps a reach and TAHR__LANE_SLACK off a fence keeps that reach off what is behind it. */
 #include "fence.h"
 
 /* Nothing is as near as that. */
@@ -104,6 +108,6 @@ uint32_t tahr__fences_fail(const tahr__fences *fences, tahr_vec3 p, double top, 
                 most = (float)(reach + TAHR__LANE_SLACK);
     uint32_t bits = 0;
     for (int i = 0; i < TAHR__FENCES; i++)
-        bits |= (uint32_t)!(tahr__fence_off(fences, i, x, y, z, high) > most) << i;
+        bits |= (uint32_t) !(tahr__fence_off(fences, i, x, y, z, high) > most) << i;
     return bits;
 }

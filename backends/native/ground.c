@@ -177,9 +177,10 @@ static int is_beside(const tahr__query *query, uint32_t index)
     return 0;
 }
 
-/* A triangle whose normal goes up by less is asked at length: far from what probe.c takes for along a face, even where
- * the exact normal is off the triangle's by what it allows (2.6 degrees). */
+/* A triangle whose normal goes up by less, or is off its exact one by more (its cosine), is asked at length: far from
+ * what probe.c takes for along a face, and a little less than it allows between the two. */
 #define STEEP 0.2
+#define ALIKE 0.9991
 
 /* What a walk on it reads (footing.c). */
 static void know_triangle(const tahr__query *query, const tahr__prim *prim)
@@ -190,7 +191,7 @@ static void know_triangle(const tahr__query *query, const tahr__prim *prim)
     f->on = facet->v[0];
     f->length = facet->length;
     f->inverse = 1.0 / facet->length;
-    f->steep = f->cross.z < STEEP * f->length;
+    f->steep = f->cross.z < STEEP * f->length || v_dot(query->cache->vicinity.face, f->cross) < ALIKE * f->length;
     f->normal = tahr__frame_to_world(query->frame, query->cache->vicinity.face);
     f->walkable_angle = prim->walkable_angle;
     f->walkable_rule = prim->walkable_rule;

@@ -170,14 +170,15 @@ typedef struct tahr__footing {
     tahr_vec3 at;         /* local, the middle of an upright segment at the place where all has been measured */
     double half;          /* of it */
     double clear; /* m: nothing but what lies in the floor or below it, or behind a fence, is nearer; 0: not known */
-    tahr_vec3 cross, on;  /* of the triangle under the spot: its normal, up and not unit, and a corner */
+    tahr_vec3 cross, on; /* of the triangle under the spot: its normal, up and not unit, and a corner */
     double length, inverse;
     tahr_vec3 spot; /* on the floor */
-    double inside;  /* m: so far around it there is that triangle of the floor alone, well inside of its edges; <= 0: none */
+    double
+        inside; /* m: so far around it there is that triangle of the floor alone, well inside of its edges; <= 0: none */
     tahr_vec3 normal; /* the exact one, world, toward the character */
     double walkable_angle;
     uint32_t walkable_rule, surface, body, feature;
-    uint32_t under; /* index of the triangle */
+    uint32_t under;  /* index of the triangle */
     uint32_t turned; /* as of the frame */
     uint32_t fenced; /* 1: there are fences */
     uint32_t steep;  /* 1: what is said here does not hold for so steep a triangle */
@@ -194,8 +195,8 @@ typedef struct tahr__fences {
 /* What else is known of the place (vicinity.c, ground.c): the distances are behind the header of the cache. */
 typedef struct tahr__vicinity {
     tahr__level floor; /* of this frame: what stopped the last foot */
-    double alone;      /* m around the spot (<= 0: none) where no triangle of the floor reaches over the edges of `under` */
-    double scope;      /* m: so far around the next spot others are looked for */
+    double alone; /* m around the spot (<= 0: none) where no triangle of the floor reaches over the edges of `under` */
+    double scope; /* m: so far around the next spot others are looked for */
     tahr_vec3 across[3];      /* outward of those edges, not unit; what is on one has this much along it, */
     double border[3], hem[3]; /* and this much less is well inside */
     tahr_vec3 face;           /* the exact normal of that, toward the character */
@@ -391,29 +392,9 @@ uint32_t tahr__vicinity_way(const tahr__query *query);
 int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
 /* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */
 int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
-/* A walk of which it is not known what it may meet of what is above the floor: what is not farther than `most` from the
- * place; or of that only what is behind some fences. */
-typedef struct tahr__doubt {
-    tahr_vec3 body_start, body_motion, foot_start, foot_motion; /* local */
-    double half;                                                /* of the body */
-    double most;                                                /* m */
-    double until;                                               /* of the motion of the foot */
-    uint32_t fences, reserved;                                  /* a bit each; 0: all */
-} tahr__doubt;
-/* Is nothing of it met? */
-int tahr__doubt_settle(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
-                       const tahr__doubt *doubt);
-/* Of a body that stays OVER the floor, and then its foot that goes DOWN: finds out what a footing needs to know. 1: something of it is new. */
-int tahr__vicinity_learn(const tahr__query *body, const tahr__query *foot);
 /* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting
  * anything; < 0: not known. What has not been gathered may be anywhere. */
 double tahr__vicinity_room(const tahr__query *query);
-
-/* footing.c: a walk over the floor, and a foot that comes down on it: LANDED and the hit; BARRED: something may be in the
- * way; UNCLEAR: there is more to find out. The cache has to be of the revision of the world. */
-enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
-uint32_t tahr__footing_walk(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
-                            tahr_hit *hit);
 
 /* m from a place (world) to everything that is static: 0 within the bounds of all of it, and no more than 16. */
 double tahr__outside_of_all(const tahr__native *world, tahr_vec3 position);

@@ -8,6 +8,7 @@
  * triangle under it. Nothing here decides anything but what is asked: every answer has the bits of one from the whole
  * cache (no_vicinity). */
 #include "fence.h"
+#include "footing.h"
 #include "form.h"
 #include "ground.h"
 #include "plane.h"
@@ -271,7 +272,7 @@ int tahr__doubt_settle(const tahr__native *world, tahr_query_context *context, c
 typedef struct nearest {
     tahr__lanes_found found[TAHR__FENCES];
     uint32_t count;
-    float rest;
+    double rest;
 } nearest;
 
 static void put_nearest(nearest *n, const tahr__lanes_found *one)
@@ -339,8 +340,8 @@ double tahr__vicinity_room(const tahr__query *query)
     float least = (float)FARTHEST;
     for (uint32_t i = 0; i < query->cache->count; i++)
         least = far[i] < least ? far[i] : least;
-    const double nearest = (least - TAHR__LANE_SLACK) * (1 - 4e-6) - sqrt(away2(query, query->start));
-    return d_min(nearest, d_min(edge.x, d_min(edge.y, edge.z))) - reach_of(query) - 2 * SPARE;
+    const double far_off = (least - TAHR__LANE_SLACK) * (1 - 4e-6) - sqrt(away2(query, query->start));
+    return d_min(far_off, d_min(edge.x, d_min(edge.y, edge.z))) - reach_of(query) - 2 * SPARE;
 }
 
 void tahr__vicinity_forget(const tahr__native *world, tahr__cache *cache)

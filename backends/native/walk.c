@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * walk.c: the walk slot: the way and the floor under its end, from what is known of the vicinity. It never looks around
  * itself: the sweeps do when it does not know, and they alone follow an announcement. */
-#include "scene.h"
+#include "footing.h"
 
 static tahr_vec3 turned(const tahr__frame *frame, tahr_vec3 v)
 {
