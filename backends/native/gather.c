@@ -212,17 +212,18 @@ static void collect_best(gather *g, int again)
 
 /* Which primitives stopped the last motions, by their names: they have another index afterwards. */
 typedef struct stoppers {
-    uint32_t body[2], item[2];
+    uint32_t body[TAHR__KINDS], item[TAHR__KINDS], kind[TAHR__KINDS], count;
 } stoppers;
 
 static stoppers stoppers_of(const tahr__cache *cache, const tahr__prim *prims)
 {
-    stoppers s = {{TAHR_NO_BODY, TAHR_NO_BODY}, {0, 0}};
-    for (int k = 0; k < 2 && cache->gathered; k++) {
+    stoppers s = {.count = 0};
+    for (uint32_t k = 0; k < TAHR__KINDS && cache->gathered; k++) {
         const tahr__prim *p = &prims[cache->recent[k]];
         if (cache->recent[k] >= cache->count || (p->item & TAHR__ITEM_LOOSE)) continue;
-        s.body[k] = p->body;
-        s.item[k] = p->item;
+        s.body[s.count] = p->body;
+        s.item[s.count] = p->item;
+        s.kind[s.count++] = k;
     }
     return s;
 }
@@ -232,15 +233,16 @@ static stoppers stoppers_of(const tahr__cache *cache, const tahr__prim *prims)
 static void find_stoppers(const gather *g, const stoppers *s)
 {
     tahr__cache *cache = g->cache;
-    cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
-    for (uint32_t i = 0; i < cache->count; i++) {
+    for (uint32_t k = 0; k < TAHR__KINDS; k++)
+        cache->recent[k] = TAHR__CACHE_MOST;
+    for (uint32_t i = 0; i < cache->count && s->count > 0; i++) {
         const tahr__prim *p = &g->prims[i];
-        for (int k = 0; k < 2; k++) {
-            if (p->item == s->item[k] && p->body == s->body[k]) cache->recent[k] = i;
+        for (uint32_t k = 0; k < s->count; k++) {
+            if (p->item == s->item[k] && p->body == s->body[k]) cache->recent[s->kind[k]] = i;
         }
     }
-    if (cache->recent[1] >= cache->count) return;
-    tahr__prim *foot = &g->prims[cache->recent[1]];
+    if (cache->recent[TAHR__OF_FOOT] >= cache->count) return;
+    tahr__prim *foot = &g->prims[cache->recent[TAHR__OF_FOOT]];
     if (foot->kind & TAHR__UNFORMED) tahr__form_rest(g->search.query->world, &cache->frame, foot);
 }
 

@@ -57,32 +57,82 @@ static inline double plane_earliest(const tahr__query *query, const tahr__prim *
 
 /* Taken off distances, so that no rounding of what follows, a thousandth of it, makes a time too late (m). */
 #define ROOM 1e-7
+/* Sine up to which a plane is upright enough for either end of a segment to be the nearest. */
+#define UPRIGHT 1e-6
+
+/* The way from the edge of a triangle that a point is farthest beyond. */
+typedef struct beyond {
+    tahr_vec3 toward; /* m, across the edge to the point, and off the plane by h */
+    double away2;     /* m2, its square; 0: it is beyond no edge */
+    int edge;
+} beyond;
+
+/* d: from the triangle's first corner to the point, or to the middle of a box; h: off the plane. */
+static inline beyond edge_beyond(const tahr__query *query, const tahr__facet *f, tahr_vec3 d, const tahr_vec3 e[3],
+                                 double h)
+{
+    const int is_box = query->core.axis_count > 1;
+    const tahr_vec3 n = f->cross, x = v_cross(d, n);
+    const double length2 = f->length * f->length;
+    /* Beyond edge i by out[i] times its length and that of n; the sum of the three is -n . n. */
+    double out[3] = {-v_dot(e[0], x), 0, -v_dot(e[2], x)}, o = 0, e2 = 1;
+    out[1] = -length2 - out[0] - out[2];
+    beyond b = {{0, 0, 0}, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        const double more = is_box ? out[i] - tahr__box_extent(query, v_cross(e[i], n)) : out[i];
+        if (more <= 0) continue;
+        const double size2 = v_dot(e[i], e[i]);
+        if (more * more * e2 <= o * o * size2) continue;
+        o = more;
+        e2 = size2;
+        b.edge = i;
+    }
+    if (o == 0) return b;
+    const double scale = 1 / (e2 * length2);
+    b.toward = v_mad(v_scale(v_cross(e[b.edge], n), o * scale), n, h * e2 * scale);
+    b.away2 = (o * o + h * h * e2) * scale;
+    return b;
+}
+
+/* Across an edge and level: which way a segment and an edge are apart that are nearest somewhere between their ends. */
+static inline tahr_vec3 across_level(const beyond *b, tahr_vec3 along)
+{
+    const double side = along.y * b->toward.x - along.x * b->toward.y;
+    return side < 0 ? v_make(-along.y, along.x, 0) : v_make(along.y, -along.x, 0);
+}
 
 /* The same by the edges, not before `earliest`, what the plane says: for ordering and leaving out, not to begin at.
- * Seen along an edge the triangle is a ray, and the core a point h above its line and o beyond its end; the plane
- * through that end across the way to the point separates them. Of the edges the one that is farthest is asked. */
+ * Seen along an edge the triangle is a ray, and an end of the core a point h above its line and o beyond its end; the
+ * plane through that end across the way to the point separates them. Of the edges the one that is farthest is asked, of
+ * a segment the end that is nearest to the plane of the triangle, or either, if that is upright. Where the other end is
+ * nearer along that way both are as near across the edge and up; then the corners say how far. */
 static inline double edges_earliest(const tahr__query *query, const tahr__prim *prim, double limit, double earliest)
 {
     if (prim->kind & TAHR__PLANELESS) return earliest;
     const tahr__facet *f = &prim->facet;
-    double reach = query->radius + query->margin + ROOM, length2 = f->length * f->length, far2 = 0, far_rate = 0;
-    tahr_vec3 n = f->cross, d = v_sub(v_mad(query->start, query->motion, earliest), f->v[0]), x = v_cross(d, n);
-    tahr_vec3 e[3] = {v_sub(f->v[1], f->v[0]), v_sub(f->v[2], f->v[1]), v_sub(f->v[0], f->v[2])};
-    /* Beyond edge i by out[i] times its length and that of n; the sum of the three is -n . n. */
-    double out[3] = {-v_dot(e[0], x), 0, -v_dot(e[2], x)};
-    out[1] = -length2 - out[0] - out[2];
-    for (int i = 0; i < 3; i++) {
-        tahr_vec3 across = v_cross(e[i], n);
-        double o = out[i] - extent_along(query, across), e2 = v_dot(e[i], e[i]) * length2;
-        if (o <= 0 || o * o <= far2 * e2) continue;
-        far2 = o * o / e2;
-        far_rate = o * v_dot(across, query->motion) / e2;
+    const double reach = query->radius + query->margin + ROOM;
+    const tahr_vec3 n = f->cross, e[3] = {v_sub(f->v[1], f->v[0]), v_sub(f->v[2], f->v[1]), v_sub(f->v[0], f->v[2])};
+    tahr_vec3 d = v_sub(v_mad(query->start, query->motion, earliest), f->v[0]);
+    double height = v_dot(n, d), h = d_max(fabs(height) - extent_along(query, n), 0);
+    double end = (height < 0) == (n.z < 0) ? -query->half : query->half;
+    h = height < 0 ? -h : h;
+    d.z += end;
+    beyond b = edge_beyond(query, f, d, e, h);
+    if (b.away2 <= reach * reach) return earliest;
+    if (b.toward.z * end > 0 && fabs(n.z) < UPRIGHT * f->length) {
+        end = -end;
+        d.z += 2 * end;
+        b = edge_beyond(query, f, d, e, h);
+        if (b.away2 <= reach * reach) return earliest;
     }
-    double height = v_dot(n, d), h = d_max(fabs(height) - extent_along(query, n), 0), away2 = far2 + h * h / length2;
-    if (far2 == 0 || away2 <= reach * reach) return earliest;
-    double h_rate = h * v_dot(n, query->motion) / length2, away = sqrt(away2);
-    double rate = -(far_rate + (height < 0 ? -h_rate : h_rate));
-    return earliest + closing_time((away - reach) * away, rate, limit - earliest);
+    double gap = b.away2;
+    if (b.toward.z * end > 0) {
+        b.toward = across_level(&b, e[b.edge]);
+        gap = v_dot(b.toward, d) - d_max(0, d_max(v_dot(b.toward, e[0]), -v_dot(b.toward, e[2])));
+        b.away2 = v_dot(b.toward, b.toward);
+    }
+    gap -= reach * sqrt(b.away2);
+    return gap > 0 ? earliest + closing_time(gap, -v_dot(b.toward, query->motion), limit - earliest) : earliest;
 }
 
 #endif

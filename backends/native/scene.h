@@ -177,6 +177,10 @@ typedef struct tahr__vicinity {
     uint32_t rest, rests; /* feet until a spot is looked for again, and after the next that was none */
 } tahr__vicinity;
 
+/* Kinds of motions that are stopped by other things: of a segment, and of one that is lowered; of what else there is, most
+ * of all feet, and of a foot thinner than the last of those, as on the rim of a perch. */
+enum { TAHR__OF_BODY, TAHR__OF_FOOT, TAHR__OF_THINNER, TAHR__OF_LOWERED, TAHR__KINDS };
+
 /* One character's memory (gather.c): */
 typedef struct tahr__cache {
     tahr__frame frame;
@@ -188,7 +192,9 @@ typedef struct tahr__cache {
     uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
     uint64_t revision;  /* of the user's triangles in it */
     double margin;      /* to gather with the next time, 0: the most */
-    uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
+    double foot;        /* m, radius of the last foot */
+    /* Index of what stopped the last motion of a kind: likely to stop the next. */
+    uint32_t recent[TAHR__KINDS];
     tahr__vicinity vicinity;
 } tahr__cache;
 

@@ -258,13 +258,22 @@ static void ask(sweep_state *s, const tahr__prim *prim)
     if (t <= s->limit) probe(s, prim, t);
 }
 
+static uint32_t kind_of(const tahr__query *query)
+{
+    const tahr_vec3 m = query->motion;
+    tahr__cache *cache = query->cache;
+    if (query->core.axis_count == 1) return -m.z > fabs(m.x) + fabs(m.y) ? TAHR__OF_LOWERED : TAHR__OF_BODY;
+    if (query->radius < cache->foot) return TAHR__OF_THINNER;
+    cache->foot = query->radius;
+    return TAHR__OF_FOOT;
+}
+
 static void search_cache(sweep_state *s)
 {
     const tahr__query *query = s->search.query;
     const tahr__prim *prims;
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    uint32_t *recent = &query->cache->recent[query->core.axis_count != 1],
-             count = tahr__cache_cull(&s->search, &prims, found);
+    uint32_t *recent = &query->cache->recent[kind_of(query)], count = tahr__cache_cull(&s->search, &prims, found);
     for (uint32_t i = 0; i < count; i++) {
         if (found[i].index != *recent) continue;
         found[i] = found[--count];
