@@ -324,10 +324,23 @@ static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
     q->reach = query->core.axis_count < 2 ? (float)(s->reach + TAHR__LANE_SLACK + 1e-6 * query->motion_length) : 1e30f;
 }
 
+/* Do all that have been gathered concern a query? */
+static int is_plain(const tahr__query *query)
+{
+    const tahr__cache *cache = query->cache;
+    return cache->plain && query->mask == cache->mask && query->ignore_body == TAHR_NO_BODY &&
+           query->sensors != TAHR__SENSORS_ONLY;
+}
+
 static int concerns(const tahr__query *query, const tahr__prim *prim)
 {
     if (!(prim->mask & query->mask) || prim->body == query->ignore_body) return 0;
     return query->sensors != (prim->kind & TAHR__SENSOR ? TAHR__SENSORS_NONE : TAHR__SENSORS_ONLY);
+}
+
+int tahr__cache_concerns(const tahr__query *query, uint32_t index)
+{
+    return is_plain(query) || concerns(query, &tahr__cache_prims(query->world, query->cache)[index]);
 }
 
 /* What is near enough to be asked is formed in full. */
@@ -346,8 +359,7 @@ uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr_
     tahr__lanes_query q;
     lanes_query(s, &q);
     uint32_t count = query->world->lanes->cull(&lanes, &q, found), kept = 0;
-    if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY &&
-        query->sensors != TAHR__SENSORS_ONLY) {
+    if (is_plain(query)) {
         form_found(query, found, count);
         return count;
     }

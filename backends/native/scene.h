@@ -333,6 +333,8 @@ enum { TAHR__CACHE_MOST = 4096 };
 int tahr__cache_holds(const tahr__search *search);
 /* Which cached primitives (prims[found[i].index]) may be within reach, and when. Returns how many, at most
  * TAHR__CACHE_MOST. */
+/* Does one of them concern a query? */
+int tahr__cache_concerns(const tahr__query *query, uint32_t index);
 uint32_t tahr__cache_cull(const tahr__search *search, const tahr__prim **prims, tahr__lanes_found *found);
 size_t tahr__cache_bytes(const tahr__native *world);
 #define TAHR__NONE 0xFFFFFFFFu

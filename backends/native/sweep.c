@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * sweep.c: the sweep slot: the first blocking contact of a moving shape and the sensors before it. */
+#include "form.h"
 #include "plane.h"
 #include "scene.h"
 
@@ -250,14 +251,6 @@ static void line_up_found(sweep_state *s, const tahr__prim *prims, const tahr__l
     settle(s);
 }
 
-/* What stopped the last such motion goes first: what it leaves of this one is most often so little that the others are
- * soon too late. */
-static void ask(sweep_state *s, const tahr__prim *prim)
-{
-    double t = plane_earliest(s->search.query, prim, s->limit);
-    if (t <= s->limit) probe(s, prim, t);
-}
-
 static uint32_t kind_of(const tahr__query *query)
 {
     const tahr_vec3 m = query->motion;
@@ -268,19 +261,39 @@ static uint32_t kind_of(const tahr__query *query)
     return TAHR__OF_FOOT;
 }
 
+/* What stopped the last such motion goes first: what it leaves of this one is most often so little that little else is
+ * near it. Its corners say whether it is. */
+static void ask_recent(sweep_state *s, uint32_t index)
+{
+    const tahr__query *query = s->search.query;
+    tahr__cache *cache = query->cache;
+    if (index >= cache->count || !tahr__cache_concerns(query, index)) return;
+    const tahr__prim *prim = tahr__formed(query, index);
+    const tahr_vec3 *v = prim->facet.v, low = v_min(v[0], v_min(v[1], v[2])), high = v_max(v[0], v_max(v[1], v[2]));
+    const double reach = s->search.reach + TAHR__SLACK;
+    const tahr_bounds *box = &s->search.box;
+    const int near = (low.x - reach <= box->max.x) & (low.y - reach <= box->max.y) & (low.z - reach <= box->max.z) &
+                     (high.x + reach >= box->min.x) & (high.y + reach >= box->min.y) & (high.z + reach >= box->min.z);
+    if (!near && !(prim->kind & TAHR__PLANELESS)) return;
+    const double t = plane_earliest(query, prim, s->limit);
+    if (t > s->limit) return;
+    probe(s, prim, t);
+    if (s->limit < 1) s->search.box = tahr__query_box(query, s->limit);
+}
+
 static void search_cache(sweep_state *s)
 {
     const tahr__query *query = s->search.query;
     const tahr__prim *prims;
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    uint32_t *recent = &query->cache->recent[kind_of(query)], count = tahr__cache_cull(&s->search, &prims, found);
+    uint32_t *recent = &query->cache->recent[kind_of(query)], kept = 0;
+    ask_recent(s, *recent);
+    const uint32_t count = tahr__cache_cull(&s->search, &prims, found);
     for (uint32_t i = 0; i < count; i++) {
-        if (found[i].index != *recent) continue;
-        found[i] = found[--count];
-        ask(s, &prims[*recent]);
-        break;
+        found[kept] = found[i];
+        kept += found[i].index != *recent;
     }
-    line_up_found(s, prims, found, count);
+    line_up_found(s, prims, found, kept);
     if (s->stopper) *recent = (uint32_t)(s->stopper - prims);
 }
 
