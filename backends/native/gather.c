@@ -300,7 +300,9 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     return TAHR_OK;
 }
 
-static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
+/* Seen from where the motion ends: what it only just comes near is farther off from there than it was, by what it looked
+ * like from the begin, and it does not come nearer again before that. */
+static void lanes_query(const tahr__search *s, double until, tahr__lanes_query *q)
 {
     const tahr__query *query = s->query;
     /* d_up alone covers the rounding of the lanes' differences only down to 1e-7 of the reach; the slack covers
@@ -312,12 +314,13 @@ static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
     q->hi[0] = d_up(s->box.max.x);
     q->hi[1] = d_up(s->box.max.y);
     q->hi[2] = d_up(s->box.max.z);
-    q->start[0] = (float)query->start.x;
-    q->start[1] = (float)query->start.y;
-    q->start[2] = (float)query->start.z;
-    q->motion[0] = (float)query->motion.x;
-    q->motion[1] = (float)query->motion.y;
-    q->motion[2] = (float)query->motion.z;
+    const tahr_vec3 back = v_scale(query->motion, -until), end = v_sub(query->start, back);
+    q->start[0] = (float)end.x;
+    q->start[1] = (float)end.y;
+    q->start[2] = (float)end.z;
+    q->motion[0] = (float)back.x;
+    q->motion[1] = (float)back.y;
+    q->motion[2] = (float)back.z;
     q->half = (float)query->half;
     q->lowest = d_down(s->box.min.z);
     /* Boxes are not upright segments: their planes are looked at in double. */
@@ -350,14 +353,14 @@ static void form_found(const tahr__query *query, const tahr__lanes_found *found,
         tahr__formed(query, found[i].index);
 }
 
-uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr__lanes_found *found)
+uint32_t tahr__cache_cull(const tahr__search *s, double until, const tahr__prim **prims, tahr__lanes_found *found)
 {
     const tahr__query *query = s->query;
     tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
     tahr__prim *all = tahr__cache_prims(query->world, query->cache);
     *prims = all;
     tahr__lanes_query q;
-    lanes_query(s, &q);
+    lanes_query(s, until, &q);
     uint32_t count = query->world->lanes->cull(&lanes, &q, found), kept = 0;
     if (is_plain(query)) {
         form_found(query, found, count);
@@ -395,7 +398,7 @@ void tahr__search_run(tahr__search *s)
     if (tahr__cache_holds(s)) {
         const tahr__prim *prims;
         tahr__lanes_found found[TAHR__CACHE_MOST];
-        uint32_t count = tahr__cache_cull(s, &prims, found);
+        uint32_t count = tahr__cache_cull(s, 1, &prims, found);
         for (uint32_t i = 0; i < count; i++)
             s->visit(s, &prims[found[i].index]);
     } else {

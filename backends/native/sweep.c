@@ -246,7 +246,7 @@ static void begin(sweep_state *s, const tahr__query *query)
 static void line_up_found(sweep_state *s, const tahr__prim *prims, const tahr__lanes_found *found, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
-        if (found[i].time <= s->limit) line_up(s, &prims[found[i].index]);
+        line_up(s, &prims[found[i].index]);
     }
     settle(s);
 }
@@ -288,7 +288,7 @@ static void search_cache(sweep_state *s)
     tahr__lanes_found found[TAHR__CACHE_MOST];
     uint32_t *recent = &query->cache->recent[kind_of(query)], kept = 0;
     ask_recent(s, *recent);
-    const uint32_t count = tahr__cache_cull(&s->search, &prims, found);
+    const uint32_t count = tahr__cache_cull(&s->search, s->limit, &prims, found);
     for (uint32_t i = 0; i < count; i++) {
         found[kept] = found[i];
         kept += found[i].index != *recent;
