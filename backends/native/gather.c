@@ -300,9 +300,7 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     return TAHR_OK;
 }
 
-/* Seen from where the motion ends: what it only just comes near is farther off from there than it was, by what it looked
- * like from the begin, and it does not come nearer again before that. */
-static void lanes_query(const tahr__search *s, double until, tahr__lanes_query *q)
+static void lanes_begin(const tahr__search *s, tahr_vec3 start, tahr_vec3 motion, tahr__lanes_query *q)
 {
     const tahr__query *query = s->query;
     /* d_up alone covers the rounding of the lanes' differences only down to 1e-7 of the reach; the slack covers
@@ -314,13 +312,12 @@ static void lanes_query(const tahr__search *s, double until, tahr__lanes_query *
     q->hi[0] = d_up(s->box.max.x);
     q->hi[1] = d_up(s->box.max.y);
     q->hi[2] = d_up(s->box.max.z);
-    const tahr_vec3 back = v_scale(query->motion, -until), end = v_sub(query->start, back);
-    q->start[0] = (float)end.x;
-    q->start[1] = (float)end.y;
-    q->start[2] = (float)end.z;
-    q->motion[0] = (float)back.x;
-    q->motion[1] = (float)back.y;
-    q->motion[2] = (float)back.z;
+    q->start[0] = (float)start.x;
+    q->start[1] = (float)start.y;
+    q->start[2] = (float)start.z;
+    q->motion[0] = (float)motion.x;
+    q->motion[1] = (float)motion.y;
+    q->motion[2] = (float)motion.z;
     q->half = (float)query->half;
     q->lowest = d_down(s->box.min.z);
     /* Boxes are not upright segments: their planes are looked at in double. */
@@ -353,6 +350,22 @@ static void form_found(const tahr__query *query, const tahr__lanes_found *found,
         tahr__formed(query, found[i].index);
 }
 
+uint32_t tahr__cache_guess(const tahr__search *s)
+{
+    const tahr__query *query = s->query;
+    const tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
+    tahr__lanes_found found[TAHR__CACHE_MOST];
+    tahr__lanes_query q;
+    lanes_begin(s, query->start, query->motion, &q);
+    const uint32_t count = query->world->lanes->cull(&lanes, &q, found);
+    uint32_t first = 0;
+    for (uint32_t i = 1; i < count; i++)
+        first = found[i].time < found[first].time ? i : first;
+    return count > 0 ? found[first].index : TAHR__NONE;
+}
+
+/* Seen from where the motion ends: what it only just comes near is farther off from there than it was, by what it looked
+ * like from the begin, and it does not come nearer again before that. */
 uint32_t tahr__cache_cull(const tahr__search *s, double until, const tahr__prim **prims, tahr__lanes_found *found)
 {
     const tahr__query *query = s->query;
@@ -360,7 +373,8 @@ uint32_t tahr__cache_cull(const tahr__search *s, double until, const tahr__prim 
     tahr__prim *all = tahr__cache_prims(query->world, query->cache);
     *prims = all;
     tahr__lanes_query q;
-    lanes_query(s, until, &q);
+    const tahr_vec3 back = v_scale(query->motion, -until);
+    lanes_begin(s, v_sub(query->start, back), back, &q);
     uint32_t count = query->world->lanes->cull(&lanes, &q, found), kept = 0;
     if (is_plain(query)) {
         form_found(query, found, count);

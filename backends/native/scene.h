@@ -333,10 +333,12 @@ enum { TAHR__CACHE_MOST = 4096 };
 int tahr__cache_holds(const tahr__search *search);
 /* Which cached primitives (prims[found[i].index]) may be within reach up to this fraction of the motion. Returns how many,
  * at most TAHR__CACHE_MOST. */
-/* Does one of them concern a query? */
-int tahr__cache_concerns(const tahr__query *query, uint32_t index);
 uint32_t tahr__cache_cull(const tahr__search *search, double until, const tahr__prim **prims,
                           tahr__lanes_found *found);
+/* Does one of them concern a query? */
+int tahr__cache_concerns(const tahr__query *query, uint32_t index);
+/* Which of them comes within reach first, by what single precision tells of planes and edges; TAHR__NONE: none does. */
+uint32_t tahr__cache_guess(const tahr__search *search);
 size_t tahr__cache_bytes(const tahr__native *world);
 #define TAHR__NONE 0xFFFFFFFFu
 /* Exact corners of the cached triangles, three each, and who has one: the first of a bucket and the next corner, at
@@ -368,7 +370,7 @@ int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
 /* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */
 int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
 /* The same of a body that stays OVER the floor, and then its foot that goes DOWN; or something may be in their way, or
- * it is not clear where the floor is. */
+ * nothing is in the way of the body, but it is not clear where the floor is. */
 enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
 int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit);
 /* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting

@@ -281,6 +281,19 @@ static void ask_recent(sweep_state *s, uint32_t index)
     if (s->limit < 1) s->search.box = tahr__query_box(query, s->limit);
 }
 
+/* A foot that comes down far, where so many are around that most are met by no motion but a long one: it is worth a look
+ * which is met first, for few are as early. */
+enum { MANY = 48 };
+
+static uint32_t ask_guess(sweep_state *s, uint32_t asked)
+{
+    const tahr__query *query = s->search.query;
+    if (s->limit < 1 || query->core.axis_count != 0 || query->cache->count < MANY) return TAHR__NONE;
+    const uint32_t guess = tahr__cache_guess(&s->search);
+    if (guess != asked) ask_recent(s, guess);
+    return guess;
+}
+
 static void search_cache(sweep_state *s)
 {
     const tahr__query *query = s->search.query;
@@ -288,10 +301,10 @@ static void search_cache(sweep_state *s)
     tahr__lanes_found found[TAHR__CACHE_MOST];
     uint32_t *recent = &query->cache->recent[kind_of(query)], kept = 0;
     ask_recent(s, *recent);
-    const uint32_t count = tahr__cache_cull(&s->search, s->limit, &prims, found);
+    const uint32_t guess = ask_guess(s, *recent), count = tahr__cache_cull(&s->search, s->limit, &prims, found);
     for (uint32_t i = 0; i < count; i++) {
         found[kept] = found[i];
-        kept += found[i].index != *recent;
+        kept += (found[i].index != *recent) & (found[i].index != guess);
     }
     line_up_found(s, prims, found, kept);
     if (s->stopper) *recent = (uint32_t)(s->stopper - prims);
