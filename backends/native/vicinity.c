@@ -165,15 +165,11 @@ static uint32_t pick(const tahr__query *query, double most, int over, tahr__lane
     return query->world->lanes->pick(tahr__cache_far(c), lift, c->count, most_of(most), found);
 }
 
-/* Is this not met up to this fraction of the motion? Of what is so near that neither its plane nor its edges say so,
- * like an edge that is slid along, a probe may. */
+/* Is this not met up to this fraction of the motion? */
 static int is_passed(const tahr__query *query, const tahr__prim *prim, double until)
 {
-    tahr__found found;
-    const tahr__ask ask = {plane_earliest(query, prim, until), until, NULL};
-    if (ask.earliest > until || edges_earliest(query, prim, until, ask.earliest) > until) return 1;
-    const int answer = tahr__probe_sweep(query, prim, &ask, &found);
-    return answer == TAHR__FREE || answer == TAHR__BESIDE;
+    const double t = plane_earliest(query, prim, until);
+    return t > until || edges_earliest(query, prim, until, t) > until;
 }
 
 /* Is nothing met, up to this fraction of the motion, that was within `most` of the place? over: but for what is not above
