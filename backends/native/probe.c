@@ -472,11 +472,11 @@ int tahr__probe_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3
  * operations as in flight, without what can find nothing there. 0: it is not so plain. */
 static inline int lands_on_face(const flight *f, tahr__found *out)
 {
-    const uint32_t other = TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR | TAHR__FACELESS;
+    const uint32_t other = TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR;
     const tahr__prim *prim = f->prim;
     const tahr__witness *w = &f->probe.witness;
     if (w->feature != TAHR__FACE || (prim->kind & other) || f->query->core.axis_count > 1) return 0;
-    tahr_vec3 face = prim->face;
+    tahr_vec3 face = prim->kind & TAHR__FACELESS ? tahr__heights_face(f->query, prim) : prim->face;
     if (v_dot(face, w->normal) < 0 && (prim->kind & TAHR__TWO_SIDED)) face = v_scale(face, -1);
     return stops_at_face(f->query, prim, face, f->t, w, out);
 }
