@@ -61,10 +61,10 @@ static inline double plane_earliest(const tahr__query *query, const tahr__prim *
 #define UPRIGHT 1e-6
 
 /* Where a point is to a triangle that it is not straight over. */
-typedef struct beyond {
+typedef struct off_edge {
     tahr_vec3 toward; /* m, from the nearest point of the edge that it is farthest beyond */
     uint32_t feature; /* TAHR__EDGE + i or TAHR__CORNER + i; TAHR__FACE: it is straight over it */
-} beyond;
+} off_edge;
 
 /* Which edge a place is farthest beyond, and by how much, times its length and that of n; of a box with its extent. d: from
  * the first corner of the triangle. Returns 3: none. */
@@ -90,11 +90,11 @@ static inline uint32_t edge_beyond(const tahr__query *query, const tahr__facet *
     return edge;
 }
 
-static inline beyond point_beyond(const tahr__query *query, const tahr__facet *f, tahr_vec3 d, const tahr_vec3 e[3])
+static inline off_edge point_beyond(const tahr__query *query, const tahr__facet *f, tahr_vec3 d, const tahr_vec3 e[3])
 {
     double far;
     const uint32_t i = edge_beyond(query, f, d, e, &far);
-    beyond b = {d, TAHR__FACE};
+    off_edge b = {d, TAHR__FACE};
     if (i > 2) return b;
     const tahr_vec3 from = i == 0 ? d : v_sub(d, i == 1 ? e[0] : v_scale(e[2], -1));
     const double along = v_dot(from, e[i]), e2 = v_dot(e[i], e[i]);
@@ -106,7 +106,7 @@ static inline beyond point_beyond(const tahr__query *query, const tahr__facet *f
 
 /* Across an edge and level, or level from a corner: which way an upright segment and it are apart that are nearest
  * somewhere between the ends of the segment. */
-static inline tahr_vec3 level_beyond(const beyond *b, const tahr_vec3 e[3])
+static inline tahr_vec3 level_beyond(const off_edge *b, const tahr_vec3 e[3])
 {
     if (b->feature >= TAHR__CORNER) return v_make(b->toward.x, b->toward.y, 0);
     const tahr_vec3 along = e[b->feature - TAHR__EDGE];
@@ -152,7 +152,7 @@ static inline double edges_earliest(const tahr__query *query, const tahr__prim *
     } else {
         double end = (v_dot(n, d) < 0) == (n.z < 0) ? -query->half : query->half;
         d.z += end;
-        beyond b = point_beyond(query, f, d, e);
+        off_edge b = point_beyond(query, f, d, e);
         if (b.feature == TAHR__FACE) return earliest;
         if (b.toward.z * end > 0 && fabs(n.z) < UPRIGHT * f->length) {
             end = -end;

@@ -189,10 +189,10 @@ typedef struct tahr__cache {
     double volume;      /* m3, of what was announced */
     tahr_vec3 place;    /* world: where the character was then */
     uint32_t announced, gathered, overflow, mask, count;
-    uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
-    uint64_t revision;  /* of the user's triangles in it */
-    double margin;      /* to gather with the next time, 0: the most */
-    double foot;        /* m, radius of the last foot */
+    uint32_t plain;    /* no sensors: what has been gathered concerns every query of the same mask */
+    uint64_t revision; /* of the user's triangles in it */
+    double margin;     /* to gather with the next time, 0: the most */
+    double foot;       /* m, radius of the last foot */
     /* Index of what stopped the last motion of a kind: likely to stop the next. */
     uint32_t recent[TAHR__KINDS];
     tahr__vicinity vicinity;
@@ -333,8 +333,7 @@ enum { TAHR__CACHE_MOST = 4096 };
 int tahr__cache_holds(const tahr__search *search);
 /* Which cached primitives (prims[found[i].index]) may be within reach up to this fraction of the motion. Returns how many,
  * at most TAHR__CACHE_MOST. */
-uint32_t tahr__cache_cull(const tahr__search *search, double until, const tahr__prim **prims,
-                          tahr__lanes_found *found);
+uint32_t tahr__cache_cull(const tahr__search *search, double until, const tahr__prim **prims, tahr__lanes_found *found);
 /* Does one of them concern a query? */
 int tahr__cache_concerns(const tahr__query *query, uint32_t index);
 /* Which of them comes within reach first, by what single precision tells of planes and edges; TAHR__NONE: none does. */
