@@ -369,7 +369,7 @@ int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
 /* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */
 int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
 /* The same of a body that stays OVER the floor, and then its foot that goes DOWN; or something may be in their way, or
- * nothing is in the way of the body, but it is not clear where the floor is. */
+ * it is not clear where the floor is. */
 enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
 int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit);
 /* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting

@@ -51,10 +51,8 @@ static int goes_to(tahr__query *body, uint32_t way, const tahr_walk *walk, tahr_
     aim(&foot, body->context, walk, 1);
     const uint32_t down = tahr__vicinity_way(&foot);
     if (down == TAHR__UNKNOWN) return 0;
-    if (way == TAHR__OVER && down == TAHR__DOWN) {
-        const int both = tahr__vicinity_walks(body, &foot, hit);
-        return both == TAHR__LANDED || (both == TAHR__UNCLEAR && finds_floor(&foot, hit));
-    }
+    const int both = way == TAHR__OVER && down == TAHR__DOWN ? tahr__vicinity_walks(body, &foot, hit) : TAHR__UNCLEAR;
+    if (both != TAHR__UNCLEAR) return both == TAHR__LANDED;
     return tahr__vicinity_is_clear(body, way) && finds_floor(&foot, hit);
 }
 
