@@ -215,12 +215,13 @@ typedef struct stoppers {
     uint32_t body[TAHR__KINDS], item[TAHR__KINDS], kind[TAHR__KINDS], count;
 } stoppers;
 
-static stoppers stoppers_of(const tahr__cache *cache, const tahr__prim *prims)
+static stoppers stoppers_of(tahr__cache *cache, const tahr__prim *prims)
 {
     stoppers s = {.count = 0};
     for (uint32_t k = 0; k < TAHR__KINDS && cache->gathered; k++) {
-        const tahr__prim *p = &prims[cache->recent[k]];
-        if (cache->recent[k] >= cache->count || (p->item & TAHR__ITEM_LOOSE)) continue;
+        const uint32_t recent = *tahr__cache_recent(cache, k);
+        const tahr__prim *p = &prims[recent];
+        if (recent >= cache->count || (p->item & TAHR__ITEM_LOOSE)) continue;
         s.body[s.count] = p->body;
         s.item[s.count] = p->item;
         s.kind[s.count++] = k;
@@ -234,11 +235,11 @@ static void find_stoppers(const gather *g, const stoppers *s)
 {
     tahr__cache *cache = g->cache;
     for (uint32_t k = 0; k < TAHR__KINDS; k++)
-        cache->recent[k] = TAHR__CACHE_MOST;
+        *tahr__cache_recent(cache, k) = TAHR__CACHE_MOST;
     for (uint32_t i = 0; i < cache->count && s->count > 0; i++) {
         const tahr__prim *p = &g->prims[i];
         for (uint32_t k = 0; k < s->count; k++) {
-            if (p->item == s->item[k] && p->body == s->body[k]) cache->recent[s->kind[k]] = i;
+            if (p->item == s->item[k] && p->body == s->body[k]) *tahr__cache_recent(cache, s->kind[k]) = i;
         }
     }
     if (cache->recent[TAHR__OF_FOOT] >= cache->count) return;

@@ -177,9 +177,15 @@ typedef struct tahr__vicinity {
     uint32_t rest, rests; /* feet until a spot is looked for again, and after the next that was none */
 } tahr__vicinity;
 
-/* Kinds of motions that are stopped by other things: of a segment, and of one that is lowered; of what else there is, most
- * of all feet, and of a foot thinner than the last of those, as on the rim of a perch. */
+/* Kinds of motions that are stopped by other things: of a segment, of what else there is (most of all feet), of a foot
+ * thinner than the last of those, as on the rim of a perch, and of a segment that is lowered. */
 enum { TAHR__OF_BODY, TAHR__OF_FOOT, TAHR__OF_THINNER, TAHR__OF_LOWERED, TAHR__KINDS };
+
+/* What stopped the last motions that come less often. */
+typedef struct tahr__stopped {
+    double foot; /* m, radius of the last foot */
+    uint32_t recent[TAHR__KINDS - TAHR__OF_THINNER];
+} tahr__stopped;
 
 /* One character's memory (gather.c): */
 typedef struct tahr__cache {
@@ -189,14 +195,19 @@ typedef struct tahr__cache {
     double volume;      /* m3, of what was announced */
     tahr_vec3 place;    /* world: where the character was then */
     uint32_t announced, gathered, overflow, mask, count;
-    uint32_t plain;    /* no sensors: what has been gathered concerns every query of the same mask */
-    uint64_t revision; /* of the user's triangles in it */
-    double margin;     /* to gather with the next time, 0: the most */
-    double foot;       /* m, radius of the last foot */
-    /* Index of what stopped the last motion of a kind: likely to stop the next. */
-    uint32_t recent[TAHR__KINDS];
+    uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
+    uint64_t revision;  /* of the user's triangles in it */
+    double margin;      /* to gather with the next time, 0: the most */
+    uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
     tahr__vicinity vicinity;
+    tahr__stopped stopped;
 } tahr__cache;
+
+/* Index of what stopped the last motion of a kind (TAHR__OF_*). */
+static inline uint32_t *tahr__cache_recent(tahr__cache *cache, uint32_t kind)
+{
+    return kind < TAHR__OF_THINNER ? &cache->recent[kind] : &cache->stopped.recent[kind - TAHR__OF_THINNER];
+}
 
 /* Bytes of the header, whole lines of memory. Behind it, for each primitive there is room for: how far it was from the
  * place of the vicinity (m), and how much more to whom stays above the floor; then its lanes; then itself. All whole

@@ -256,8 +256,8 @@ static uint32_t kind_of(const tahr__query *query)
     const tahr_vec3 m = query->motion;
     tahr__cache *cache = query->cache;
     if (query->core.axis_count == 1) return -m.z > fabs(m.x) + fabs(m.y) ? TAHR__OF_LOWERED : TAHR__OF_BODY;
-    if (query->radius < cache->foot) return TAHR__OF_THINNER;
-    cache->foot = query->radius;
+    if (query->radius < cache->stopped.foot) return TAHR__OF_THINNER;
+    cache->stopped.foot = query->radius;
     return TAHR__OF_FOOT;
 }
 
@@ -299,7 +299,7 @@ static void search_cache(sweep_state *s)
     const tahr__query *query = s->search.query;
     const tahr__prim *prims;
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    uint32_t *recent = &query->cache->recent[kind_of(query)], kept = 0;
+    uint32_t *recent = tahr__cache_recent(query->cache, kind_of(query)), kept = 0;
     ask_recent(s, *recent);
     const uint32_t guess = ask_guess(s, *recent), count = tahr__cache_cull(&s->search, s->limit, &prims, found);
     for (uint32_t i = 0; i < count; i++) {
