@@ -365,8 +365,8 @@ uint32_t tahr__cache_guess(const tahr__search *s)
     return count > 0 ? found[first].index : TAHR__NONE;
 }
 
-/* Seen from where the motion ends: what it only just comes near is farther off from there than it was, by what it looked
- * like from the begin, and it does not come nearer again before that. */
+/* Seen from where the motion ends, or is known to end: what it only just comes near is farther off from there than it
+ * looked from the begin. */
 uint32_t tahr__cache_cull(const tahr__search *s, double until, const tahr__prim **prims, tahr__lanes_found *found)
 {
     const tahr__query *query = s->query;

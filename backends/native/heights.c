@@ -78,7 +78,8 @@ uint32_t tahr__heights_around(const tahr__heights *h, uint32_t triangle, uint32_
 
 uint32_t tahr__heights_across(const tahr__heights *h, uint32_t triangle, uint32_t edge)
 {
-    /* In which cell, seen from the one before that of the triangle; it is always the other half. Below zero: far above. */
+    /* In which cell, seen from the one before that of the triangle; it is always the other half. Below zero: far
+     * above. */
     static const uint32_t at[2][3][2] = {{{1, 0}, {2, 1}, {1, 1}}, {{1, 1}, {1, 2}, {0, 1}}};
     const uint32_t k = triangle % 2, cell = triangle / 2, wide = h->columns - 1, row = cell / wide;
     const uint32_t c = cell - row * wide + at[k][edge][0] - 1, r = row + at[k][edge][1] - 1;

@@ -66,8 +66,8 @@ typedef struct off_edge {
     uint32_t feature; /* TAHR__EDGE + i or TAHR__CORNER + i; TAHR__FACE: it is straight over it */
 } off_edge;
 
-/* Which edge a place is farthest beyond, and by how much, times its length and that of n; of a box with its extent. d: from
- * the first corner of the triangle. Returns 3: none. */
+/* Which edge a place is farthest beyond, and by how much, times its length and that of n; of a box with its extent. d:
+ * from the first corner of the triangle. Returns 3: none. */
 static inline uint32_t edge_beyond(const tahr__query *query, const tahr__facet *f, tahr_vec3 d, const tahr_vec3 e[3],
                                    double *far)
 {
@@ -136,9 +136,10 @@ static inline double box_beyond(const tahr__query *query, const tahr__facet *f, 
 }
 
 /* The same by edges and corners, not before `earliest`, what the plane says: for ordering and leaving out, not to begin
- * at. A place beside the triangle is off the edge that it is farthest beyond, or off the end of that, and the plane there
- * across the way to the place separates them, from all corners. The place is that of a segment's end that is nearest to
- * the plane of the triangle, or of either, if that is upright; where the other end is nearer along that way, level. */
+ * at. A place beside the triangle is off the edge that it is farthest beyond, or off the end of that; across the way
+ * from there to the place lies a plane that may separate them, and the corners say by how much: the distance is at least
+ * that. The place is the end of a segment that is nearest to the plane of the triangle, or either, if that plane is
+ * upright; where the other end is nearer along that way, a level way is taken, along which both are alike. */
 static inline double edges_earliest(const tahr__query *query, const tahr__prim *prim, double limit, double earliest)
 {
     if (prim->kind & TAHR__PLANELESS) return earliest;

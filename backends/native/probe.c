@@ -440,8 +440,8 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
     return TAHR__FREE;
 }
 
-/* Does a face (its exact unit normal) that is met straight over its inside stop the motion there, front first? Asked at a
- * time before which nothing happens. */
+/* Does a face (its exact unit normal) that is met straight over its inside stop the motion there, front first? Asked at
+ * a time before which nothing happens. */
 static inline int stops_at_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3 face, double t,
                                 const tahr__witness *w, tahr__found *out)
 {

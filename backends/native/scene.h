@@ -342,8 +342,8 @@ tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses,
 enum { TAHR__CACHE_MOST = 4096 };
 /* Does the cache hold everything static within reach of the search? */
 int tahr__cache_holds(const tahr__search *search);
-/* Which cached primitives (prims[found[i].index]) may be within reach up to this fraction of the motion. Returns how many,
- * at most TAHR__CACHE_MOST. */
+/* Which cached primitives (prims[found[i].index]) may be within reach up to this fraction of the motion. Returns how
+ * many, at most TAHR__CACHE_MOST. */
 uint32_t tahr__cache_cull(const tahr__search *search, double until, const tahr__prim **prims, tahr__lanes_found *found);
 /* Does one of them concern a query? */
 int tahr__cache_concerns(const tahr__query *query, uint32_t index);

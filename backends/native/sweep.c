@@ -281,8 +281,7 @@ static void ask_recent(sweep_state *s, uint32_t index)
     if (s->limit < 1) s->search.box = tahr__query_box(query, s->limit);
 }
 
-/* A foot that comes down far, where so many are around that most are met by no motion but a long one: it is worth a look
- * which is met first, for few are as early. */
+/* A foot that comes down far where so many are around: it is worth a look which is met first, for few are as early. */
 enum { MANY = 48 };
 
 static uint32_t ask_guess(sweep_state *s, uint32_t asked)
