@@ -81,9 +81,20 @@ static int resolve(const place *p, tahr__resolving *resolving, tahr__near *n)
     return tahr__resolve_near(resolving, n);
 }
 
+/* A field has one triangle at most on the other side. */
+static uint32_t heights_across(place *p, uint32_t edge)
+{
+    const uint32_t across = tahr__heights_across(&p->body->heights, p->prim->item, edge);
+    tahr__near *n = &p->near[0];
+    if (across == p->prim->item || !tahr__heights_triangle(&p->body->heights, across, n->corner)) return 0;
+    n->feature = across;
+    n->two_sided = p->body->flags & TAHR_BODY_TWO_SIDED;
+    return 1;
+}
+
 static void around_edge(place *p, uint32_t edge, tahr__resolving *resolving)
 {
-    uint32_t count = all_around(p, edge);
+    uint32_t count = p->body ? heights_across(p, edge) : all_around(p, edge);
     for (uint32_t i = 0; i < count; i++) {
         tahr__near *n = &p->near[i];
         n->at = corner_at(n, p->own[edge]);

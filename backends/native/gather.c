@@ -212,17 +212,19 @@ static void collect_best(gather *g, int again)
 
 /* Which primitives stopped the last motions, by their names: they have another index afterwards. */
 typedef struct stoppers {
-    uint32_t body[2], item[2];
+    uint32_t body[TAHR__KINDS], item[TAHR__KINDS], kind[TAHR__KINDS], count;
 } stoppers;
 
-static stoppers stoppers_of(const tahr__cache *cache, const tahr__prim *prims)
+static stoppers stoppers_of(tahr__cache *cache, const tahr__prim *prims)
 {
-    stoppers s = {{TAHR_NO_BODY, TAHR_NO_BODY}, {0, 0}};
-    for (int k = 0; k < 2 && cache->gathered; k++) {
-        const tahr__prim *p = &prims[cache->recent[k]];
-        if (cache->recent[k] >= cache->count || (p->item & TAHR__ITEM_LOOSE)) continue;
-        s.body[k] = p->body;
-        s.item[k] = p->item;
+    stoppers s = {.count = 0};
+    for (uint32_t k = 0; k < TAHR__KINDS && cache->gathered; k++) {
+        const uint32_t recent = *tahr__cache_recent(cache, k);
+        const tahr__prim *p = &prims[recent];
+        if (recent >= cache->count || (p->item & TAHR__ITEM_LOOSE)) continue;
+        s.body[s.count] = p->body;
+        s.item[s.count] = p->item;
+        s.kind[s.count++] = k;
     }
     return s;
 }
@@ -232,15 +234,16 @@ static stoppers stoppers_of(const tahr__cache *cache, const tahr__prim *prims)
 static void find_stoppers(const gather *g, const stoppers *s)
 {
     tahr__cache *cache = g->cache;
-    cache->recent[0] = cache->recent[1] = TAHR__CACHE_MOST;
-    for (uint32_t i = 0; i < cache->count; i++) {
+    for (uint32_t k = 0; k < TAHR__KINDS; k++)
+        *tahr__cache_recent(cache, k) = TAHR__CACHE_MOST;
+    for (uint32_t i = 0; i < cache->count && s->count > 0; i++) {
         const tahr__prim *p = &g->prims[i];
-        for (int k = 0; k < 2; k++) {
-            if (p->item == s->item[k] && p->body == s->body[k]) cache->recent[k] = i;
+        for (uint32_t k = 0; k < s->count; k++) {
+            if (p->item == s->item[k] && p->body == s->body[k]) *tahr__cache_recent(cache, s->kind[k]) = i;
         }
     }
-    if (cache->recent[1] >= cache->count) return;
-    tahr__prim *foot = &g->prims[cache->recent[1]];
+    if (cache->recent[TAHR__OF_FOOT] >= cache->count) return;
+    tahr__prim *foot = &g->prims[cache->recent[TAHR__OF_FOOT]];
     if (foot->kind & TAHR__UNFORMED) tahr__form_rest(g->search.query->world, &cache->frame, foot);
 }
 
@@ -298,7 +301,7 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     return TAHR_OK;
 }
 
-static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
+static void lanes_begin(const tahr__search *s, tahr_vec3 start, tahr_vec3 motion, tahr__lanes_query *q)
 {
     const tahr__query *query = s->query;
     /* d_up alone covers the rounding of the lanes' differences only down to 1e-7 of the reach; the slack covers
@@ -310,22 +313,35 @@ static void lanes_query(const tahr__search *s, tahr__lanes_query *q)
     q->hi[0] = d_up(s->box.max.x);
     q->hi[1] = d_up(s->box.max.y);
     q->hi[2] = d_up(s->box.max.z);
-    q->start[0] = (float)query->start.x;
-    q->start[1] = (float)query->start.y;
-    q->start[2] = (float)query->start.z;
-    q->motion[0] = (float)query->motion.x;
-    q->motion[1] = (float)query->motion.y;
-    q->motion[2] = (float)query->motion.z;
+    q->start[0] = (float)start.x;
+    q->start[1] = (float)start.y;
+    q->start[2] = (float)start.z;
+    q->motion[0] = (float)motion.x;
+    q->motion[1] = (float)motion.y;
+    q->motion[2] = (float)motion.z;
     q->half = (float)query->half;
     q->lowest = d_down(s->box.min.z);
     /* Boxes are not upright segments: their planes are looked at in double. */
     q->reach = query->core.axis_count < 2 ? (float)(s->reach + TAHR__LANE_SLACK + 1e-6 * query->motion_length) : 1e30f;
 }
 
+/* Do all that have been gathered concern a query? */
+static int is_plain(const tahr__query *query)
+{
+    const tahr__cache *cache = query->cache;
+    return cache->plain && query->mask == cache->mask && query->ignore_body == TAHR_NO_BODY &&
+           query->sensors != TAHR__SENSORS_ONLY;
+}
+
 static int concerns(const tahr__query *query, const tahr__prim *prim)
 {
     if (!(prim->mask & query->mask) || prim->body == query->ignore_body) return 0;
     return query->sensors != (prim->kind & TAHR__SENSOR ? TAHR__SENSORS_NONE : TAHR__SENSORS_ONLY);
+}
+
+int tahr__cache_concerns(const tahr__query *query, uint32_t index)
+{
+    return is_plain(query) || concerns(query, &tahr__cache_prims(query->world, query->cache)[index]);
 }
 
 /* What is near enough to be asked is formed in full. */
@@ -335,17 +351,33 @@ static void form_found(const tahr__query *query, const tahr__lanes_found *found,
         tahr__formed(query, found[i].index);
 }
 
-uint32_t tahr__cache_cull(const tahr__search *s, const tahr__prim **prims, tahr__lanes_found *found)
+uint32_t tahr__cache_guess(const tahr__search *s)
+{
+    const tahr__query *query = s->query;
+    const tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
+    tahr__lanes_found found[TAHR__CACHE_MOST];
+    tahr__lanes_query q;
+    lanes_begin(s, query->start, query->motion, &q);
+    const uint32_t count = query->world->lanes->cull(&lanes, &q, found);
+    uint32_t first = 0;
+    for (uint32_t i = 1; i < count; i++)
+        first = found[i].time < found[first].time ? i : first;
+    return count > 0 ? found[first].index : TAHR__NONE;
+}
+
+/* Seen from where the motion ends, or is known to end: what it only just comes near is farther off from there than it
+ * looked from the begin. */
+uint32_t tahr__cache_cull(const tahr__search *s, double until, const tahr__prim **prims, tahr__lanes_found *found)
 {
     const tahr__query *query = s->query;
     tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
     tahr__prim *all = tahr__cache_prims(query->world, query->cache);
     *prims = all;
     tahr__lanes_query q;
-    lanes_query(s, &q);
+    const tahr_vec3 back = v_scale(query->motion, -until);
+    lanes_begin(s, v_sub(query->start, back), back, &q);
     uint32_t count = query->world->lanes->cull(&lanes, &q, found), kept = 0;
-    if (query->cache->plain && query->mask == query->cache->mask && query->ignore_body == TAHR_NO_BODY &&
-        query->sensors != TAHR__SENSORS_ONLY) {
+    if (is_plain(query)) {
         form_found(query, found, count);
         return count;
     }
@@ -381,7 +413,7 @@ void tahr__search_run(tahr__search *s)
     if (tahr__cache_holds(s)) {
         const tahr__prim *prims;
         tahr__lanes_found found[TAHR__CACHE_MOST];
-        uint32_t count = tahr__cache_cull(s, &prims, found);
+        uint32_t count = tahr__cache_cull(s, 1, &prims, found);
         for (uint32_t i = 0; i < count; i++)
             s->visit(s, &prims[found[i].index]);
     } else {

@@ -76,6 +76,16 @@ uint32_t tahr__heights_around(const tahr__heights *h, uint32_t triangle, uint32_
     return count;
 }
 
+uint32_t tahr__heights_across(const tahr__heights *h, uint32_t triangle, uint32_t edge)
+{
+    /* In which cell, seen from the one before that of the triangle; it is always the other half. Below zero: far
+     * above. */
+    static const uint32_t at[2][3][2] = {{{1, 0}, {2, 1}, {1, 1}}, {{1, 1}, {1, 2}, {0, 1}}};
+    const uint32_t k = triangle % 2, cell = triangle / 2, wide = h->columns - 1, row = cell / wide;
+    const uint32_t c = cell - row * wide + at[k][edge][0] - 1, r = row + at[k][edge][1] - 1;
+    return c < wide && r < h->rows - 1 ? 2 * (r * wide + c) + 1 - k : triangle;
+}
+
 /* First and last cell of [low, high] along one way; at: of the corners. */
 static void span(double low, double high, const double *at, uint32_t corners, uint32_t *first, uint32_t *end)
 {

@@ -46,6 +46,9 @@ int tahr__heights_half(const tahr__heights *heights, const tahr_vec3 corners[4],
 /* The triangles, there or not, at a corner of a triangle; returns how many, at most 6. */
 uint32_t tahr__heights_around(const tahr__heights *heights, uint32_t triangle, uint32_t corner, uint32_t around[6]);
 
+/* The triangle, there or not, on the other side of edge i (corner i to corner i+1); itself at the border. */
+uint32_t tahr__heights_across(const tahr__heights *heights, uint32_t triangle, uint32_t edge);
+
 static inline tahr_vec3 tahr__heights_normal(const tahr_vec3 v[3])
 {
     return v_unit(v_cross(v_sub(v[1], v[0]), v_sub(v[2], v[0])));

@@ -124,6 +124,7 @@ uint32_t tahr__lanes_cull_1(const tahr__lanes *lanes, const tahr__lanes_query *q
     for (uint32_t i = 0; i < lanes->count; i++) {
         if (!(box_distance(lanes, i, query->lo, query->hi) <= query->limit)) continue;
         const beside b = beside_of(lanes, i, query);
+        if (!(b.h <= query->reach) && !(b.h + b.h_rate <= query->reach)) continue; /* its plane alone says so */
         float time = time_within(&b, query->reach);
         if (time <= 1) found[kept++] = (tahr__lanes_found){time, i};
     }

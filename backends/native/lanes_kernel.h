@@ -29,26 +29,37 @@ static inline lane along(const float *row, const float v[3])
     return (at(row) * splat(v[0]) + at(row + TAHR__LANES) * splat(v[1])) + at(row + 2 * TAHR__LANES) * splat(v[2]);
 }
 
-/* As beside_of the scalar twin. */
+/* As over_of and beside_of of the scalar twin. */
 typedef struct besides {
     lane h, o, h_rate, o_rate;
 } besides;
 
+static inline besides over_of(const float *block, const tahr__lanes_query *q)
+{
+    const float *n = block + TAHR__LANE_NORMAL * TAHR__LANES;
+    lane zero = splat(0), z = at(n + 2 * TAHR__LANES);
+    lane height = along(n, q->start) - at(n + 3 * TAHR__LANES), h_rate = along(n, q->motion);
+    lane h = larger(larger(-height, height) - larger(-z, z) * splat(q->half), zero);
+    return (besides){h, zero, choose(height < zero, -h_rate, h_rate), zero};
+}
+
+static inline void add_beside(const float *block, const tahr__lanes_query *q, besides *b)
+{
+    const float *e = block + TAHR__LANE_EDGE * TAHR__LANES;
+    lane half = splat(q->half);
+    mask below = at(block + (TAHR__LANE_HIGH + 2) * TAHR__LANES) <= splat(q->lowest);
+    for (int k = 0; k < 3; k++, e += 4 * TAHR__LANES) {
+        lane z = at(e + 2 * TAHR__LANES), out = along(e, q->start) - at(e + 3 * TAHR__LANES);
+        out = out - choose(below, z, larger(-z, z)) * half;
+        b->o_rate = choose(out > b->o, along(e, q->motion), b->o_rate);
+        b->o = larger(out, b->o);
+    }
+}
+
 static inline besides besides_of(const float *block, const tahr__lanes_query *q)
 {
-    const float *n = block + TAHR__LANE_NORMAL * TAHR__LANES, *e = block + TAHR__LANE_EDGE * TAHR__LANES;
-    lane zero = splat(0), half = splat(q->half), z = at(n + 2 * TAHR__LANES);
-    lane height = along(n, q->start) - at(n + 3 * TAHR__LANES), h_rate = along(n, q->motion);
-    besides b = {larger(larger(-height, height) - larger(-z, z) * half, zero), zero, h_rate, zero};
-    mask below = at(block + (TAHR__LANE_HIGH + 2) * TAHR__LANES) <= splat(q->lowest);
-    b.h_rate = choose(height < zero, -h_rate, h_rate);
-    for (int k = 0; k < 3; k++, e += 4 * TAHR__LANES) {
-        z = at(e + 2 * TAHR__LANES);
-        lane out = along(e, q->start) - at(e + 3 * TAHR__LANES);
-        out = out - choose(below, z, larger(-z, z)) * half;
-        b.o_rate = choose(out > b.o, along(e, q->motion), b.o_rate);
-        b.o = larger(out, b.o);
-    }
+    besides b = over_of(block, q);
+    add_beside(block, q, &b);
     return b;
 }
 
@@ -101,7 +112,10 @@ static inline uint32_t lanes_cull(const tahr__lanes *lanes, const tahr__lanes_qu
         const float *block = lanes->blocks + tahr__lane(i, 0);
         mask near = square_gaps(block, &box) <= box.most;
         if (!bits(near)) continue;
-        const besides b = besides_of(block, query);
+        besides b = over_of(block, query);
+        near &= (b.h <= splat(query->reach)) | (b.h + b.h_rate <= splat(query->reach));
+        if (!bits(near)) continue;
+        add_beside(block, query, &b);
         lane time = times_within(&b, query->reach, &near);
         kept += keep(near, time, i, found + kept);
     }

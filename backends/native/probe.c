@@ -440,23 +440,45 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
     return TAHR__FREE;
 }
 
+/* Does a face (its exact unit normal) that is met straight over its inside stop the motion there, front first? Asked at
+ * a time before which nothing happens. */
+static inline int stops_at_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3 face, double t,
+                                const tahr__witness *w, tahr__found *out)
+{
+    double rest = w->distance - (query->radius + query->margin), rate = v_dot(query->motion, w->normal);
+    if (rest > TAHR__ARRIVED || w->distance < query->radius || w->distance < BLURRED) return 0;
+    if (!(v_dot(face, w->normal) > 0.999) || rate >= -TAHR__PARALLEL * query->motion_length) return 0;
+    if (hardly_approaching(query, face)) return 0;
+    tahr__probe probe = {*w, w->distance - query->radius};
+    tahr__contact_normals normals = {.normal = face, .face = face};
+    out->t = t;
+    found_fill(query, prim, &probe, &normals, out);
+    return 1;
+}
+
 int tahr__probe_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3 face, double t, tahr__found *out)
 {
     tahr__witness w;
     if (query->core.axis_count != 0 || (prim->kind & (TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR))) return 0;
     w.reserved = 0;
     tahr__point_face(v_mad(query->start, query->motion, t), &prim->facet, &w);
-    double rest = w.distance - (query->radius + query->margin), rate = v_dot(query->motion, w.normal);
-    if (rest > TAHR__ARRIVED || w.distance < query->radius || w.distance < BLURRED) return 0;
-    if (!(v_dot(face, w.normal) > 0.999) || rate >= -TAHR__PARALLEL * query->motion_length) return 0;
-    if (hardly_approaching(query, face)) return 0;
-    tahr__probe probe = {w, w.distance - query->radius};
-    tahr__contact_normals normals = {.normal = face, .face = face};
+    if (!stops_at_face(query, prim, face, t, &w, out)) return 0;
     query->context->narrow_tests++;
     query->context->narrow_iterations++;
-    out->t = t;
-    found_fill(query, prim, &probe, &normals, out);
     return 1;
+}
+
+/* What most motions are stopped by: the inside of a face, at the time before which nothing happens, by the same
+ * operations as in flight, without what can find nothing there. 0: it is not so plain. */
+static inline int lands_on_face(const flight *f, tahr__found *out)
+{
+    const uint32_t other = TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR;
+    const tahr__prim *prim = f->prim;
+    const tahr__witness *w = &f->probe.witness;
+    if (w->feature != TAHR__FACE || (prim->kind & other) || f->query->core.axis_count > 1) return 0;
+    tahr_vec3 face = prim->kind & TAHR__FACELESS ? tahr__heights_face(f->query, prim) : prim->face;
+    if (v_dot(face, w->normal) < 0 && (prim->kind & TAHR__TWO_SIDED)) face = v_scale(face, -1);
+    return stops_at_face(f->query, prim, face, f->t, w, out);
 }
 
 static int take_off(flight *f, const tahr__ask *ask, tahr__found *out)
@@ -474,6 +496,7 @@ static int take_off(flight *f, const tahr__ask *ask, tahr__found *out)
         return TAHR__FREE;
     }
     f->began = f->probe.gap;
+    if (lands_on_face(f, out)) return TAHR__BLOCKED;
     return fly(f, ask->limit, ask->beside, out);
 }
 

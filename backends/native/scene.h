@@ -205,6 +205,16 @@ typedef struct tahr__vicinity {
     uint32_t rest, rests;     /* feet until a spot is looked for again, and after the next that was none */
 } tahr__vicinity;
 
+/* Kinds of motions that are stopped by other things: of a segment, of what else there is (most of all feet), of a foot
+ * thinner than the last of those, as on the rim of a perch, and of a segment that is lowered. */
+enum { TAHR__OF_BODY, TAHR__OF_FOOT, TAHR__OF_THINNER, TAHR__OF_LOWERED, TAHR__KINDS };
+
+/* What stopped the last motions that come less often. */
+typedef struct tahr__stopped {
+    double foot; /* m, radius of the last foot */
+    uint32_t recent[TAHR__KINDS - TAHR__OF_THINNER];
+} tahr__stopped;
+
 /* One character's memory (gather.c): */
 typedef struct tahr__cache {
     tahr__footing footing;
@@ -221,7 +231,14 @@ typedef struct tahr__cache {
     uint32_t plain; /* no sensors: what has been gathered concerns every query of the same mask */
     double margin;  /* to gather with the next time, 0: the most */
     tahr__vicinity vicinity;
+    tahr__stopped stopped;
 } tahr__cache;
+
+/* Index of what stopped the last motion of a kind (TAHR__OF_*). */
+static inline uint32_t *tahr__cache_recent(tahr__cache *cache, uint32_t kind)
+{
+    return kind < TAHR__OF_THINNER ? &cache->recent[kind] : &cache->stopped.recent[kind - TAHR__OF_THINNER];
+}
 
 /* Bytes of the header, whole lines of memory. Behind it, for each primitive there is room for: how far it was from the
  * place of the vicinity (m), and how much more to whom stays above the floor; then its lanes; then itself. All whole
@@ -356,9 +373,13 @@ tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses,
 enum { TAHR__CACHE_MOST = 4096 };
 /* Does the cache hold everything static within reach of the search? */
 int tahr__cache_holds(const tahr__search *search);
-/* Which cached primitives (prims[found[i].index]) may be within reach, and when. Returns how many, at most
- * TAHR__CACHE_MOST. */
-uint32_t tahr__cache_cull(const tahr__search *search, const tahr__prim **prims, tahr__lanes_found *found);
+/* Which cached primitives (prims[found[i].index]) may be within reach up to this fraction of the motion. Returns how
+ * many, at most TAHR__CACHE_MOST. */
+uint32_t tahr__cache_cull(const tahr__search *search, double until, const tahr__prim **prims, tahr__lanes_found *found);
+/* Does one of them concern a query? */
+int tahr__cache_concerns(const tahr__query *query, uint32_t index);
+/* Which of them comes within reach first, by what single precision tells of planes and edges; TAHR__NONE: none does. */
+uint32_t tahr__cache_guess(const tahr__search *search);
 size_t tahr__cache_bytes(const tahr__native *world);
 #define TAHR__NONE 0xFFFFFFFFu
 /* Exact corners of the cached triangles, three each, and who has one: the first of a bucket and the next corner, at

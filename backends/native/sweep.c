@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * sweep.c: the sweep slot: the first blocking contact of a moving shape and the sensors before it. */
+#include "form.h"
 #include "plane.h"
 #include "scene.h"
 
@@ -245,17 +246,51 @@ static void begin(sweep_state *s, const tahr__query *query)
 static void line_up_found(sweep_state *s, const tahr__prim *prims, const tahr__lanes_found *found, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
-        if (found[i].time <= s->limit) line_up(s, &prims[found[i].index]);
+        line_up(s, &prims[found[i].index]);
     }
     settle(s);
 }
 
-/* What stopped the last such motion goes first: what it leaves of this one is most often so little that the others are
- * soon too late. */
-static void ask(sweep_state *s, const tahr__prim *prim)
+static uint32_t kind_of(const tahr__query *query)
 {
-    double t = plane_earliest(s->search.query, prim, s->limit);
-    if (t <= s->limit) probe(s, prim, t);
+    const tahr_vec3 m = query->motion;
+    tahr__cache *cache = query->cache;
+    if (query->core.axis_count == 1) return -m.z > fabs(m.x) + fabs(m.y) ? TAHR__OF_LOWERED : TAHR__OF_BODY;
+    if (query->radius < cache->stopped.foot) return TAHR__OF_THINNER;
+    cache->stopped.foot = query->radius;
+    return TAHR__OF_FOOT;
+}
+
+/* What stopped the last such motion goes first: what it leaves of this one is most often so little that little else is
+ * near it. Its corners say whether it is. */
+static void ask_recent(sweep_state *s, uint32_t index)
+{
+    const tahr__query *query = s->search.query;
+    tahr__cache *cache = query->cache;
+    if (index >= cache->count || !tahr__cache_concerns(query, index)) return;
+    const tahr__prim *prim = tahr__formed(query, index);
+    const tahr_vec3 *v = prim->facet.v, low = v_min(v[0], v_min(v[1], v[2])), high = v_max(v[0], v_max(v[1], v[2]));
+    const double reach = s->search.reach + TAHR__SLACK;
+    const tahr_bounds *box = &s->search.box;
+    const int near = (low.x - reach <= box->max.x) & (low.y - reach <= box->max.y) & (low.z - reach <= box->max.z) &
+                     (high.x + reach >= box->min.x) & (high.y + reach >= box->min.y) & (high.z + reach >= box->min.z);
+    if (!near && !(prim->kind & TAHR__PLANELESS)) return;
+    const double t = plane_earliest(query, prim, s->limit);
+    if (t > s->limit) return;
+    probe(s, prim, t);
+    if (s->limit < 1) s->search.box = tahr__query_box(query, s->limit);
+}
+
+/* A foot that comes down far where so many are around: it is worth a look which is met first, for few are as early. */
+enum { MANY = 48 };
+
+static uint32_t ask_guess(sweep_state *s, uint32_t asked)
+{
+    const tahr__query *query = s->search.query;
+    if (s->limit < 1 || query->core.axis_count != 0 || query->cache->count < MANY) return TAHR__NONE;
+    const uint32_t guess = tahr__cache_guess(&s->search);
+    if (guess != asked) ask_recent(s, guess);
+    return guess;
 }
 
 static void search_cache(sweep_state *s)
@@ -263,15 +298,14 @@ static void search_cache(sweep_state *s)
     const tahr__query *query = s->search.query;
     const tahr__prim *prims;
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    uint32_t *recent = &query->cache->recent[query->core.axis_count != 1],
-             count = tahr__cache_cull(&s->search, &prims, found);
+    uint32_t *recent = tahr__cache_recent(query->cache, kind_of(query)), kept = 0;
+    ask_recent(s, *recent);
+    const uint32_t guess = ask_guess(s, *recent), count = tahr__cache_cull(&s->search, s->limit, &prims, found);
     for (uint32_t i = 0; i < count; i++) {
-        if (found[i].index != *recent) continue;
-        found[i] = found[--count];
-        ask(s, &prims[*recent]);
-        break;
+        found[kept] = found[i];
+        kept += (found[i].index != *recent) & (found[i].index != guess);
     }
-    line_up_found(s, prims, found, count);
+    line_up_found(s, prims, found, kept);
     if (s->stopper) *recent = (uint32_t)(s->stopper - prims);
 }
 
