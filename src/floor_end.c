@@ -35,11 +35,14 @@ static const double SAME_POINT = 1e-9;
 static const double ON_FACE_COSINE = 1 - 1e-6, ON_FACE = 1.4142132088085646e-3;
 
 /* The place is known to 2^-ROUNDS of the way: that many looks by halving, and no more than LOST and PROOFS besides. */
-enum { ROUNDS = 20, LOST = 2, PROOFS = 2 };
+enum { ROUNDS = 20, LOST = 3, PROOFS = 4 };
 
 /* As many looks seldom are all. A backend that could not keep what is near the whole step may keep what is near this
  * way: from here on it is worth asking. */
 enum { MANY = 6 };
+
+/* Predictions that change by no more than this part of the way that is left agree. */
+static const double STEADILY = 0.03;
 
 /* No part of a way. */
 static const double NOWHERE = -1e300;
@@ -66,6 +69,7 @@ typedef struct search {
     double told, told_at; /* what the last look but one told, which of two in a row is where it was */
     double latest;        /* part of the way of the last look */
     int surprised;        /* 1: it came out on the other side of that */
+    int proves;           /* 1: it is beside that */
     int tried;            /* 1: right behind the begin was looked at */
     int doubts;           /* 1: what straight edges tell was wrong */
     uint32_t steady;      /* looks that changed nothing about the prediction */
@@ -444,8 +448,9 @@ static double predict(const tahr__step *step, const search *s)
  * behind the begin. */
 static double next_look(search *s, uint32_t looks)
 {
-    enum { STEADY = 3 };
-    double a = s->inside.at, b = s->outside.at, middle = 0.5 * (a + b), at = middle;
+    enum { STEADY = 2 };
+    double a = s->inside.at, b = s->outside.at, middle = 0.5 * (a + b), at = middle, asked;
+    s->proves = 0;
     int at_begin = !s->inside.known && !s->tried;
     if (s->predicted == NOWHERE ? at_begin && looks >= LOST : at_begin && s->predicted - s->beside <= a) {
         s->tried = 1;
@@ -455,12 +460,14 @@ static double next_look(search *s, uint32_t looks)
         double part = clamp(s->predicted, a, b);
         at = part - a > b - part || !s->inside.known ? part - s->beside : part + s->beside;
     }
+    asked = at;
     if (s->steady >= STEADY && s->lost < LOST + PROOFS) { /* what so many looks agree on is proven anyway */
         s->lost++;
     } else { /* after n looks no more than 2^(lost - n) may be left */
         double most = (double)(1u << s->lost) / (2.0 * (double)(1u << looks)) - 0.5 * (b - a);
         at = clamp(at, middle - most, middle + most);
     }
+    s->proves = s->predicted != NOWHERE && at == asked;
     return at > a && at < b ? at : middle;
 }
 
@@ -504,15 +511,15 @@ static void predict_again(const tahr__step *step, search *s)
     double part = refine(s, predict(step, s));
     double seen = part == NOWHERE || s->doubts ? by_measures(step, s) : NOWHERE;
     part = seen != NOWHERE ? seen : part;
-    double change = part - s->predicted;
-    s->steady = change <= 4 * s->least && change >= -4 * s->least && part != NOWHERE ? s->steady + 1 : 0;
+    double change = part - s->predicted, gap = s->outside.at - s->inside.at, little = STEADILY * gap;
+    s->steady = change <= little && change >= -little && part != NOWHERE ? s->steady + 1 : 0;
     if (!s->surprised) {
-        s->beside = max_of(s->beside / NEARER, s->least);
+        s->beside = s->proves ? max_of(s->beside / NEARER, s->least) : s->beside;
     } else if (change <= 4 * s->beside && change >= -4 * s->beside) { /* it may move with the look */
-        s->beside *= FARTHER;
+        s->beside = s->beside > NEARER * s->least ? gap : min_of(s->beside * FARTHER, sqrt(s->beside * gap));
         s->doubts = 1;
     }
-    if (s->beside > 0.25 * (s->outside.at - s->inside.at)) { /* it is somewhere else */
+    if (s->beside > 0.25 * gap) { /* it is somewhere else */
         s->beside = s->least;
         part = NOWHERE;
     }
