@@ -44,6 +44,10 @@ enum { MANY = 6 };
 /* Predictions that change by no more than this part of the way that is left agree. */
 static const double STEADILY = 0.03;
 
+/* What looks tell changes by less than this of how far they are apart, where it leads to anything: half at a place that
+ * is touched and not passed. */
+static const double STEEPEST = 0.8;
+
 /* No part of a way. */
 static const double NOWHERE = -1e300;
 
@@ -498,10 +502,13 @@ static double refine(search *s, double told)
     int both = told != NOWHERE && s->told != NOWHERE && (moved > least || moved < -least);
     s->told = told;
     s->told_at = at;
-    if (!both || change * change > 0.25 * moved * moved) {
+    if (!both || change * change > STEEPEST * STEEPEST * moved * moved) {
         return told;
     }
-    double rate = change / moved, part = (told - rate * at) / (1 - rate);
+    double rate = change / moved, part = (told - rate * at) / (1 - rate), off = FARTHER * s->least;
+    if (!is_between(s, part) && is_between(s, told) && s->outside.at - s->inside.at > 4 * off) {
+        return clamp(part, s->inside.at + off, s->outside.at - off); /* it bends: near that end */
+    }
     return is_between(s, part) ? part : told;
 }
 

@@ -216,6 +216,12 @@ typedef struct flight {
     double began; /* the gap at the start, or more than the margin */
     int leaps;    /* 1: allowed, 2: there was one, 0: not */
     tahr__probe probe;
+    struct { /* as it was before the first leap */
+        double target, t;
+        tahr__witness witness;
+        int steps, targets;
+    } before;
+    int steps, targets; /* where it goes on */
 } flight;
 
 /* Is the surface being approached? Along the true normals, not those of rounded corners. */
@@ -315,7 +321,9 @@ static int leap(flight *f, double next, double limit)
 static int advance(flight *f, double limit)
 {
     const tahr__query *query = f->query;
-    for (int i = 0; i < ITERATIONS; i++) {
+    const int from = f->steps;
+    f->steps = 0;
+    for (int i = from; i < ITERATIONS; i++) {
         tahr__witness *w = &f->probe.witness;
         double rest = w->distance - f->target, rate = v_dot(query->motion, w->normal);
         if (rate >= -TAHR__PARALLEL * query->motion_length) return 0;
@@ -323,7 +331,16 @@ static int advance(flight *f, double limit)
         double next = f->t + rest / -rate;
         if (next > limit) return 0;
         if (i % LEAPS == 1 && f->leaps) {
+            const double t = f->t;
+            const tahr__witness here = *w;
             const int leaped = leap(f, next, limit);
+            if (leaped > 0 && f->leaps == 1) {
+                f->before.target = f->target;
+                f->before.t = t;
+                f->before.witness = here;
+                f->before.steps = i;
+                f->before.targets = f->targets;
+            }
             if (leaped != 0) f->leaps = 2;
             if (leaped < 0) return 0;
             if (leaped > 0) continue;
@@ -415,13 +432,17 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
 {
     const tahr__query *query = f->query;
     double touch = query->radius + f->prim->radius;
-    int at_start = f->probe.gap <= query->margin;
-    for (int i = 0; i < TARGETS; i++, at_start = 0) {
+    int at_start = f->probe.gap <= query->margin && f->targets == 0 && f->steps == 0;
+    for (int i = f->targets; i < TARGETS; i++, at_start = 0) {
+        f->targets = i;
         int arrived = at_start ? 1 : advance(f, limit);
         if (arrived == 0) return TAHR__FREE;
         if (!at_start) f->probe.gap = f->probe.witness.distance - touch;
         tahr__contact_normals normals;
+        const double lowest = touch + (beside ? d_min(*beside, query->margin) : 0);
         normals.measure = beside != NULL;
+        /* One that is nearer and how near need not be known where it changes nothing below. */
+        normals.enough = arrived < 0 ? -1 : i < TARGETS - 2 ? lowest : INFINITY;
         tahr_vec3 centre = v_mad(query->start, query->motion, f->t);
         int verdict = tahr__resolve(query, f->prim, centre, &f->probe.witness, query->motion, &normals);
         if (verdict == TAHR__REJECTED) return TAHR__FREE;
@@ -432,7 +453,6 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
         }
         out->t = f->t;
         if (!beside) return TAHR__LATER;
-        double lowest = touch + d_min(*beside, query->margin);
         f->target = (i < TARGETS - 2 ? d_max(normals.closer, lowest) : lowest) - 10 * TAHR__ARRIVED;
         /* The core itself is in something that it may leave: nothing of this surface can be nearer. */
         if (f->target <= 0) return TAHR__FREE;
@@ -477,19 +497,26 @@ static int take_off(flight *f, const tahr__ask *ask, tahr__found *out)
     return fly(f, ask->limit, ask->beside, out);
 }
 
-/* Leaps find out whether anything is met, which is seldom; what is met, and when, Newton alone says: along a graze any
- * of many places is near enough, and which one it is should not depend on how the others were left out. */
+/* Leaps find out whether anything is met, which is seldom; what is met, and when, Newton alone says, from where the first
+ * leap began: along a graze any of many places is near enough, and which one it is should not depend on how the others
+ * were left out. */
 int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const tahr__ask *ask, tahr__found *out)
 {
     flight f;
     f.query = query;
     f.prim = prim;
     f.leaps = 1;
+    f.steps = f.targets = 0;
     query->context->narrow_tests++;
     int answer = take_off(&f, ask, out);
     if (answer == TAHR__BLOCKED && f.leaps > 1) {
         f.leaps = 0;
-        answer = take_off(&f, ask, out);
+        f.target = f.before.target;
+        f.t = f.before.t;
+        f.probe.witness = f.before.witness;
+        f.steps = f.before.steps;
+        f.targets = f.before.targets;
+        answer = fly(&f, ask->limit, ask->beside, out);
     }
     return answer;
 }

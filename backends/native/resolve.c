@@ -105,6 +105,7 @@ static int weigh(work *w, tahr_vec3 face, const tahr_vec3 v[3], uint32_t at, uin
         tahr__witness other;
         tahr__core_distance(&w->query->core, w->centre, v, &other);
         w->out->closer = d_min(w->out->closer, other.distance);
+        if (w->out->closer <= w->out->enough) return 1;
     }
     flatten(w, face, feature);
     double along = v_dot(w->motion, face);

@@ -406,6 +406,7 @@ enum { TAHR__REJECTED = 0, TAHR__ACCEPTED = 1, TAHR__NEIGHBOUR = 2 };
 typedef struct tahr__contact_normals {
     tahr_vec3 normal, face; /* local, unit */
     double closer;          /* with TAHR__NEIGHBOUR: distance of the core to the neighbour that is nearer */
+    double enough;          /* [in] less of it need not be told apart */
     uint32_t measure;       /* [in] 1: closer is asked for */
     uint32_t reserved;
 } tahr__contact_normals;
