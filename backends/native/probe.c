@@ -99,7 +99,7 @@ static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__p
     tahr_vec3 n = out->witness.normal;
     out->witness.distance = 0;
     out->witness.feature = TAHR__FACE;
-    out->witness.reserved = 0;
+    out->witness.beside = 0;
     out->witness.point = v_mad(centre, n, depth - tahr__core_extent(&query->core, n));
     out->gap = -depth - query->radius;
     return 1;
@@ -135,6 +135,8 @@ static void measure(const tahr__query *query, const tahr__prim *prim, tahr_vec3 
 {
     const tahr_vec3 *v = prim->facet.v;
     if (query->core.axis_count == 1) {
+        if (out->beside && tahr__segment_again(&query->core, centre, &prim->facet, out)) return;
+        out->beside = 0;
         double half = query->core.axis[0].z;
         tahr_vec3 low = v_make(centre.x, centre.y, centre.z - half), high = v_make(centre.x, centre.y, centre.z + half);
         int below = v[0].z <= low.z && v[1].z <= low.z && v[2].z <= low.z;
@@ -153,6 +155,7 @@ static int probe_start(const tahr__query *query, const tahr__prim *prim, tahr__p
     tahr_vec3 centre = query->start;
     if (prim->item & TAHR__ITEM_SOLID) return probe_solid(query, prim, out);
     out->witness.normal = v_make(0, 0, 0);
+    out->witness.beside = 0;
     measure(query, prim, centre, &out->witness);
     double touch = query->radius + prim->radius, distance = out->witness.distance;
     out->gap = distance - touch;
@@ -464,7 +467,7 @@ int tahr__probe_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3
 {
     tahr__witness w;
     if (query->core.axis_count != 0 || (prim->kind & (TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR))) return 0;
-    w.reserved = 0;
+    w.beside = 0;
     tahr__point_face(v_mad(query->start, query->motion, t), &prim->facet, &w);
     double rest = w.distance - (query->radius + query->margin), rate = v_dot(query->motion, w.normal);
     if (rest > TAHR__ARRIVED || w.distance < query->radius || w.distance < BLURRED) return 0;
@@ -488,6 +491,7 @@ static int take_off(flight *f, const tahr__ask *ask, tahr__found *out)
     query->context->narrow_iterations++;
     if (f->t > 0 && (prim->kind & TAHR__ONE_WAY) && (query->flags & TAHR_SWEEP_DROP)) f->t = 0;
     if (f->t > 0) {
+        f->probe.witness.beside = 0;
         measure(query, prim, v_mad(query->start, query->motion, f->t), &f->probe.witness);
         f->probe.gap = query->margin + 1; /* it is beyond the margin, by how much does not matter */
     } else if (!probe_start(query, prim, &f->probe)) {
