@@ -225,6 +225,7 @@ typedef struct flight {
         int steps, targets;
     } before;
     int steps, targets; /* where it goes on */
+    int wanders;        /* 1: it did not come straight to a corner */
 } flight;
 
 /* Is the surface being approached? Along the true normals, not those of rounded corners. */
@@ -306,6 +307,7 @@ static int leap(flight *f, double next, double limit)
     const double to = d_min(foresee(f), limit);
     if (!(to > next)) return 0;
     tahr__witness w = before;
+    f->wanders = 1;
     measure(query, f->prim, v_mad(query->start, query->motion, to), &w);
     query->context->narrow_iterations++;
     const double rest_there = w.distance - f->target, rate_there = v_dot(query->motion, w.normal);
@@ -359,9 +361,64 @@ static int advance(flight *f, double limit)
                 w->feature = before.feature;
             }
         }
+        f->wanders |= w->feature < TAHR__CORNER || !tahr__same_vec(&w->point, &before.point);
         query->context->narrow_iterations++;
     }
     return -1;
+}
+
+/* Is the corner that is touched the nearest of the triangle to q, clear of its edges? */
+static int is_off_edges(const flight *f, tahr_vec3 q)
+{
+    const uint32_t k = f->probe.witness.feature - TAHR__CORNER;
+    const tahr_vec3 *v = f->prim->facet.v, off = v_sub(q, v[k]);
+    for (uint32_t i = 1; i < 3; i++) {
+        const tahr_vec3 e = v_sub(v[(k + i) % 3], v[k]);
+        const double along = v_dot(off, e);
+        if (!(along < 0 && along * along > 1e-18 * v_dot(off, off) * v_dot(e, e))) return 0;
+    }
+    return 1;
+}
+
+/* A point that comes to a corner does so alike over each of the triangles there to which the corner is nearest all the
+ * way; it is that where it is at both ends of a straight way. Only for ways that nothing leaps over (foresee): those
+ * hang on the limit too. */
+static int comes_again(flight *f)
+{
+    const tahr__query *query = f->query;
+    const tahr__corner_met *c = query->corner;
+    tahr__witness *w = &f->probe.witness;
+    if (!c || !c->flown || query->core.axis_count != 0 || w->feature < TAHR__CORNER || f->t != c->from ||
+        f->target != c->target || w->distance != c->first.distance || !tahr__same_vec(&w->point, &c->first.point) ||
+        !tahr__same_vec(&w->normal, &c->first.normal) ||
+        !is_off_edges(f, v_mad(query->start, query->motion, f->t)) ||
+        !is_off_edges(f, v_mad(query->start, query->motion, c->t))) {
+        return 0;
+    }
+    f->t = c->t;
+    w->distance = c->last.distance;
+    w->normal = c->last.normal;
+    return 1;
+}
+
+/* The first flight of a primitive. */
+static int fly_first(flight *f, double limit)
+{
+    tahr__corner_met *c = f->query->corner;
+    if (comes_again(f)) return f->t <= limit;
+    const double from = f->t;
+    const tahr__witness first = f->probe.witness;
+    f->wanders = first.feature < TAHR__CORNER;
+    const int arrived = advance(f, limit);
+    if (arrived == 1 && c && !f->wanders && f->query->core.axis_count == 0) {
+        c->flown = 1;
+        c->from = from;
+        c->target = f->target;
+        c->t = f->t;
+        c->first = first;
+        c->last = f->probe.witness;
+    }
+    return arrived;
 }
 
 /* Local frames have up along +z. */
@@ -438,7 +495,7 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
     int at_start = f->probe.gap <= query->margin && f->targets == 0 && f->steps == 0;
     for (int i = f->targets; i < TARGETS; i++, at_start = 0) {
         f->targets = i;
-        int arrived = at_start ? 1 : advance(f, limit);
+        int arrived = at_start ? 1 : i == 0 && f->steps == 0 ? fly_first(f, limit) : advance(f, limit);
         if (arrived == 0) return TAHR__FREE;
         if (!at_start) f->probe.gap = f->probe.witness.distance - touch;
         tahr__contact_normals normals;

@@ -250,6 +250,10 @@ typedef struct tahr__corner_met {
     double distance;
     tahr_vec3 normal, face, flat;
     double along, tilt2; /* of the face, of what is flat */
+    /* How a point came to one (probe.c): from where it was nearest already; flown: 0: none did. */
+    uint32_t flown, reserved;
+    double from, target, t;
+    tahr__witness first, last;
 } tahr__corner_met;
 
 typedef struct tahr__query {

@@ -358,7 +358,7 @@ tahr_status tahr__sweep_rest(tahr__query *query, tahr_hit *hits, uint32_t capaci
     tahr__corner_met corner;
     tahr_status failed = TAHR_OK;
     query->failed = &failed;
-    corner.count = 0;
+    corner.count = corner.flown = 0;
     query->corner = query->world->no_vicinity ? NULL : &corner;
     begin(&s, query);
     run(&s);
