@@ -85,7 +85,8 @@ typedef struct search {
 static contact contact_of(vec3 point, vec3 normal, vec3 face, double depth)
 {
     int is_face = length_squared(cross(face, normal)) <= ON_FACE * ON_FACE;
-    contact c = {.kind = is_face ? FACE : EDGE, .stays = 0, .point = point, .normal = normal, .face = face, .depth = depth};
+    contact c = {
+        .kind = is_face ? FACE : EDGE, .stays = 0, .point = point, .normal = normal, .face = face, .depth = depth};
     return c;
 }
 
@@ -536,7 +537,11 @@ static void predict_again(const tahr__step *step, search *s)
 void tahr__floor_end(tahr__step *step, const tahr__path *w, const tahr_floor *beyond, tahr__floor_border *border)
 {
     enum { LOOKS = ROUNDS + LOST + PROOFS, MOST = TAHR_MAX_QUERIES_PER_STEP * 5 / 8 };
-    search s = {.from = w->from, .way = sub(step->state.position, w->from), .predicted = NOWHERE, .told = NOWHERE, .lost = LOST};
+    search s = {.from = w->from,
+                .way = sub(step->state.position, w->from),
+                .predicted = NOWHERE,
+                .told = NOWHERE,
+                .lost = LOST};
     tahr_floor floor;
     double size = length(s.way);
     s.beside = s.least = BESIDE * step->limits->width / max_of(size, 1e-300);

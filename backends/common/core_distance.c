@@ -237,7 +237,8 @@ int tahr__segment_again(const tahr__core *core, tahr_vec3 centre, const tahr__fa
         least_t = d_min(at.t, 1 - at.t);
     }
     const double d2 = v_dot(d, d), g2 = w.distance * w.distance;
-    if (!(w.feature == before && w.distance > LEAST && least_s > INSIDE && least_s * least_s * d2 > FAR2 * g2)) return 0;
+    if (!(w.feature == before && w.distance > LEAST && least_s > INSIDE && least_s * least_s * d2 > FAR2 * g2))
+        return 0;
     const tahr_vec3 n = w.normal;
     if (is_corner) {
         if (!lies_behind(f->v, w.point, v_scale(n, w.distance), corner + 1, corner + 3)) return 0;

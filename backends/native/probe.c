@@ -313,6 +313,12 @@ static int leap(flight *f, double next, double limit)
     const double rest_there = w.distance - f->target, rate_there = v_dot(query->motion, w.normal);
     if (w.distance < BLURRED) return 0;
     if (rest_there > 0 && rate_there < 0) {
+        if (f->leaps == 1) {
+            f->before.target = f->target;
+            f->before.t = f->t;
+            f->before.witness = before;
+            f->before.targets = f->targets;
+        }
         f->t = to;
         f->probe.witness = w;
         return 1;
@@ -336,16 +342,8 @@ static int advance(flight *f, double limit)
         double next = f->t + rest / -rate;
         if (next > limit) return 0;
         if (i % LEAPS == 1 && f->leaps) {
-            const double t = f->t;
-            const tahr__witness here = *w;
             const int leaped = leap(f, next, limit);
-            if (leaped > 0 && f->leaps == 1) {
-                f->before.target = f->target;
-                f->before.t = t;
-                f->before.witness = here;
-                f->before.steps = i;
-                f->before.targets = f->targets;
-            }
+            if (leaped > 0 && f->leaps == 1) f->before.steps = i;
             if (leaped != 0) f->leaps = 2;
             if (leaped < 0) return 0;
             if (leaped > 0) continue;
@@ -383,14 +381,12 @@ static int is_off_edges(const flight *f, tahr_vec3 q)
 /* A point that comes to a corner does so alike over each of the triangles there to which the corner is nearest all the
  * way; it is that where it is at both ends of a straight way. Only for ways that nothing leaps over (foresee): those
  * hang on the limit too. */
-static int comes_again(flight *f)
+static int comes_again(flight *f, const tahr__corner_met *c)
 {
     const tahr__query *query = f->query;
-    const tahr__corner_met *c = query->corner;
     tahr__witness *w = &f->probe.witness;
-    if (!c || !c->flown || query->core.axis_count != 0 || w->feature < TAHR__CORNER || f->t != c->from ||
-        f->target != c->target || w->distance != c->first.distance || !tahr__same_vec(&w->point, &c->first.point) ||
-        !tahr__same_vec(&w->normal, &c->first.normal) ||
+    if (!c->flown || f->t != c->from || f->target != c->target || w->distance != c->first.distance ||
+        !tahr__same_vec(&w->point, &c->first.point) || !tahr__same_vec(&w->normal, &c->first.normal) ||
         !is_off_edges(f, v_mad(query->start, query->motion, f->t)) ||
         !is_off_edges(f, v_mad(query->start, query->motion, c->t))) {
         return 0;
@@ -401,21 +397,24 @@ static int comes_again(flight *f)
     return 1;
 }
 
-/* The first flight of a primitive. */
-static int fly_first(flight *f, double limit)
+/* On the first flight of a primitive, what came to the same corner before is told again. */
+static int arrive(flight *f, double limit, int first)
 {
     tahr__corner_met *c = f->query->corner;
-    if (comes_again(f)) return f->t <= limit;
+    const int to_corner = first && c && f->query->core.axis_count == 0 && f->probe.witness.feature >= TAHR__CORNER;
     const double from = f->t;
-    const tahr__witness first = f->probe.witness;
-    f->wanders = first.feature < TAHR__CORNER;
+    if (to_corner) {
+        if (comes_again(f, c)) return f->t <= limit;
+        c->flown = 0;
+        c->first = f->probe.witness;
+        f->wanders = 0;
+    }
     const int arrived = advance(f, limit);
-    if (arrived == 1 && c && !f->wanders && f->query->core.axis_count == 0) {
+    if (to_corner && arrived == 1 && !f->wanders) {
         c->flown = 1;
         c->from = from;
         c->target = f->target;
         c->t = f->t;
-        c->first = first;
         c->last = f->probe.witness;
     }
     return arrived;
@@ -495,7 +494,7 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
     int at_start = f->probe.gap <= query->margin && f->targets == 0 && f->steps == 0;
     for (int i = f->targets; i < TARGETS; i++, at_start = 0) {
         f->targets = i;
-        int arrived = at_start ? 1 : i == 0 && f->steps == 0 ? fly_first(f, limit) : advance(f, limit);
+        int arrived = at_start ? 1 : arrive(f, limit, i == 0 && f->steps == 0);
         if (arrived == 0) return TAHR__FREE;
         if (!at_start) f->probe.gap = f->probe.witness.distance - touch;
         tahr__contact_normals normals;
