@@ -35,7 +35,7 @@ static const double SAME_POINT = 1e-9;
 static const double ON_FACE_COSINE = 1 - 1e-6, ON_FACE = 1.4142132088085646e-3;
 
 /* The place is known to 2^-ROUNDS of the way: that many looks by halving, and no more than LOST and PROOFS besides. */
-enum { ROUNDS = 20, LOST = 3, PROOFS = 4 };
+enum { ROUNDS = 20, LOST = 2, PROOFS = 2 };
 
 /* As many looks seldom are all. A backend that could not keep what is near the whole step may keep what is near this
  * way: from here on it is worth asking. */
@@ -46,7 +46,7 @@ static const double STEADILY = 0.03;
 
 /* What looks tell changes by less than this of how far they are apart, where it leads to anything: half at a place that
  * is touched and not passed. */
-static const double STEEPEST = 0.8;
+static const double STEEPEST = 0.8, EVENLY = 0.1;
 
 /* No part of a way. */
 static const double NOWHERE = -1e300;
@@ -70,7 +70,8 @@ typedef struct search {
     vec3 from, way;
     double beside, least; /* parts of the way beside a prediction: now, and the smallest */
     double predicted;     /* by what was known before the last look */
-    double told, told_at; /* what the last look but one told, which of two in a row is where it was */
+    double told, told_at; /* what the last look but one told, and where it was */
+    double rate;          /* at which that changed with the place */
     double latest;        /* part of the way of the last look */
     int surprised;        /* 1: it came out on the other side of that */
     int proves;           /* 1: it is beside that */
@@ -495,7 +496,7 @@ static int look_at(tahr__step *step, search *s, double at, tahr_floor *floor)
     return inside;
 }
 
-/* What looks tell mostly changes evenly with where they are: then the place is where a look would tell of itself, as
+/* What looks tell may change evenly with where they are, as the last three show: then the place is where a look would tell of itself, as
  * Steffensen's method has it. told: by the last one. */
 static double refine(search *s, double told)
 {
@@ -503,10 +504,12 @@ static double refine(search *s, double told)
     int both = told != NOWHERE && s->told != NOWHERE && (moved > least || moved < -least);
     s->told = told;
     s->told_at = at;
-    if (!both || change * change > STEEPEST * STEEPEST * moved * moved) {
+    double rate = change / moved, before = s->rate;
+    s->rate = both ? rate : s->rate;
+    if (!both || rate * rate > STEEPEST * STEEPEST || (rate - before) * (rate - before) > EVENLY * EVENLY) {
         return told;
     }
-    double rate = change / moved, part = (told - rate * at) / (1 - rate), off = FARTHER * s->least;
+    double part = (told - rate * at) / (1 - rate), off = FARTHER * s->least;
     if (!is_between(s, part) && is_between(s, told) && s->outside.at - s->inside.at > 4 * off) {
         return clamp(part, s->inside.at + off, s->outside.at - off); /* it bends: near that end */
     }
@@ -541,6 +544,7 @@ void tahr__floor_end(tahr__step *step, const tahr__path *w, const tahr_floor *be
                 .way = sub(step->state.position, w->from),
                 .predicted = NOWHERE,
                 .told = NOWHERE,
+                .rate = INFINITY,
                 .lost = LOST};
     tahr_floor floor;
     double size = length(s.way);
