@@ -269,8 +269,7 @@ static int tries_spot(tahr__vicinity *v)
     return 1;
 }
 
-/* Is it known which triangle of the floor alone may be met? found: it has just been found out. */
-static int knows_floor(const tahr__query *query, int *finds)
+int tahr__ground_knows(const tahr__query *query, int *finds)
 {
     tahr__vicinity *v = &query->cache->vicinity;
     const tahr_vec3 place = place_on(&v->floor, query);
@@ -284,17 +283,10 @@ static int knows_floor(const tahr__query *query, int *finds)
     return *finds;
 }
 
-int tahr__ground_finds(const tahr__query *query)
-{
-    int finds;
-    knows_floor(query, &finds);
-    return finds;
-}
-
 int tahr__ground_meets(const tahr__query *query, tahr__found *found)
 {
     int finds;
-    if (!knows_floor(query, &finds)) return 0;
+    if (!tahr__ground_knows(query, &finds)) return 0;
     const tahr__prim *floor = &tahr__cache_prims(query->world, query->cache)[query->cache->footing.under];
     const double t = plane_earliest(query, floor, 1);
     return t <= 1 && tahr__probe_face(query, floor, query->cache->vicinity.face, t, found);

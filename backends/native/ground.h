@@ -55,8 +55,8 @@ void tahr__ground_know(const tahr__query *query);
  * when and where; 0: it is not known what is there. */
 int tahr__ground_meets(const tahr__query *query, tahr__found *found);
 
-/* Looks what is where a foot comes down on the floor, if that is not known: 1, if it is now. */
-int tahr__ground_finds(const tahr__query *query);
+/* Is it known which triangle of the floor a foot that comes down may meet, one alone? finds: it has just been found. */
+int tahr__ground_knows(const tahr__query *query, int *finds);
 
 /* The cache holds something else now. */
 void tahr__ground_forget(const tahr__native *world, tahr__cache *cache);

@@ -327,8 +327,10 @@ static void clear_around(const tahr__query *query)
 int tahr__vicinity_learn(const tahr__query *body, const tahr__query *foot)
 {
     const int was_clear = body->cache->footing.clear > 0;
+    int finds;
+    if (!tahr__ground_knows(foot, &finds)) return 0;
     clear_around(body);
-    return tahr__ground_finds(foot) || !was_clear;
+    return finds || !was_clear;
 }
 
 double tahr__vicinity_room(const tahr__query *query)
