@@ -238,6 +238,7 @@ struct tahr_mover {
     tahr__backoff onward;   /* of the looks of onward.h */
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
+    uint64_t gathers;       /* of a short way that came to nothing: the long one tells of them */
     tahr_config config;
     size_t cache_size;
     tahr__custom custom;

@@ -87,25 +87,41 @@ void tahr_mover_destroy(tahr_mover *mover)
     }
 }
 
-/* Everything that the step is expected to ask about: its motion, steps up, snaps and perches down, a few skins. */
+/* Everything that a step is expected to ask about: its motion, steps up, snaps and perches down, a few skins. */
+static tahr_prepare announcement_of(const tahr_config *c, const tahr__limits *limits, const tahr_state *s, double pull,
+                                    double dt)
+{
+    double level = max_of(length(s->velocity), c->max_speed) * dt + limits->beside;
+    double fall = s->mode == TAHR_MODE_FALLING ? 0.5 * pull * dt * dt : 0;
+    double rise = max_of(c->step_height, c->jump_speed * dt);
+    double drop = limits->below + fall;
+    vec3 up = s->up, p = s->position;
+    vec3 away = vec(fabs(up.x), fabs(up.y), fabs(up.z));
+    double around = limits->around + level;
+    vec3 half = add_scaled(vec(around, around, around), away, limits->axis + 0.5 * (rise + drop));
+    vec3 middle = add_scaled(p, up, 0.5 * (rise - drop));
+    return (tahr_prepare){.bounds = {sub(middle, half), add(middle, half)}, .position = p, .up = up, .mask = c->mask};
+}
+
 static void announce(tahr__step *step, double dt, int stance)
 {
-    const tahr_config *c = step->config;
-    vec3 v = step->state.velocity;
-    double level = max_of(length(v), c->max_speed) * dt + step->limits->beside;
-    double fall = step->state.mode == TAHR_MODE_FALLING ? 0.5 * step->pull->size * dt * dt : 0;
-    double rise = max_of(c->step_height, c->jump_speed * dt);
-    double drop = step->limits->below + fall;
-    vec3 up = step->state.up, p = step->state.position;
-    vec3 away = vec(fabs(up.x), fabs(up.y), fabs(up.z));
-    double around = step->limits->around + level;
-    vec3 half = add_scaled(vec(around, around, around), away, step->limits->axis + 0.5 * (rise + drop));
-    vec3 middle = add_scaled(p, up, 0.5 * (rise - drop));
-    tahr_prepare a = {.bounds = {sub(middle, half), add(middle, half)}, .position = p, .up = up, .mask = c->mask};
+    tahr_prepare a = announcement_of(step->config, step->limits, &step->state, step->pull->size, dt);
     if (stance) {
         tahr__announce_stance(step, &a.bounds);
     }
     tahr__announce(step, &a);
+}
+
+int tahr__announce_early(tahr_mover *mover, double dt, const tahr_state *state, tahr_query_context *context)
+{
+    const tahr__limits *limits = &mover->limits;
+    const tahr_prepare a = announcement_of(&mover->config, limits, state, limits->pull.size, dt);
+    const tahr_backend *backend = mover->world->backend;
+    if (!backend->prepare || backend->prepare(mover->world->self, context, &a) != TAHR_OK) {
+        return 0;
+    }
+    mover->gathers = context->gathers;
+    return 1;
 }
 
 /* What else a step begins with: the plane, the facing. */
@@ -283,7 +299,8 @@ static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double 
     step.input = input;
     copy_state(&step.state, state);
     tahr__report_begin(&step.report, report);
-    step.context = (tahr_query_context){.cache = mover->cache};
+    step.context = (tahr_query_context){.cache = mover->cache, .gathers = mover->gathers};
+    mover->gathers = 0;
     step.pull = &mover->limits.pull;
     if (input->flags & TAHR_INPUT_GRAVITY) {
         pull = tahr__pull_of(along_plane(&mover->limits, input->gravity));

@@ -21,12 +21,12 @@ static int look(tahr__step *step, vec3 motion, tahr_hit *below)
                             .up = up,
                             .margin = c->skin,
                             .mask = c->mask};
-    uint32_t known = 0;
+    uint32_t known = TAHR_WALK_UNKNOWN;
     if (step->queries + 2 > TAHR_MAX_QUERIES_PER_STEP || vec_equal(to, step->state.floor_position)) {
         return 0;
     }
     tahr_status status = world->backend->walk(world->self, &step->context, &walk, below, &known);
-    if (status != TAHR_OK || !known || !below->blocking || !hit_is_flawless(below)) {
+    if (status != TAHR_OK || known != TAHR_WALK_KNOWN || !below->blocking || !hit_is_flawless(below)) {
         return 0;
     }
     step->state.position = to;

@@ -29,7 +29,7 @@ static inline int is_known_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 
 {
     tahr_walk walk;
     tahr_hit none;
-    uint32_t known = 0;
+    uint32_t known = TAHR_WALK_UNKNOWN;
     walk.shape = &mover->limits.shape;
     walk.foot = NULL;
     walk.position = walk.foot_position = from;
@@ -39,7 +39,8 @@ static inline int is_known_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 
     walk.mask = mover->pace.mask;
     walk.reserved = 0;
     none.distance = 0;
-    if (mover->world->backend->walk(mover->world->self, context, &walk, &none, &known) != TAHR_OK || !known) {
+    if (mover->world->backend->walk(mover->world->self, context, &walk, &none, &known) != TAHR_OK ||
+        known != TAHR_WALK_KNOWN) {
         return 0;
     }
     if (none.distance > 0) {

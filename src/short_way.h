@@ -37,6 +37,9 @@ tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, do
 tahr_status tahr__take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                             tahr_report *report);
 
+/* The announcement of the long way, before it is known to be short. Returns 1; 0: that failed, and will again. */
+int tahr__announce_early(tahr_mover *mover, double dt, const tahr_state *state, tahr_query_context *context);
+
 /* Has a short walk come to no other place? Seldom asked, and therefore far away. */
 int tahr__stays(const tahr_vec3 *from, const tahr_vec3 *to);
 
@@ -89,6 +92,7 @@ static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, const
     r->slices = 1;
     r->triangle_tests = context->narrow_tests;
     r->narrow_iterations = context->narrow_iterations;
+    r->gathers = context->gathers;
     r->spared = context->spared;
 }
 

@@ -122,6 +122,20 @@ static inline void write_rest(tahr__pace *pace, tahr_state *s, const tahr_hit *h
     pace->asked.dt = dt;
 }
 
+/* Asks for the walk, and where what was gathered ends once more from there. */
+static inline int is_known(tahr_mover *mover, double dt, const tahr_state *state, const tahr_walk *walk,
+                           tahr_query_context *context, tahr_hit *hit)
+{
+    const tahr_world *world = mover->world;
+    uint32_t known = TAHR_WALK_UNKNOWN;
+    tahr_status status = world->backend->walk(world->self, context, walk, hit, &known);
+    if (status == TAHR_OK && known == TAHR_WALK_UNANNOUNCED && tahr__announce_early(mover, dt, state, context)) {
+        known = TAHR_WALK_UNKNOWN;
+        status = world->backend->walk(world->self, context, walk, hit, &known);
+    }
+    return status == TAHR_OK && known == TAHR_WALK_KNOWN;
+}
+
 /* m2: who goes so far, 3e-8 m, comes to another place: the last bit of the farthest one (2e7 m) is 4e-9 m. */
 static const double FAR2 = 1e-15;
 
@@ -157,9 +171,7 @@ static inline int stroll(tahr_mover *mover, const tahr_input *input, double dt, 
                             .mask = pace->mask};
     tahr_query_context context = {.cache = mover->cache};
     tahr_hit hit;
-    uint32_t known = 0;
-    tahr_status status = mover->world->backend->walk(mover->world->self, &context, &walk, &hit, &known);
-    if (status != TAHR_OK || !known) {
+    if (!is_known(mover, dt, state, &walk, &context, &hit)) {
         return 0;
     }
     const double clearance = hit.fraction * pace->range + pace->skin;
@@ -171,6 +183,9 @@ static inline int stroll(tahr_mover *mover, const tahr_input *input, double dt, 
     write_end(state, position, m.velocity, &hit, clearance);
     if (!same) {
         write_rest(pace, state, &hit, dt);
+    }
+    if (context.gathers) {
+        mover->gathers = 0;
     }
     tahr__report_short_way(report, 2, &context);
     return 1;

@@ -425,6 +425,8 @@ enum { TAHR__UNKNOWN, TAHR__AROUND, TAHR__OVER, TAHR__DOWN };
 uint32_t tahr__vicinity_look(const tahr__query *query);
 uint32_t tahr__vicinity_known(const tahr__query *query);
 uint32_t tahr__vicinity_way(const tahr__query *query);
+/* Is it not known because what has been gathered does not reach so far? */
+int tahr__vicinity_ends(const tahr__query *query);
 /* Of a way that is known: is nothing met? 0: there may be something. */
 int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
 /* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */

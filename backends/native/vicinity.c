@@ -132,6 +132,11 @@ static int spans(const tahr__query *query)
     return tahr__cache_spans(query->cache, &box, reach_of(query));
 }
 
+int tahr__vicinity_ends(const tahr__query *query)
+{
+    return serves(query) && !spans(query);
+}
+
 uint32_t tahr__vicinity_way(const tahr__query *query)
 {
     const tahr__vicinity *v = &query->cache->vicinity;

@@ -80,13 +80,19 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
         }
     }
     if (world->movable.count > 0 || !cache || !cache->announced) return TAHR_OK;
-    if (!tahr__frame_holds(&cache->frame, walk->position, walk->up)) return TAHR_OK;
+    if (!tahr__frame_holds(&cache->frame, walk->position, walk->up)) {
+        *known = TAHR_WALK_UNANNOUNCED;
+        return TAHR_OK;
+    }
     body.world = world;
     body.cache = cache;
     body.frame = &cache->frame;
     aim(&body, context, walk, 0);
     const uint32_t way = tahr__vicinity_look(&body);
-    if (way == TAHR__UNKNOWN) return TAHR_OK;
+    if (way == TAHR__UNKNOWN) {
+        if (tahr__vicinity_ends(&body)) *known = TAHR_WALK_UNANNOUNCED;
+        return TAHR_OK;
+    }
     *known = (uint32_t)(walk->foot ? goes_to(&body, way, walk, hit) : tahr__vicinity_is_clear(&body, way));
     context->spared += *known ? walk->foot ? 2 : 1 : 0;
     if (!walk->foot && *known) hit->distance = d_max(tahr__vicinity_room(&body), 0);

@@ -63,6 +63,11 @@ typedef struct tahr_query_context {
     uint64_t spared;            /* sweeps answered from what was known of the place, without a look at the scene */
 } tahr_query_context;
 
+/* What a walk slot knows: it is not known, or not so, what *hit holds then means nothing; nothing blocks the motion, and
+ * *hit (of a foot) is the blocking one that sweep answers for it, bit for bit; the former, but it may be the latter after
+ * an announcement from here. */
+enum { TAHR_WALK_UNKNOWN = 0, TAHR_WALK_KNOWN = 1, TAHR_WALK_UNANNOUNCED = 2 };
+
 /* The announcement before a step: everything the step is expected to ask about lies in bounds. A hint only. World
  * frame. position: of the character at the start of the step; native's geometry is local to its 4 m cell, also for
  * queries of the step that begin in the next one. */
@@ -119,9 +124,9 @@ typedef struct tahr_backend {
     tahr_status (*body_motion)(void *self, uint32_t body, tahr_body_motion *motion);
     tahr_status (*fluid)(void *self, tahr_query_context *context, const tahr_fluid_query *query, tahr_fluid *fluid);
 
-    /* Optional: a walk in one look. *known = 1: nothing blocks the motion, and *hit (of a foot) is the blocking one that
-     * sweep answers for it, bit for bit. 0: it is not known, or not so; what *hit holds then means nothing. Without a foot hit->distance, 0 before the call, may say how far (m) from its position
-     * such a shape meets nothing whichever way it goes, for as long as no body is placed anew. */
+    /* Optional: a walk in one look. *known: a TAHR_WALK_*; UNKNOWN before the call. Without a foot hit->distance, 0
+     * before the call, may say how far (m) from its position such a shape meets nothing whichever way it goes, for as
+     * long as no body is placed anew. */
     tahr_status (*walk)(void *self, tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit, uint32_t *known);
 
     /* Optional: see tahr_world_describe. to is valid during the call, write never NULL. Nothing is allocated. */
