@@ -28,12 +28,12 @@ static int same_bits(const tahr_hit *a, const tahr_hit *b)
 /* Asks the slot. */
 static int knows(tahr__lab *lab, const tahr_walk *walk, tahr_hit *said)
 {
-    uint32_t known = 0;
+    uint32_t known = TAHR_WALK_UNKNOWN;
     memset(said, 0, sizeof *said);
     tahr_status status = lab->world->backend->walk(lab->world->self, &lab->context, walk, said, &known);
-    return tahr__lab_check(lab, status >= 0 && known <= 1, "walk: ok, and known 0 or 1", "%s, known %u",
-                           tahr_status_name(status), known) &&
-           known;
+    return tahr__lab_check(lab, status >= 0 && known <= TAHR_WALK_UNANNOUNCED, "walk: ok, and known a TAHR_WALK_*",
+                           "%s, known %u", tahr_status_name(status), known) &&
+           known == TAHR_WALK_KNOWN;
 }
 
 /* The same, and if it knows, the sweeps. */

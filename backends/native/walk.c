@@ -81,7 +81,7 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
     }
     if (world->movable.count > 0 || !cache || !cache->announced) return TAHR_OK;
     if (!tahr__frame_holds(&cache->frame, walk->position, walk->up)) {
-        *known = TAHR_WALK_UNANNOUNCED;
+        *known = cache->gathered ? TAHR_WALK_UNANNOUNCED : TAHR_WALK_UNKNOWN;
         return TAHR_OK;
     }
     body.world = world;

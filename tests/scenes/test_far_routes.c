@@ -19,7 +19,7 @@ enum { ROUTES = 24, STEPS = 300, SKIPPED = 77 };
 static const double DT = 1.0 / 60, AWAY = 1e6, SAME = 1e-6, GRAZED = 0.01;
 
 /* By level; bit i: route i is judged by SAME. */
-static const uint32_t JUDGED[SCENE_LEVELS] = {0xf7df7b, 0xfffbff, 0xffffff, 0xffffff};
+static const uint32_t JUDGED[SCENE_LEVELS] = {0xf7cf7b, 0xfffbff, 0xffffff, 0xffffff};
 
 static tahr_world *open_at(const scene_mesh *mesh, double away)
 {

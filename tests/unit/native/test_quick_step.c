@@ -504,6 +504,32 @@ static void a_lean_crowd_takes_no_short_way_for_who_may_not(void **unused)
     close_pair(&p);
 }
 
+/* Where what was gathered ends it looks around, and goes the short way all the same: two of three times at least, on a
+ * floor with nothing on it; and no more often than the long way, which announces every step. */
+static void a_short_walk_looks_around_by_itself(void **unused)
+{
+    enum { STEPS = 600 };
+    pair p;
+    (void)unused;
+    open_pair(&p, 0);
+    tahr_state a = p.on.state, b = p.off.state;
+    uint64_t gathers[2] = {0, 0};
+    int by_itself = 0;
+    for (int n = 0; n < STEPS; n++) {
+        tahr_report ra = {.struct_size = sizeof ra}, rb = ra;
+        const tahr_input input = {.struct_size = sizeof input, .move = {n / 200 % 2 ? -0.9 : 0.9, 0.01 * (n % 7), 0}};
+        assert_int_equal(tahr_mover_step(p.on.mover, &input, DT, &a, &ra), TAHR_OK);
+        assert_int_equal(tahr_mover_step(p.off.mover, &input, DT, &b, &rb), TAHR_OK);
+        assert_memory_equal(&a, &b, sizeof a);
+        gathers[0] += ra.gathers;
+        gathers[1] += rb.gathers;
+        by_itself += ra.gathers > 0 && ra.spared == 2;
+    }
+    assert_true(gathers[0] > 10 && gathers[0] <= gathers[1]);
+    assert_true(3 * (uint64_t)by_itself >= 2 * gathers[0]);
+    close_pair(&p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_bit_of_who_walks_is_seen),
@@ -515,6 +541,7 @@ int main(void)
                                        cmocka_unit_test(without_gravity_up_is_still_checked),
                                        cmocka_unit_test(a_mover_remembers_no_wish_of_another),
                                        cmocka_unit_test(a_mover_holds_no_face_of_another),
+                                       cmocka_unit_test(a_short_walk_looks_around_by_itself),
                                        cmocka_unit_test(a_decay_that_is_known_changes_no_bit),
                                        cmocka_unit_test(a_lean_crowd_takes_no_short_way_for_who_may_not)};
     return cmocka_run_group_tests(tests, NULL, NULL);

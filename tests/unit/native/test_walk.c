@@ -70,13 +70,13 @@ static int ask(pair *p, tahr_vec3 at, tahr_vec3 motion)
     assert_int_equal(tahr_backend_v1_native()->walk(p->knows.self, &p->knows.context, &walk, &hit, &known), TAHR_OK);
     const tahr_sweep body = sweep_of(&walk, 0), foot = sweep_of(&walk, 1);
     const tahr_hit met = fixture_hit(&p->asks, &body), below = fixture_hit(&p->asks, &foot);
-    if (known) {
+    if (known == TAHR_WALK_KNOWN) {
         assert_int_equal(met.blocking, 0);
         assert_memory_equal(&hit, &below, sizeof hit);
     } else if (met.blocking || !below.blocking) {
         p->barred++;
     }
-    p->known += known != 0;
+    p->known += known == TAHR_WALK_KNOWN;
     p->lower += motion.z < 0;
     /* A cache that is asked nothing else learns from no sweep which floor it is. */
     fixture_hit(&p->knows, &foot);
