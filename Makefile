@@ -98,7 +98,8 @@ peers: setup
 PYTHON ?= python3
 chart_python = $(BUILD)/venv/bin/python
 $(BUILD)/venv/made: tests/bench/chart/requirements.txt
-	@$(PYTHON) -m venv $(BUILD)/venv
+	@$(PYTHON) -m venv $(BUILD)/venv || { \
+		echo "chart: '$(PYTHON) -m venv' failed; expected Python 3 with venv (Debian: python3-venv), or PYTHON=another"; exit 1; }
 	@$(chart_python) -m pip install --quiet --disable-pip-version-check -r $< || { \
 		echo "chart: pip could not install what $< lists into $(BUILD)/venv"; exit 1; }
 	@touch $@

@@ -2,6 +2,8 @@
  * box2d.c: the table of the box2d backend. */
 #include "scene.h"
 
+#include <stdio.h>
+
 static tahr_status body_motion(void *self, uint32_t body, tahr_body_motion *motion)
 {
     const tahr__b2_scene *scene = self;
@@ -16,6 +18,30 @@ static tahr_status fluid(void *self, tahr_query_context *context, const tahr_flu
     (void)context;
     flat.position.z = 0;
     tahr__fluids_ask(&scene->fluids, &flat, answer);
+    return TAHR_OK;
+}
+
+static tahr_status describe(void *self, const tahr_log *to)
+{
+    const tahr__b2_scene *scene = self;
+    uint32_t chains = 0, movable = 0;
+    char text[256];
+
+    if (scene->attached) {
+        snprintf(text, sizeof text, "box2d, 2D: a world of yours, Box2D %s; path: its tree", scene->engine->version);
+        to->write(to->user, TAHR_LOG_INFO, text);
+        return TAHR_OK;
+    }
+    for (uint32_t i = 0; i < scene->body_count; i++) {
+        chains += scene->bodies[i].type == TAHR_BODY_CHAIN;
+        movable += (scene->bodies[i].owner.flags & TAHR_BODY_MOVABLE) != 0;
+    }
+    snprintf(text, sizeof text,
+             "box2d, 2D: %u movable and %u static bodies, %u of them chains; path: the tree of Box2D %s, %u pieces: "
+             "bodies, and of chains their segments",
+             (unsigned)movable, (unsigned)(scene->body_count - movable), (unsigned)chains, scene->engine->version,
+             (unsigned)scene->item_count);
+    to->write(to->user, TAHR_LOG_INFO, text);
     return TAHR_OK;
 }
 
@@ -42,6 +68,7 @@ static const tahr_backend backend = {
     .place = tahr__b2_place,
     .body_motion = body_motion,
     .fluid = fluid,
+    .describe = describe,
 };
 
 const tahr_backend *tahr_backend_v1_box2d(void)

@@ -2,6 +2,8 @@
  * ccd.c: the table of the ccd backend: its slots are those of convex pieces, found by walk.c. */
 #include "scene.h"
 
+#include <stdio.h>
+
 static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
                          uint32_t capacity, uint32_t *count)
 {
@@ -24,6 +26,22 @@ static tahr_status ray(void *self, tahr_query_context *context, const tahr_ray *
     return tahr__piece_ray(tahr__piece_query_by(&walk.query, &tahr__ccd_finder, self, context), query, hit, count);
 }
 
+static tahr_status describe(void *self, const tahr_log *to)
+{
+    const tahr__ccd_scene *scene = self;
+    char path[256];
+    const char *boolean = scene->boolean == TAHR_CCD_BOOLEAN_GJK ? "GJK" : "MPR";
+    int n =
+        snprintf(path, sizeof path, "path: the tree of bodies, in meshes their trees of eight; then pair by pair, ");
+    if (scene->sweep == TAHR_CCD_SWEEP_ADVANCE)
+        snprintf(path + n, sizeof path - (size_t)n, "by the distance all the way: libccd is not asked");
+    else
+        snprintf(path + n, sizeof path - (size_t)n, "by libccd's %s in halves, %u iterations at most: options.sweep",
+                 boolean, (unsigned)scene->max_iterations);
+    tahr__scene_describe(&scene->scene, "ccd", path, to);
+    return TAHR_OK;
+}
+
 static const tahr_backend backend = {
     .struct_size = sizeof backend,
     .abi_major = TAHR_ABI_MAJOR,
@@ -41,6 +59,7 @@ static const tahr_backend backend = {
     .ray = ray,
     .place = tahr__ccd_place,
     .fluid = tahr__scene_fluid,
+    .describe = describe,
 };
 
 const tahr_backend *tahr_backend_v1_ccd(void)

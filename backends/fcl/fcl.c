@@ -2,6 +2,8 @@
  * fcl.c: the table of the fcl backend: its slots are those of convex pieces, found by query.c. */
 #include "scene.h"
 
+#include <stdio.h>
+
 static tahr_status sweep(void *self, tahr_query_context *context, const tahr_sweep *query, tahr_hit *hits,
                          uint32_t capacity, uint32_t *count)
 {
@@ -42,6 +44,21 @@ static tahr_status body_motion(void *self, uint32_t id, tahr_body_motion *motion
     return scene->desc.motion(scene->desc.user, tahr__fcl_engine_object_of(scene->engine, i), id, motion);
 }
 
+static tahr_status describe(void *self, const tahr_log *to)
+{
+    const tahr__fcl_scene *scene = self;
+    char path[256];
+    snprintf(path, sizeof path,
+             "path: FCL's %s, in meshes its trees of %s, searched by %s; what a step announces is found once; then "
+             "pair by pair "
+             "by the distance",
+             scene->desc.manager ? "manager of yours" : "tree of bodies",
+             scene->desc.volumes == TAHR_FCL_OBBRSS ? "OBBRSS" : "AABB",
+             scene->desc.search == TAHR_FCL_COLLIDE ? "collide()" : "a descent of our own");
+    tahr__scene_describe(&scene->scene, "fcl", path, to);
+    return TAHR_OK;
+}
+
 static const tahr_backend backend = {
     .struct_size = sizeof backend,
     .abi_major = TAHR_ABI_MAJOR,
@@ -62,6 +79,7 @@ static const tahr_backend backend = {
     .place = tahr__fcl_place,
     .body_motion = body_motion,
     .fluid = tahr__scene_fluid,
+    .describe = describe,
 };
 
 const tahr_backend *tahr_backend_v1_fcl(void)

@@ -253,6 +253,17 @@ static void describe_heights(uint32_t id, const tahr__heights *h, const tahr_log
     say(to, text);
 }
 
+/* What is no mesh and no field has nothing to choose from. */
+static void describe_solids(const tahr__native *world, uint32_t pieces, uint32_t round, const tahr_log *to)
+{
+    char text[256];
+    snprintf(text, sizeof text,
+             "boxes and hulls: %u, met as their triangles and, by who is in them, as solids; spheres and capsules: %u, "
+             "met in one piece; path: the tree of static bodies, %u nodes, and that of movable ones",
+             (unsigned)pieces, (unsigned)round, (unsigned)world->fixed.tree.node_count);
+    say(to, text);
+}
+
 static const char *lanes_of(const tahr__native *world)
 {
     tahr__lanes_fn *cull = world->lanes->cull;
@@ -267,16 +278,18 @@ tahr_status tahr__native_describe(void *self, const tahr_log *to)
     enum { TYPES = sizeof types / sizeof types[0] };
     const tahr__native *world = self;
     char text[256];
+    uint32_t counts[TYPES] = {0};
     int n = snprintf(text, sizeof text, "native, 3D, %s: %u movable and %u static bodies,", lanes_of(world),
                      (unsigned)world->movable.count, (unsigned)world->fixed.count);
     for (int t = 0; t < TYPES; t++) {
-        uint32_t count = 0;
         for (uint32_t i = 0; i < world->body_count; i++)
-            count += world->bodies[i].type == types[t];
-        if (count) n += snprintf(text + n, sizeof text - (size_t)n, " %u %s,", (unsigned)count, names[t]);
+            counts[t] += world->bodies[i].type == types[t];
+        if (counts[t]) n += snprintf(text + n, sizeof text - (size_t)n, " %u %s,", (unsigned)counts[t], names[t]);
     }
     text[n - 1] = 0;
     say(to, text);
+    if (counts[1] + counts[2] + counts[3] + counts[4] > 0)
+        describe_solids(world, counts[1] + counts[4], counts[2] + counts[3], to);
     if (world->gather) say(to, "triangles of the user: gathered around each character, nothing kept");
     for (uint32_t i = 0; i < world->body_count; i++) {
         if (world->bodies[i].type == TAHR_BODY_MESH) describe_mesh(world, i, to);

@@ -133,14 +133,17 @@ static int info_level(int argc, char **argv, int json)
 
 void info_help(void)
 {
-    puts("usage: tahr info [--json] [--level FILE [--up y|z] [--backend NAME]]\n"
+    puts("usage: tahr info [--json]\n"
+         "       tahr info [--json] [--level FILE] [--up y|z] [--2d [--pixels-per-metre P] [--tiles MODE]] "
+         "[--backend NAME]\n"
          "\n"
          "Version, ABI, presets, and the collision engines that this shell was built with: what `--backend` and\n"
          "`tahr selftest` take, with their capabilities (TAHR_CAP_* of tahr/backend.h).\n"
          "\n"
-         "With --level: what the scene is made of as the backend opens it, and which way queries go through it and "
-         "why:\n"
-         "triangles and how they meet, what was dropped, bytes per triangle, the densest place, fields of heights.");
+         "With --level, or another option of a level (then the bundled playground; with --2d the bundled "
+         "side-scroller):\n"
+         "what the scene is made of as the backend opens it, and which way queries go through it and why: triangles\n"
+         "and how they meet, what was dropped, bytes per triangle, the densest place, fields of heights.");
 }
 
 int info_command(int argc, char **argv)
@@ -151,7 +154,7 @@ int info_command(int argc, char **argv)
     }
     int json = 0, kept = 1, level = 0;
     for (int i = 1; i < argc; i++) {
-        level |= strncmp(argv[i], "--level", 7) == 0;
+        level |= is_level_option(argv[i]);
     }
     for (int i = 1; level && i < argc; i++) {
         if (strcmp(argv[i], "--json") == 0) {
@@ -166,7 +169,8 @@ int info_command(int argc, char **argv)
     }
     json = argc > 1 && strcmp(argv[1], "--json") == 0;
     if (argc > 1 + json) {
-        say_error("info: unexpected argument '%s'; known are --json and --level", argv[1 + json]);
+        say_error("info: unexpected argument '%s'; known are --json and, of a level, --level, --up, --backend and --2d",
+                  argv[1 + json]);
         return EXIT_USAGE;
     }
     if (json) {

@@ -369,6 +369,10 @@ int run_describe(const struct options *options, const tahr_log *to)
 {
     struct run run = {.options = options};
     int opened = load_level(&run) == 0 && open_world(&run) == 0;
+    if (opened && run.level.side) {
+        side_describe(run.level.side, options->separate_tiles,
+                      (backend_table(options->backend)->capabilities & TAHR_CAP_PLANAR) != 0, to);
+    }
     int described = opened && tahr_world_describe(run.world, to) >= 0;
     if (opened && !described) {
         say_error("backend '%s' cannot describe its scene", options->backend->name);

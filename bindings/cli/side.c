@@ -5,6 +5,7 @@
 #include "say.h"
 #include "vec.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -248,4 +249,20 @@ void side_build(struct level *level, struct side *side, const char *name, int pl
         piece->body = (uint32_t)level->body_count - 1;
         piece->reached = -1;
     }
+}
+
+void side_describe(const struct side *side, int separate, int planar, const tahr_log *to)
+{
+    size_t counts[SIDE_CIRCLE + 1] = {0};
+    char text[256];
+    for (size_t i = 0; i < side->count; i++) {
+        counts[side->pieces[i].form]++;
+    }
+    snprintf(text, sizeof text,
+             "two dimensions: %zu outlines, %zu lines, %zu boxes, %zu circles; tiles that meet: %s; path: %s",
+             counts[SIDE_LOOP], counts[SIDE_LINE], counts[SIDE_BOX], counts[SIDE_CIRCLE],
+             separate ? "a body each (--tiles separate)" : "one outline, without seams",
+             planar ? "as drawn, the backend has two dimensions"
+                    : "drawn out along z, the backend has three dimensions");
+    to->write(to->user, TAHR_LOG_INFO, text);
 }

@@ -62,6 +62,9 @@ int side_load(struct side *side, const char *path, const struct side_options *op
  * and the plot look at. The level owns the side from then on. */
 void side_build(struct level *level, struct side *side, const char *name, int planar);
 
+/* Says in a line what was drawn, how its tiles were taken (separate: as side_options) and what becomes of it. */
+void side_describe(const struct side *side, int separate, int planar, const tahr_log *to);
+
 /* Settings of a character on such a level: up is y, and it stays in the plane. */
 void side_config(tahr_config *config);
 tahr_shape side_shape(uint32_t type, const tahr_shape *like);

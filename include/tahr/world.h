@@ -254,9 +254,9 @@ TAHR_API uint64_t tahr_world_revision(const tahr_world *world);
 /* Says in words what a world is made of, which way queries go through it and why: one line per call of to->write, of
  * level TAHR_LOG_INFO, the first one about the whole. With native: what there is, how triangles meet (open and flat
  * edges), what was dropped, bytes per triangle, the densest place and how far around a step is gathered there, meshes
- * that are fields of heights. For people, and different from version to version. Takes time in proportion to the
- * triangles (0.1 s per million); allocates nothing; not while the world is changed. Returns TAHR_OK, TAHR_E_NULL,
- * TAHR_E_BACKEND. Since 0.1. */
+ * that are fields of heights; with the others the bodies and the way of a query. For people, and different from version
+ * to version. Takes time in proportion to the triangles (0.1 s per million); allocates nothing; not while the world is
+ * changed. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_BACKEND. Since 0.1. */
 TAHR_API tahr_status tahr_world_describe(tahr_world *world, const tahr_log *to);
 
 /* Name of the backend behind a world ("native", "callbacks"), "?" for NULL; static memory. Since 0.1. */

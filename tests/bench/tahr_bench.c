@@ -57,6 +57,21 @@ static int help(void)
     return 0;
 }
 
+/* Whether a world and a backend, if both are named, go together: what costs next to nothing is measured on native, and
+ * backends of a plane need one. */
+static int measures(const options *o)
+{
+    int quiet = 0, planar = 0;
+    if (!o->world || !o->backend) return 1;
+    for (int i = 0; i < BENCH_QUIET; i++) {
+        quiet = quiet || strcmp(o->world, bench_quiet_name(i)) == 0;
+    }
+    for (int i = 0; i < SCENE_PLANAR_BACKEND_COUNT; i++) {
+        planar = planar || strcmp(o->backend, SCENE_PLANAR_BACKENDS[i].name) == 0;
+    }
+    return quiet ? strcmp(o->backend, "native") == 0 && !o->queries : !planar || strstr(o->world, "_2d") != NULL;
+}
+
 static int known(const options *o)
 {
     int world = o->world == NULL, backend = o->backend == NULL;
@@ -71,6 +86,10 @@ static int known(const options *o)
     }
     for (int i = 0; i < SCENE_PLANAR_BACKEND_COUNT; i++) {
         backend = backend || strcmp(o->backend, SCENE_PLANAR_BACKENDS[i].name) == 0;
+    }
+    if (world && backend && !measures(o)) {
+        fprintf(stderr, "tahr_bench: world '%s' has no backend '%s'\n", o->world, o->backend);
+        return 0;
     }
     if (!world || !backend) {
         fprintf(stderr, "tahr_bench: no such %s: '%s'\n", world ? "backend" : "world", world ? o->backend : o->world);
@@ -90,9 +109,11 @@ static int read_options(options *o, int argc, char **argv)
         if (i + 1 < argc && text) {
             *text = argv[++i];
         } else if (i + 1 < argc && strcmp(argv[i], "--characters") == 0) {
-            unsigned long n = strtoul(argv[++i], &end, 10);
-            if (*end || n < 1 || n > 100000) {
-                return usage("--characters");
+            const char *value = argv[++i];
+            unsigned long n = strtoul(value, &end, 10);
+            if (*value < '0' || *value > '9' || *end || n < 1 || n > 100000) {
+                fprintf(stderr, "tahr_bench: --characters '%s': expected a whole number from 1 to 100000\n", value);
+                return 2;
             }
             o->characters = (uint32_t)n;
         } else if (strcmp(argv[i], "--queries") == 0) {

@@ -31,6 +31,30 @@ expect 0 "native, 3D" "1 static bodies" "body 0: "
 tahr info --level "$work/two.obj" --json --backend native
 expect 0 '"scene"' "native, 3D"
 is_json || fail "info --level --json is no JSON"
+tahr info --up=z --level="$work/two.obj" --backend native
+expect 0 "1 static bodies"
+# Without a file it is a bundled level, as of run.
+tahr info --backend native
+expect 0 "native, 3D" "meshes" "boxes"
+tahr info --2d
+expect 0 "native, 3D" "spheres" "two dimensions" "one outline, without seams" "drawn out along z"
+tahr info --2d --json
+expect 0 '"scene"'
+is_json || fail "info --2d --json is no JSON"
+tahr info --backend ccd
+case $code in 0) expect 0 "ccd, 3D" "path: the tree of bodies" ;; *) expect 2 ccd ;; esac
+tahr info --2d --level "$here/../../bindings/cli/levels/side.tmj" --tiles separate
+expect 0 "native, 3D" "a body each (--tiles separate)"
+tahr info --level "$here/../../bindings/cli/levels/side.tmj"
+expect 2 "side.tmj" "--2d"
+tahr info --tiles separate
+expect 2 "--tiles" "--2d"
+tahr info --2d --up z
+expect 2 "--up z"
+tahr info --backend
+expect 2 "--backend"
+tahr info --backend nosuch
+expect 2 "nosuch"
 tahr info --level "$work/nowhere.obj"
 expect 2 "nowhere.obj"
 tahr info --level "$work/two.obj" --characters 3

@@ -54,7 +54,7 @@ run() {
     cat "$folder/hash"
 }
 run
-if [ -z "$emulator" ]; then # slow, and there are no lanes for it
+if [ -z "$emulator" ]; then # slow; what it ran is its own lanes, against the bits of this machine's
     run --scalar
     run --no-cache
 fi

@@ -74,6 +74,8 @@ const family FAMILIES[] = {
     {ROW("turned", "turned any way, gravity too", BOTH, "", relate_generic), .twin = twin_turned},
     {ROW("scaled", "half, a quarter as large", BOTH, "", relate_lattice), .twin = twin_scaled},
     {ROW("split", "every triangle cut into three", IN_SPACE, NEEDS_TRIANGLES, relate_generic), .twin = twin_split},
+    {ROW("rewound", "two-sided triangles the other way round", IN_SPACE, NEEDS_TRIANGLES, relate_two_sided),
+     .twin = twin_rewound},
     {ROW("doubled", "triangles twice: the same bits", IN_SPACE, NEEDS_TRIANGLES, relate_any), .twin = twin_duplicated},
     {ROW("far_added", "triangles far away: the same bits", IN_SPACE, NEEDS_TRIANGLES, relate_any),
      .twin = twin_far_triangles},

@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 /* A cell of thousands of runs takes seconds; who takes this long hangs. */
-enum { CELL_SECONDS = 600, SLOW_RUNS = 6, REPETITIONS = 4, MOST_JOBS = 64 };
+enum { CELL_SECONDS = 600, SLOW_RUNS = 6, REPETITIONS = 4 };
 
 typedef struct shared {
     atomic_uint next;
@@ -117,7 +117,7 @@ static void work(shared *s, uint32_t count, const matrix_request *request, uint3
 
 /* Which cell each worker is at: written by it, read by its parent when it is gone. */
 typedef struct crew {
-    pid_t pid[MOST_JOBS];
+    pid_t pid[MATRIX_JOBS];
     uint32_t *at;
     int jobs;
 } crew;
@@ -219,8 +219,8 @@ int matrix_run(matrix *m, const matrix_request *request, void (*done)(const matr
 {
     matrix_request own = *request;
     uint32_t count = (uint32_t)family_count() * (uint32_t)subject_count() * MATRIX_PRESETS;
-    own.jobs = own.jobs < 1 ? 1 : own.jobs > MOST_JOBS ? MOST_JOBS : own.jobs;
-    size_t size = shared_size(count), crew_size = MOST_JOBS * sizeof(uint32_t);
+    own.jobs = own.jobs < 1 ? 1 : own.jobs > MATRIX_JOBS ? MATRIX_JOBS : own.jobs;
+    size_t size = shared_size(count), crew_size = MATRIX_JOBS * sizeof(uint32_t);
     shared *s = share(size + crew_size);
     if (!s) {
         snprintf(why, 256, "no shared memory");

@@ -6,7 +6,7 @@
 
 #include "run.h"
 
-enum { MATRIX_PRESETS = 3 };
+enum { MATRIX_PRESETS = 3, MATRIX_JOBS = 64 }; /* JOBS: the most */
 
 enum { CELL_OPEN, CELL_DONE, CELL_NOT_POSSIBLE, CELL_CRASHED, CELL_HUNG };
 

@@ -38,6 +38,15 @@ void relate_triangles(trial *t, oracle_random *dice)
     related(t);
 }
 
+/* Of triangles that block on both sides. */
+void relate_two_sided(trial *t, oracle_random *dice)
+{
+    relate_triangles(t, dice);
+    for (uint32_t i = 0; i < t->body_count; i++) {
+        if (t->bodies[i].desc.type == TAHR_BODY_MESH) t->bodies[i].desc.flags |= TAHR_BODY_TWO_SIDED;
+    }
+}
+
 /* All of it on multiples of 1/64 m, between 0.5 and 3.5 m above and beside the origin. */
 void relate_lattice(trial *t, oracle_random *dice)
 {
@@ -257,6 +266,24 @@ void twin_split(const trial *t, oracle_random *dice, twin *w)
     w->in_step = 1;
     w->tolerance = 1e-9;
     w->exactness = 8; /* the pieces' planes are rounded each for itself */
+}
+
+/* Every triangle the other way round: what blocks on both sides has no front. */
+void twin_rewound(const trial *t, oracle_random *dice, twin *w)
+{
+    (void)dice;
+    twin_begin(w, t);
+    for (uint32_t i = 0; i < w->other.body_count; i++) {
+        scene_mesh *m = &w->other.bodies[i].mesh;
+        for (uint32_t k = 0; k < m->triangle_count && w->other.bodies[i].desc.type == TAHR_BODY_MESH; k++) {
+            uint32_t *c = m->indices + 3 * (size_t)k, second = c[1];
+            c[1] = c[2];
+            c[2] = second;
+        }
+    }
+    w->in_step = 1;
+    w->tolerance = 1e-9;
+    w->exactness = 4;
 }
 
 void twin_duplicated(const trial *t, oracle_random *dice, twin *w)

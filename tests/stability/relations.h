@@ -8,6 +8,7 @@
 void relate_any(trial *t, oracle_random *dice);
 void relate_generic(trial *t, oracle_random *dice);
 void relate_triangles(trial *t, oracle_random *dice);
+void relate_two_sided(trial *t, oracle_random *dice);
 void relate_lattice(trial *t, oracle_random *dice);
 void relate_flight(trial *t, oracle_random *dice);
 
@@ -18,6 +19,7 @@ void twin_mirror(const trial *t, oracle_random *dice, twin *w);
 void twin_turned(const trial *t, oracle_random *dice, twin *w);
 void twin_scaled(const trial *t, oracle_random *dice, twin *w);
 void twin_split(const trial *t, oracle_random *dice, twin *w);
+void twin_rewound(const trial *t, oracle_random *dice, twin *w);
 void twin_duplicated(const trial *t, oracle_random *dice, twin *w);
 void twin_far_triangles(const trial *t, oracle_random *dice, twin *w);
 void twin_shuffled(const trial *t, oracle_random *dice, twin *w);

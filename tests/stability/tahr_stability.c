@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { SEEDS = 1000, QUICK_SEEDS = 30 };
+enum { SEEDS = 1000, QUICK_SEEDS = 30, MOST_SEEDS = 100000000 };
 
 typedef struct options {
     matrix_request request;
@@ -42,12 +42,19 @@ static int usage(const char *what, const char *value)
     return 2;
 }
 
+static int not_a_number(const char *name, const char *value, uint64_t most)
+{
+    fprintf(stderr, "tahr_stability: %s '%s': expected a whole number from 1 to %llu\n", name, value,
+            (unsigned long long)most);
+    return 2;
+}
+
 static int number(const char *text, uint64_t most, uint64_t *value)
 {
     char *end = NULL;
     errno = 0;
     unsigned long long n = strtoull(text, &end, 10);
-    if (errno || end == text || *end || n < 1 || n > most) return 0;
+    if (errno || *text < '0' || *text > '9' || *end || n < 1 || n > most) return 0;
     *value = n;
     return 1;
 }
@@ -79,13 +86,13 @@ static int read_value(options *o, const char *name, const char *value)
         r->preset = preset_named(value);
         return r->preset ? 0 : usage(name, value);
     } else if (strcmp(name, "--seeds") == 0) {
-        if (!number(value, 100000000, &n)) return usage(name, value);
+        if (!number(value, MOST_SEEDS, &n)) return not_a_number(name, value, MOST_SEEDS);
         r->seeds = (uint32_t)n;
     } else if (strcmp(name, "--jobs") == 0) {
-        if (!number(value, 64, &n)) return usage(name, value);
+        if (!number(value, MATRIX_JOBS, &n)) return not_a_number(name, value, MATRIX_JOBS);
         r->jobs = (int)n;
     } else if (strcmp(name, "--seed") == 0) {
-        if (!number(value, UINT64_MAX, &o->seed)) return usage(name, value);
+        if (!number(value, UINT64_MAX, &o->seed)) return not_a_number(name, value, UINT64_MAX);
         o->one = 1;
     } else {
         return usage("option", name);
@@ -110,10 +117,39 @@ static int read_options(options *o, int argc, char **argv)
             if (wrong) return wrong;
             i++;
         } else {
-            return usage("option", argv[i]);
+            fprintf(stderr, "tahr_stability: '%s' is no option or lacks its value; --help tells what is\n", argv[i]);
+            return 2;
         }
     }
     return 0;
+}
+
+/* What is asked for, if none of it is possible: says why, of the first. */
+static int is_empty(const matrix_request *r)
+{
+    const char *why = "", *first = NULL;
+    for (const family *f = FAMILIES; f->name; f++) {
+        for (const subject *s = SUBJECTS; s->name; s++) {
+            for (uint32_t p = 1; p <= MATRIX_PRESETS; p++) {
+                int asked = (!r->family || strcmp(r->family, f->name) == 0) &&
+                            (!r->subject || strcmp(r->subject, s->name) == 0) && (!r->preset || r->preset == p);
+                if (asked && run_possible(f, s, p, &why)) return 0;
+                if (asked && !first) first = why;
+            }
+        }
+    }
+    fprintf(stderr, "tahr_stability: nothing of what is asked for is possible: %s\n", first ? first : "");
+    return 1;
+}
+
+/* Before hours of work: can it be written at the end? What is there stays as it is. */
+static int can_write(const char *path)
+{
+    if (!*path) return 1;
+    FILE *file = fopen(path, "a");
+    if (file) fclose(file);
+    if (!file) fprintf(stderr, "tahr_stability: '%s' cannot be written\n", path);
+    return file != NULL;
 }
 
 /* One run of one cell, told in full. */
@@ -195,6 +231,8 @@ int main(int argc, char **argv)
     int wrong = read_options(&o, argc, argv);
     if (wrong) return wrong;
     if (o.one) return run_one(&o);
+    if (is_empty(&o.request)) return 2;
+    if (!can_write(o.csv) || !can_write(o.svg)) return 1;
     printf("%u variations of each cell; ok: none breaks a promise; else how many keep all; '.': not possible\n",
            o.request.seeds);
     table_head(stdout, subject_count());

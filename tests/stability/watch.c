@@ -223,11 +223,22 @@ static void check_word(watch *w, int step, const tahr_state *b, const tahr_repor
             "overlaps something, and nothing says so, m");
 }
 
-/* Between two places less than a radius apart the way cannot lead around anything. */
-static void check_solid(watch *w, int step, const tahr_state *a, const tahr_state *b, uint64_t teleported)
+/* Those that pass over who says that he is crushed between them and what stands: that is no way of his. */
+static uint64_t movable_of(const watch *w)
+{
+    uint64_t ids = 0;
+    for (uint32_t i = 0; i < w->trial->body_count; i++) {
+        if (w->trial->bodies[i].desc.flags & TAHR_BODY_MOVABLE) ids |= (uint64_t)1 << i;
+    }
+    return ids;
+}
+
+/* Between two places less than a radius apart the way cannot lead around anything. passing: bodies that may be
+ * where he was, or is. */
+static void check_solid(watch *w, int step, const tahr_state *a, const tahr_state *b, uint64_t passing)
 {
     for (uint32_t i = 0; i < w->trial->body_count; i++) {
-        if (teleported >> i & 1) continue;
+        if (passing >> i & 1) continue;
         if (!(length(minus(b->position, a->position)) < a->radius)) continue;
         if (judge_crossed(w->judge, i, &w->poses[0][i], &w->poses[1][i], a->position, b->position)) {
             watch_accuse(w, KEEPS_SOLID, step, i, 0, "went through body");
@@ -304,7 +315,8 @@ void watch_step(watch *w, int step, tahr_status status, const tahr_state *before
     check_reach(w, step, before, now, dt);
     if (dt == 0 && memcmp(before, now, sizeof *now) != 0)
         watch_accuse(w, KEEPS_STATUS, step, 0, 0, "dt = 0 changed it");
-    if (w->keeps & (KEEPS_SOLID | KEEPS_INSIDE)) check_solid(w, step, before, now, teleported);
+    uint64_t passing = teleported | (report->flags & TAHR_REPORT_CRUSHED ? movable_of(w) : 0);
+    if (w->keeps & (KEEPS_SOLID | KEEPS_INSIDE)) check_solid(w, step, before, now, passing);
     if (w->keeps & KEEPS_SKIN) check_skin(w, step, before, now);
     if ((w->keeps & KEEPS_WORD) && dt >= 1e-9) check_word(w, step, now, report);
     if (w->keeps & KEEPS_ENERGY) check_energy(w, step, before, now, report, dt);

@@ -8,10 +8,17 @@ from collections.abc import Sequence
 from html import escape
 from pathlib import Path
 
+try:
+    import matplotlib  # noqa: F401
+    import numpy  # noqa: F401
+except ImportError as error:
+    wanted = Path(__file__).with_name("requirements.txt")
+    sys.exit(f"chart: {error.name} is not there; `make chart` installs it, or: pip install -r {wanted}")
+
 import page
 import peers
 from families import FAMILIES, Chart, describe, scenes_of
-from front import counts, hypervolume, never_on_front, point_of
+from front import counts, hypervolume, knobs_never_on_front, never_on_front, point_of
 from overview import overview
 from panel import front_settings
 from rows import ChartError, Row, read_machine, read_rows
@@ -24,6 +31,9 @@ TITLES = {
     "crowds": "Crowds",
     "scenes": "Size of the scene",
 }
+
+# Families that have errors: with a front, and a number for it.
+WEIGHED = ("sweeps", "movement", "crowds")
 
 # What a table shows of a row, and its name and unit there.
 COLUMNS = [
@@ -83,7 +93,7 @@ def volumes(rows: Sequence[Row]) -> list[tuple[str, float]]:
 
 def family_section(name: str, rows: Sequence[Row], charts: Sequence[tuple[Chart, str]]) -> str:
     parts = [page.figure(chart.title, svg, chart.caption, rows_table(chart.rows)) for chart, svg in charts]
-    if (found := volumes(rows)) and name in ("sweeps", "movement"):
+    if (found := volumes(rows)) and name in WEIGHED:
         numbers = ", ".join(f"{describe(scene) if scene != 'mean' else 'mean'}: {value:.2f}" for scene, value in found)
         parts.insert(
             0,
@@ -91,23 +101,25 @@ def family_section(name: str, rows: Sequence[Row], charts: Sequence[tuple[Chart,
             f"100 µs per step of 1/60 s or per sweep; larger is better): {escape(numbers)}. Rows on the "
             "front of their picture are green in the tables; a click on a heading sorts.</p>",
         )
-    if name in ("sweeps", "movement"):
+    if name in WEIGHED:
         parts.append(never_section(rows))
     return "\n".join(parts)
 
 
 def never_section(rows: Sequence[Row]) -> str:
-    """Settings that no scene has a use for."""
-    never = never_on_front(rows)
+    """Settings that no scene has a use for, and values that are never the ones to choose."""
+    never, knobs = never_on_front(rows), knobs_never_on_front(rows)
     lead = (
-        "<h3>Never on a front</h3><p>Settings that another one of the same backend and rate beats on every scene, "
-        "by more than 5 % in time or a factor of 1.5 in error without being worse in the other, and that are no "
-        "off switch, there for parity, or all that their backend can do:</p>"
+        "<h3>Never on a front</h3><p>Beaten is what another one of the same backend and rate beats on every scene, "
+        "by more than 5 % in time or a factor of 1.5 in error without being worse in the other. Off switches, what is "
+        "there for parity and all that a backend's engine can do are not weighed: the tables say of each point what it "
+        f"is there as. Settings that are beaten at all of their values, and have to go: {escape(', '.join(knobs))}"
+        f"{'' if knobs else 'none'}. Values that are beaten, of settings that have better ones:</p>"
     )
-    if not never:
-        return lead + "<p>None.</p>"
-    cells = [[r.setting, r.curve, r.role] for r in never]
-    return lead + page.table(page.Table(["setting", "curve", "there as"], cells))
+    cells = [[r.setting, r.curve, r.role] for r in never if r.curve not in knobs]
+    if any(r.curve == "skin" and r.curve not in knobs for r in never):
+        lead += "<p>A skin is off a path that touches the walls by itself; it is chosen for what it keeps apart.</p>"
+    return lead + (page.table(page.Table(["value", "setting", "there as"], cells)) if cells else "<p>None.</p>")
 
 
 def lead_section(machine: Sequence[tuple[str, str]], command: str) -> str:
@@ -143,6 +155,8 @@ def draw_family(name: str, folder: Path, out: Path) -> tuple[str, list[Row]] | N
 
 
 def print_never(name: str, rows: Sequence[Row]) -> None:
+    for knob in knobs_never_on_front(rows):
+        print(f"never on a front, at no value: {name}: {knob}")
     for row in never_on_front(rows):
         print(f"never on a front: {name}: {row.setting} ({row.role})")
 
@@ -157,7 +171,7 @@ def draw(folder: Path, out: Path, peer_file: Path | None, command: str) -> None:
             html, rows = drawn
             measured[name] = rows
             sections.append((name, TITLES[name], html))
-            if name in ("sweeps", "movement"):
+            if name in WEIGHED:
                 found += [(name, scene, value) for scene, value in volumes(rows)]
                 print_never(name, rows)
     if others:
@@ -186,6 +200,9 @@ def main(arguments: Sequence[str]) -> int:
         draw(options.folder, options.out, options.peers, options.command)
     except ChartError as error:
         print(f"chart: {error}", file=sys.stderr)
+        return 1
+    except OSError as error:
+        print(f"chart: {error.filename}: cannot be written: {error.strerror}", file=sys.stderr)
         return 1
     return 0
 

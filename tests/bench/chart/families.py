@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from front import ERROR_FLOOR
 from panel import MEDIAN_ERROR, P99_ERROR, Scale, dots, over_size, scatter
-from rows import Row, thread_gains
+from rows import Row, budget_gains, thread_gains
 from style import panels
 
 NS_SWEEP = Scale(lambda r: r.ns_p50, "median time of a sweep", "s", 1e-9)
@@ -47,7 +47,7 @@ class Topic:
 TOPICS = (
     Topic(
         "rates",
-        "how often it is stepped, 10 to 960 Hz",
+        "how often it is stepped, 10 to 1000 Hz",
         ("precise", "platformer", "stepped", "two walls", "unreal"),
         NS_SECOND,
         QUERIES_SECOND,
@@ -283,7 +283,8 @@ def shortcut_charts(rows: Sequence[Row]) -> list[Chart]:
         caption = (
             f"What each shortcut buys, {describe_walk(scene)}: the time of a step, and what it asks and tests, with "
             "the shortcut switched off over that with it on, measured in turns. Right of 1 it pays; no dot: with "
-            "it there is nothing left to ask. The table says whether the characters ended at the same bits."
+            "it there is nothing left to ask. The table says whether the characters ended at the same bits"
+            + (", and what it buys in memory and in opening the world." if any(r.bytes > 0 for r in on.values()) else ".")
         )
         charts.append(
             Chart(
@@ -306,7 +307,7 @@ def _budget_chart(rows: Sequence[Row]) -> Chart:
     caption = (
         "A budget of error per character (tahr_member.budget): characters on a plane, each alone, beside the same "
         "ones without a budget, every tick for three seconds. Error: how far apart the two are. What is met is "
-        "met up to 8 ticks later, and from there on they are two different ways."
+        "met up to 8 ticks later, and from there on they are two different ways." + budget_gains(rows)
     )
     return Chart("crowds-budgets", "Crowds: a budget of error", caption, figure, list(rows))
 
@@ -341,7 +342,8 @@ def scene_charts(rows: Sequence[Row]) -> list[Chart]:
     over_size(build, rows, [("", Scale(lambda r: r.build_s, "opening the world", "s"))], "triangles")
     caption = (
         "Hills of more and more triangles, wandering characters at 60 Hz on native. Constant size: triangles of "
-        "0.5 m, more of them cover more ground. Constant area: the same 100 m by 100 m cut ever finer."
+        "0.5 m, more of them cover more ground. Constant area: the same 100 m by 100 m cut ever finer. As any mesh: "
+        "native is told not to see that they are fields of heights (no_fields) and keeps triangles in a tree."
     )
     return [Chart("scenes", "Size of the scene", caption, figure, list(rows))]
 

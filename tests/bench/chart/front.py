@@ -67,12 +67,17 @@ def backend_of(row: Row) -> str:
     return first if first in ("ccd", "fcl", "box2d") else "native"
 
 
+def weighed(row: Row) -> bool:
+    """What could be on a front: it has an error, or fails where others have one."""
+    return row.role != "reference" and (row.failed > 0 or not math.isnan(row.error_p99_m))
+
+
 def never_on_front(rows: Sequence[Row]) -> list[Row]:
     """One row of each setting that is there for nothing else, and that another of its backend and its rate beats on
-    every scene."""
+    every scene. What has no error, and is for its time alone, is not weighed."""
     groups: dict[tuple[str, str, str], list[Row]] = {}
     for row in rows:
-        if row.role != "reference":
+        if weighed(row):
             groups.setdefault((row.scene, str(row.rate_hz), backend_of(row)), []).append(row)
     good: set[str] = set()
     seen: dict[str, Row] = {}
@@ -83,3 +88,13 @@ def never_on_front(rows: Sequence[Row]) -> list[Row]:
             if counts(row) and not beaten(point_of(row), points):
                 good.add(row.setting)
     return [row for name, row in seen.items() if name not in good and row.role in ("knob", "default")]
+
+
+def knobs_never_on_front(rows: Sequence[Row]) -> list[str]:
+    """The curves of which no point is ever on a front: what is to go, as a whole."""
+    never = {row.setting for row in never_on_front(rows)}
+    candidates: dict[str, bool] = {}
+    for row in rows:
+        if weighed(row) and row.role in ("knob", "default"):
+            candidates[row.curve] = candidates.get(row.curve, True) and row.setting in never
+    return [curve for curve, all_never in candidates.items() if all_never]

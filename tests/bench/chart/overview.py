@@ -15,14 +15,14 @@ MOVEMENT_CURVES = ("precise", "two walls", "stepped", "unreal")
 
 
 def overview(sweeps: Sequence[Row], movement: Sequence[Row]) -> Figure:
-    """Sweeps of every backend on the left; a second of movement at 10 to 960 Hz beside them, free and among things."""
+    """Sweeps of every backend on the left; a second of movement at 10 to 1000 Hz beside them, free and among things."""
     figure, (left, middle, right) = panels(3, width=4.0, height=3.8)
     own = [r for r in sweeps if r.scene == "meshes" and r.curve in SWEEP_CURVES and r.role != "off"]
     own = [r for r in own if r.curve != "fcl descend" or r.role == "default"]
     scatter(left, own, P99_ERROR, NS_SWEEP, with_front=True)
     left.set_title("a sweep against a small mesh")
     for axes, scene, title in (
-        (middle, "plane", "speed up, brake, jump; 10 to 960 Hz"),
+        (middle, "plane", "speed up, brake, jump; 10 to 1000 Hz"),
         (right, "playground", "a second of the playground, likewise"),
     ):
         own = [r for r in movement if r.scene == scene and r.curve in MOVEMENT_CURVES]

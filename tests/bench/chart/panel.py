@@ -196,6 +196,10 @@ def dots(axes: Axes, names: Sequence[str], series: Sequence[tuple[str, Sequence[
         axes.plot(values, range(len(names)), color=colour, marker=marker, linestyle="", label=title)
     axes.set_yticks(range(len(names)), names)
     axes.set_ylim(len(names) - 0.5, -0.5)
+    low, high = axes.get_xlim()
+    if high < 2 * low:  # no differences out of nothing
+        middle = math.sqrt(low * high)
+        axes.set_xlim(middle / math.sqrt(2), middle * math.sqrt(2))
     _ticks(axes.xaxis, math.log10(axes.get_xlim()[1] / axes.get_xlim()[0]), scale)
     axes.set_xlabel(scale.label)
     if len(series) > 1:

@@ -57,25 +57,33 @@ class Peer:
         return self.method.startswith("tahr")
 
 
-def read_peers(path: Path) -> list[Peer]:
+def _read_lines(path: Path, reader: csv.DictReader) -> list[Peer]:
     found = []
-    with path.open(newline="") as file:
-        reader = csv.DictReader(file)
-        missing = [name for name in TEXTS + NUMBERS if name not in (reader.fieldnames or [])]
-        if missing:
-            raise ChartError(f"{path}:1: the columns {', '.join(missing)} are missing")
-        for line in reader:
-            numbers = {}
-            for name in NUMBERS:
-                try:
-                    numbers[name] = float(line[name]) if line[name] else math.nan
-                except (TypeError, ValueError):
-                    raise ChartError(
-                        f"{path}:{reader.line_num}: {name} is '{line[name]}', expected a number or nothing"
-                    ) from None
-            texts = {name: line[name] or "" for name in TEXTS}
-            found.append(Peer(**texts, numbers=numbers))
+    missing = [name for name in TEXTS + NUMBERS if name not in (reader.fieldnames or [])]
+    if missing:
+        raise ChartError(f"{path}:1: the columns {', '.join(missing)} are missing")
+    for line in reader:
+        numbers = {}
+        for name in NUMBERS:
+            try:
+                numbers[name] = float(line[name]) if line[name] else math.nan
+            except (TypeError, ValueError):
+                raise ChartError(
+                    f"{path}:{reader.line_num}: {name} is '{line[name]}', expected a number or nothing"
+                ) from None
+        texts = {name: line[name] or "" for name in TEXTS}
+        found.append(Peer(**texts, numbers=numbers))
     return found
+
+
+def read_peers(path: Path) -> list[Peer]:
+    try:
+        with path.open(newline="") as file:
+            return _read_lines(path, csv.DictReader(file))
+    except OSError as error:
+        raise ChartError(f"{path}: cannot be read: {error.strerror}") from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise ChartError(f"{path}: is no CSV: {error}") from None
 
 
 def courses_of(peers: Sequence[Peer]) -> list[str]:

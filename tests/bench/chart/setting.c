@@ -16,7 +16,7 @@ static chart_setting settings[MAX_SETTINGS];
 static uint32_t setting_count;
 
 /* All of them divide 0.1 s, at whose multiples paths are compared. */
-static const double RATES[] = {10, 20, 30, 60, 120, 240, 480, 960};
+static const double RATES[] = {10, 20, 30, 60, 120, 240, 480, 1000};
 enum { RATE_COUNT = sizeof RATES / sizeof RATES[0] };
 
 /* Hz, of references. STEPPED is of the first order: 7680 Hz leave 0.4 mm (of 6 m/s reached at 20 m/s2). */
@@ -72,7 +72,7 @@ static const knob KNOBS[] = {
      {0.01, 0.1, 1, 10, 100}},
     {"max_substep; stepped; 10 Hz",
      "max_substep %g ms; stepped; 10 Hz",
-     CHART_KNOB,
+     CHART_PARITY,
      FIELD(max_substep),
      A_DOUBLE,
      1e-3,
@@ -81,7 +81,7 @@ static const knob KNOBS[] = {
      {2, 5, 10, 20, 50, 100}},
     {"max_substeps; stepped; 10 Hz",
      "max_substeps %g; stepped; 10 Hz",
-     CHART_KNOB,
+     CHART_PARITY,
      FIELD(max_substeps),
      AN_INTEGER,
      1,
@@ -170,12 +170,13 @@ static void add_switches(const chart_setting *base)
     set_options(add(base, "switches", "no_simd", CHART_OFF), &native, sizeof native);
 }
 
+/* Each switches off that the margin is chosen by the scene. */
 static void add_cache_margins(const chart_setting *base)
 {
     static const double margins[] = {0.0625, 0.125, 0.25, 0.5, 1, 2}; /* 0 is the default, which is 1 */
     for (size_t i = 0; i < sizeof margins / sizeof margins[0]; i++) {
         tahr_native_desc native = {.struct_size = sizeof native, .cache_margin = margins[i]};
-        chart_setting *s = add(base, "cache_margin", "", CHART_KNOB);
+        chart_setting *s = add(base, "cache_margin", "", CHART_OFF);
         snprintf(s->name, sizeof s->name, "cache_margin %g m", margins[i]);
         s->value = margins[i];
         set_options(s, &native, sizeof native);

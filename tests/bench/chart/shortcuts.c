@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT
  * shortcuts.c: what each shortcut buys: the same walk with it and without it, in turns, so that the machine's noise
- * meets both alike; of each the best of the rounds. One that promises the same bits is held to it. */
+ * meets both alike; of each the best of the rounds. One that promises the same bits is held to it. What a budget of
+ * error buys is measured with the crowds, what tolerances buy with whole movement. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "run.h"
+#include "scenes.h"
 #include "walk.h"
 
 enum { ROUNDS = 3 };
@@ -59,30 +61,41 @@ static void no_vicinity(chart_setting *s, tahr_native_desc *native)
     native->no_vicinity = 1;
 }
 
-/* with: what is set on both sides, NULL: the defaults. exact: promises the same bits. */
+static void no_fields(chart_setting *s, tahr_native_desc *native)
+{
+    (void)s;
+    native->no_fields = 1;
+}
+
+/* with: what is set on both sides, NULL: the defaults. exact: promises the same bits. buys_memory: in the world, and a
+ * shorter opening. */
 typedef struct shortcut {
     const char *name;
     void (*with)(chart_setting *setting, tahr_native_desc *native);
     void (*without)(chart_setting *setting, tahr_native_desc *native);
-    int idle, exact;
+    int idle, exact, buys_memory;
 } shortcut;
 
 static const shortcut SHORTCUTS[] = {
-    {"cache (no_cache)", NULL, no_cache, 0, 1},
-    {"margin of the cache (cache_margin)", NULL, no_margin, 0, 1},
-    {"SIMD (no_simd)", NULL, no_simd, 0, 1},
-    {"short ways (short_ways)", NULL, no_short_ways, 0, 1},
-    {"what is near (no_vicinity)", NULL, no_vicinity, 0, 1},
-    {"sleep", NULL, no_sleep, 0, 1},
-    {"cached_floor", awake, no_cached_floor, 0, 1},
-    {"sleep", NULL, no_sleep, 1, 1},
-    {"cached_floor (awake)", awake, no_cached_floor, 1, 1},
-    {"cache (no_cache; awake)", awake, no_cache, 1, 1},
+    {"cache (no_cache)", NULL, no_cache, 0, 1, 0},
+    {"margin of the cache (cache_margin)", NULL, no_margin, 0, 1, 0},
+    {"SIMD (no_simd)", NULL, no_simd, 0, 1, 0},
+    {"short ways (short_ways)", NULL, no_short_ways, 0, 1, 0},
+    {"what is near (no_vicinity)", NULL, no_vicinity, 0, 1, 0},
+    {"sleep", NULL, no_sleep, 0, 1, 0},
+    {"cached_floor", awake, no_cached_floor, 0, 1, 0},
+    {"sleep", NULL, no_sleep, 1, 1, 0},
+    {"cached_floor (awake)", awake, no_cached_floor, 1, 1, 0},
+    {"cache (no_cache; awake)", awake, no_cache, 1, 1, 0},
 };
 enum { SHORTCUT_COUNT = sizeof SHORTCUTS / sizeof SHORTCUTS[0] };
 
 static const char *const LEVELS[] = {"playground", "dungeon"};
 enum { LEVEL_COUNT = sizeof LEVELS / sizeof LEVELS[0] };
+
+/* Buys nothing but on ground that is one. */
+static const shortcut FIELDS = {"field of heights (no_fields)", NULL, no_fields, 0, 1, 1};
+enum { HILLS = 100000 };
 
 /* side 0: with the shortcut, 1: without. */
 static void make_setting(const bench_world *level, const shortcut *s, int side, chart_setting *setting)
@@ -101,13 +114,18 @@ static void keep_best(chart_pace *best, const chart_pace *pace)
     best->ns_mean = fmin(best->ns_mean, pace->ns_mean);
 }
 
-static void write_sides(chart_run *run, const shortcut *s, const char *scene, const chart_pace pace[2])
+static void write_sides(chart_run *run, const bench_world *level, const shortcut *s, const char *scene,
+                        const chart_pace pace[2])
 {
     for (int side = 0; side < 2; side++) {
         chart_row row;
         chart_row_clear(&row);
         chart_walk_fill(&row, &pace[side], 60);
         row.scene = scene;
+        if (s->buys_memory) {
+            row.bytes = (double)pace[side].bytes / level->mesh.triangle_count;
+            row.build_seconds = pace[side].build_seconds;
+        }
         row.curve = s->name;
         row.setting = side ? "off" : "on";
         row.role = side ? CHART_OFF : CHART_DEFAULT;
@@ -142,7 +160,7 @@ static void measure(chart_run *run, const bench_world *level, const shortcut *s,
             keep_best(&pace[side], &one);
         }
     }
-    write_sides(run, s, scene, pace);
+    write_sides(run, level, s, scene, pace);
 }
 
 static void measure_level(chart_run *run, const char *name)
@@ -160,9 +178,23 @@ static void measure_level(chart_run *run, const char *name)
     if (!run->counting) bench_world_free(&level);
 }
 
+static void measure_fields(chart_run *run)
+{
+    const uint32_t most = run->budget->max_triangles;
+    bench_world level;
+    if (!chart_run_next(run, "walking in hills", FIELDS.name)) return;
+    if (chart_hills_make(&level, most < HILLS ? most : HILLS, 0)) {
+        measure(run, &level, &FIELDS, "walking in hills");
+    } else {
+        chart_run_fail(run, FIELDS.name, "out of memory");
+    }
+    bench_world_free(&level);
+}
+
 void chart_shortcuts(chart_run *run)
 {
     for (int i = 0; i < LEVEL_COUNT; i++) {
         measure_level(run, LEVELS[i]);
     }
+    measure_fields(run);
 }

@@ -49,6 +49,7 @@ static void add_native(void)
 }
 
 #ifdef TAHR_HAVE_CCD
+/* All that libccd itself can do: by default it is not asked. */
 static void add_ccd_bisection(const char *curve, const char *const settings[], uint32_t boolean)
 {
     static const uint32_t iterations[] = {2, 8, 100};
@@ -57,7 +58,7 @@ static void add_ccd_bisection(const char *curve, const char *const settings[], u
                               .sweep = TAHR_CCD_SWEEP_BISECTION,
                               .boolean = boolean,
                               .max_iterations = iterations[i]};
-        chart_subject *s = add(curve, settings[i], CHART_KNOB, tahr_backend_v1_ccd);
+        chart_subject *s = add(curve, settings[i], CHART_ONLY, tahr_backend_v1_ccd);
         set_options(s, &desc, sizeof desc);
         s->value = iterations[i];
         s->slow = 1;

@@ -34,7 +34,7 @@ from pathlib import Path
 from rows import read_machine, read_rows
 
 folder = Path(sys.argv[1])
-wanted = {"sweeps": 6, "movement": 5, "shortcuts": 2, "crowds": 3, "scenes": 1}  # scenes without the shared levels
+wanted = {"sweeps": 6, "movement": 5, "shortcuts": 3, "crowds": 3, "scenes": 1}  # scenes without the shared levels
 for family, scenes in wanted.items():
     rows = read_rows(folder / f"{family}.csv")
     assert len({r.scene for r in rows}) == scenes, f"{family}: {sorted({r.scene for r in rows})}"
@@ -51,6 +51,13 @@ PYTHON
 
 PYTHONDONTWRITEBYTECODE=1 "$python" -m unittest discover -s "$here" -p 'test_*.py' >"$work/out" 2>&1 ||
     fail "$(cat "$work/out")"
+
+# Without its libraries the drawing says what is missing, and where it is listed.
+mkdir "$work/bare"
+echo 'raise ImportError("no", name="matplotlib")' >"$work/bare/matplotlib.py"
+PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$work/bare "$python" "$here/draw.py" --in "$work" --out "$work" >"$work/out" 2>&1
+[ $? -eq 1 ] && grep -q "^chart: matplotlib is not there; .*requirements.txt" "$work/out" || fail "bare: $(cat "$work/out")"
+grep -q Traceback "$work/out" && fail "bare: $(cat "$work/out")"
 [ "${1:-}" = draw ] || exit 0
 
 "$python" -c 'import matplotlib' 2>/dev/null ||
@@ -65,4 +72,9 @@ grep -Eq '(src|href)="https?:' "$work/a/index.html" && fail "the page needs the 
 echo "sweeps,x" >>"$work/sweeps.csv"
 draw "$work/c" && fail "a broken row was drawn"
 grep -q "sweeps.csv:[0-9]*: 2 fields, expected" "$work/out" || fail "a broken row: $(cat "$work/out")"
+draw "$work/sweeps.csv" && fail "drawn into a file"
+grep -q "^chart: .*sweeps.csv: cannot be written" "$work/out" || fail "into a file: $(cat "$work/out")"
+printf '\377\376\n' >"$work/sweeps.csv"
+draw "$work/c" && fail "bytes that are no text were drawn"
+grep -q "^chart: .*sweeps.csv: is no CSV" "$work/out" || fail "no text: $(cat "$work/out")"
 exit 0

@@ -76,6 +76,20 @@ class Front(unittest.TestCase):
         rescued = rows + [row(scene="c", setting="slow", role="knob", error_p99_m=1e-9, ns_p50=20.0)]
         self.assertEqual([r.setting for r in front.never_on_front(rescued)], ["other"])
 
+    def test_a_setting_goes_only_if_all_of_its_values_are_beaten(self):
+        rows = [
+            row(scene="a", setting="best", curve="default", role="default", error_p99_m=1e-3, ns_p50=10.0),
+            row(scene="a", setting="bad 1", curve="bad", role="knob", error_p99_m=1e-3, ns_p50=20.0),
+            row(scene="a", setting="bad 2", curve="bad", role="knob", error_p99_m=1e-2, ns_p50=20.0),
+            row(scene="a", setting="good 1", curve="good", role="knob", error_p99_m=1e-3, ns_p50=20.0),
+            row(scene="a", setting="good 2", curve="good", role="knob", error_p99_m=1e-9, ns_p50=20.0),
+            row(scene="a", setting="slow", curve="threads", role="knob", ns_p50=900.0),
+            row(scene="a", setting="without", curve="switch", role="off", error_p99_m=1e-3, ns_p50=90.0),
+            row(scene="a", setting="only one", curve="engine", role="only", error_p99_m=1e-3, ns_p50=90.0),
+        ]
+        self.assertEqual(front.knobs_never_on_front(rows), ["bad"])
+        self.assertEqual([r.setting for r in front.never_on_front(rows)], ["bad 1", "bad 2", "good 1"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from rows import COLUMNS, ChartError, read_machine, read_rows, thread_gains
+from rows import COLUMNS, ChartError, budget_gains, read_machine, read_rows, thread_gains
 
 GOOD = "sweeps,meshes,native,native,,,default,truth,126,0,,1e-9,2e-9,3e-9,,100,200,120,,1,4.5,2,,,"
 
@@ -49,6 +49,19 @@ class Rows(unittest.TestCase):
         self.assertIn("1000 characters: 2 threads are 1.60 times one, the machine's ceiling is 2.00", text)
         self.write(crowd("crowd; 1 thread", 1000, 1000), crowd("crowd; 2 threads", 1000, 625))
         self.assertEqual(thread_gains(read_rows(self.path)), "")
+
+    def test_budgets_are_weighed_against_none(self):
+        def budget(mm: int, ns: int) -> str:
+            return f"sweeps,budgets,budget,budget,{mm},60,knob,,1,0,,0,0,0,,{ns},,,,,,,,,"
+
+        self.write(budget(0, 400), budget(5, 408), budget(200, 300))
+        self.assertIn("102 % with 5 mm, 75 % with 200 mm.", budget_gains(read_rows(self.path)))
+        self.write(budget(5, 408))
+        self.assertEqual(budget_gains(read_rows(self.path)), "")
+
+    def test_bytes_that_are_no_text_are_refused(self):
+        self.path.write_bytes(bytes([255, 254, 10]))
+        self.assertIn("sweeps.csv: is no CSV", self.wrong())
 
     def test_a_missing_file_is_named(self):
         self.assertIn("sweeps.csv: is not there", self.wrong())

@@ -54,14 +54,30 @@ static int usage(const char *wrong)
     return 2;
 }
 
-static int read_count(const char *text, uint32_t *out)
+static int read_count(const char *name, const char *text, uint32_t *out)
 {
     char *end = NULL;
     unsigned long n = strtoul(text, &end, 10);
     *out = (uint32_t)n;
-    return *text && !*end && n >= 1 && n <= 100000;
+    if (*text >= '0' && *text <= '9' && !*end && n >= 1 && n <= 100000) {
+        return 0;
+    }
+    fprintf(stderr, "tahr_peers: %s '%s': expected a whole number from 1 to 100000\n", name, text);
+    return 2;
 }
 
+static int read_seconds(const char *name, const char *text, double *out)
+{
+    char *end = NULL;
+    *out = strtod(text, &end);
+    if (*text && !*end && *out > 0 && *out <= 1e6) {
+        return 0;
+    }
+    fprintf(stderr, "tahr_peers: %s '%s': expected a number above 0, at most 1e6\n", name, text);
+    return 2;
+}
+
+/* 0: taken; else what to exit with. */
 static int read_value(options *o, const char *name, const char *value)
 {
     const char **text = strcmp(name, "--csv") == 0      ? &o->csv
@@ -71,17 +87,15 @@ static int read_value(options *o, const char *name, const char *value)
                                                         : NULL;
     if (text) {
         *text = value;
-        return 1;
+        return 0;
     }
     if (strcmp(name, "--characters") == 0) {
-        return read_count(value, &o->characters);
+        return read_count(name, value, &o->characters);
     }
     if (strcmp(name, "--ticks") == 0) {
-        return read_count(value, &o->ticks);
+        return read_count(name, value, &o->ticks);
     }
-    char *end = NULL;
-    o->seconds = strtod(value, &end);
-    return strcmp(name, "--seconds") == 0 && *value && !*end && o->seconds > 0;
+    return strcmp(name, "--seconds") == 0 ? read_seconds(name, value, &o->seconds) : usage(name);
 }
 
 /* 0, or what to exit with, less one. */
@@ -97,9 +111,11 @@ static int read_options(options *o, int argc, char **argv)
             o->characters = 64;
             o->ticks = 150;
             o->seconds = 0.2;
-        } else if (i + 1 >= argc || !read_value(o, argv[i], argv[i + 1])) {
-            return 1 + usage(argv[i]);
         } else {
+            int wrong = i + 1 < argc ? read_value(o, argv[i], argv[i + 1]) : usage(argv[i]);
+            if (wrong) {
+                return 1 + wrong;
+            }
             i++;
         }
     }

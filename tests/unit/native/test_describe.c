@@ -63,6 +63,8 @@ static void a_cube_is_closed_and_a_third_of_its_edges_is_flat(void **state)
     describe(bodies, 2, NULL, &p);
     assert_says(&p, "native, 3D");
     assert_says(&p, "0 movable and 2 static bodies, 1 meshes, 1 boxes");
+    assert_says(&p, "boxes and hulls: 1, met as their triangles");
+    assert_says(&p, "spheres and capsules: 0");
     assert_says(&p, "body 0: mesh, 12 triangles (2 more dropped");
     assert_says(&p, "8 vertices");
     assert_says(&p, "100.0 % with one neighbour (33.3 % flat), 0.0 % open, 0.0 % with several");
@@ -80,6 +82,7 @@ static void open_edges_and_edges_of_several_are_counted(void **state)
     page p;
     describe(&body, 1, NULL, &p);
     assert_says(&p, "0.0 % with one neighbour (0.0 % flat), 66.7 % open, 33.3 % with several");
+    assert_true(strstr(p.text, "boxes and hulls") == NULL);
 }
 
 /* 24 x 24 cells of 4 cm, cut from their lowest corners, corners in the order of columns: a field that is not known as one.
