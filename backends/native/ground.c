@@ -23,6 +23,7 @@
 #define HEM 1e-6
 /* Around a place on the floor other triangles are looked for as far as this (m). */
 #define SPOT 0.35
+#define WIDEST 1.4
 /* A spot (m) that the next steps leave is not worth finding: so many feet are then left to what is near, twice as many
  * each time. */
 #define NARROW 0.04
@@ -77,11 +78,29 @@ static float side_of(const tahr__query *query, const tahr__level *l, const tahr_
     return highest <= LEVEL && is_flat(v, d_min(h[0], d_min(h[1], h[2]))) ? TAHR__IN_IT : TAHR__ABOVE;
 }
 
+/* What its box tells without its corners: TAHR__UNSEEN, if it does not. What stands over the floor by more than HIGH (m)
+ * is ABOVE; what is wholly below it by more than the rounding of boxes is BELOW. */
+#define HIGH 0.05
+#define BOXED 1e-4
+static float side_by_box(const tahr__query *query, const tahr__level *l, uint32_t index)
+{
+    const float *blocks = tahr__cache_blocks(query->world, query->cache);
+    const float *low = blocks + tahr__lane(index, TAHR__LANE_LOW), *high = blocks + tahr__lane(index, TAHR__LANE_HIGH);
+    const tahr_vec3 n = l->normal, top = v_make(low[0], low[TAHR__LANES], high[2 * TAHR__LANES]),
+                    width = v_make((double)high[0] - low[0], (double)high[TAHR__LANES] - low[TAHR__LANES], 0);
+    const double height = v_dot(n, v_sub(top, l->at)), lean = fabs(n.x) * width.x + fabs(n.y) * width.y;
+    if (height > lean + HIGH * l->length) return TAHR__ABOVE;
+    return height + lean < -BOXED * l->length ? TAHR__BELOW : TAHR__UNSEEN;
+}
+
 float tahr__ground_see(const tahr__query *query, uint32_t index)
 {
     float *side = &tahr__cache_lift(query->world, query->cache)[index];
     const tahr__prim *prim = &tahr__cache_prims(query->world, query->cache)[index];
-    return *side = side_of(query, &query->cache->vicinity.floor, prim);
+    const tahr__level *floor = &query->cache->vicinity.floor;
+    const uint32_t other = TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR;
+    const float boxed = prim->kind & other ? TAHR__UNSEEN : side_by_box(query, floor, index);
+    return *side = boxed != TAHR__UNSEEN ? boxed : side_of(query, floor, prim);
 }
 
 /* All are to be looked at again. */
@@ -89,6 +108,12 @@ static void forget_sides(const tahr__native *world, tahr__cache *cache)
 {
     memset(tahr__cache_lift(world, cache), 0,
            (cache->count + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES * sizeof(float));
+}
+
+static void forget_spot(tahr__cache *cache)
+{
+    cache->vicinity.alone = cache->footing.inside = cache->footing.clear = 0;
+    cache->footing.under = TAHR__NONE;
 }
 
 void tahr__ground_know(const tahr__query *query)
@@ -101,8 +126,7 @@ void tahr__ground_know(const tahr__query *query)
     if (p->kind & (TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR | TAHR__UNFORMED)) return;
     const tahr__facet *f = &p->facet;
     v->floor = (tahr__level){f->cross.z < 0 ? v_scale(f->cross, -1) : f->cross, f->v[0], f->length};
-    v->alone = 0;
-    v->under = TAHR__NONE;
+    forget_spot(query->cache);
     forget_sides(query->world, query->cache);
 }
 
@@ -153,12 +177,35 @@ static int is_beside(const tahr__query *query, uint32_t index)
     return 0;
 }
 
-static int is_within_edges(const tahr__vicinity *v, tahr_vec3 place)
+/* A triangle whose normal goes up by less is asked at length: far from what probe.c takes for along a face, even where
+ * the exact normal is off the triangle's by what it allows (2.6 degrees). */
+#define STEEP 0.2
+
+/* What a walk on it reads (footing.c). */
+static void know_triangle(const tahr__query *query, const tahr__prim *prim)
 {
-    int within = 1;
+    tahr__footing *f = &query->cache->footing;
+    const tahr__facet *facet = &prim->facet;
+    f->cross = facet->cross.z < 0 ? v_scale(facet->cross, -1) : facet->cross;
+    f->on = facet->v[0];
+    f->length = facet->length;
+    f->inverse = 1.0 / facet->length;
+    f->steep = f->cross.z < STEEP * f->length;
+    f->normal = tahr__frame_to_world(query->frame, query->cache->vicinity.face);
+    f->walkable_angle = prim->walkable_angle;
+    f->walkable_rule = prim->walkable_rule;
+    f->surface = prim->surface;
+    f->body = prim->body;
+    f->feature = prim->feature;
+}
+
+/* m from a place on the triangle to where it is no longer alone, or well inside of an edge. */
+static double inside_of_edges(const tahr__vicinity *v, tahr_vec3 place)
+{
+    double least = v->alone;
     for (int i = 0; i < 3; i++)
-        within &= v_dot(v->across[i], place) <= v->border[i] - v->hem[i];
-    return within;
+        least = d_min(least, (v->border[i] - v->hem[i] - v_dot(v->across[i], place)) / v_length(v->across[i]));
+    return least;
 }
 
 /* Takes another triangle of the floor for the one under the spot. */
@@ -170,8 +217,9 @@ static int stand_on(const tahr__query *query, uint32_t index)
     const int behind = v_dot(face, v->floor.normal) < 0;
     if (behind && !(prim->kind & TAHR__TWO_SIDED)) return 0;
     v->face = behind ? v_scale(face, -1) : face;
-    v->under = index;
     know_edges(v, &prim->facet);
+    know_triangle(query, prim);
+    query->cache->footing.under = index;
     return 1;
 }
 
@@ -180,13 +228,15 @@ static int stand_on(const tahr__query *query, uint32_t index)
 static void find_spot(const tahr__query *query, tahr_vec3 place)
 {
     tahr__vicinity *v = &query->cache->vicinity;
+    tahr__footing *f = &query->cache->footing;
     tahr__lanes_found found[TAHR__CACHE_MOST];
     const tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
-    const tahr__lanes_query q = tahr__lanes_at(place, 0, SPOT);
+    const double scope = d_max(v->scope, SPOT);
+    const tahr__lanes_query q = tahr__lanes_at(place, 0, scope);
     uint32_t near = query->world->lanes->near(&lanes, &q, found), count = 0, under = TAHR__NONE;
     const tahr__prim *prims = tahr__cache_prims(query->world, query->cache);
-    double alone = SPOT;
-    v->alone = 0;
+    double alone = scope;
+    v->alone = query->cache->footing.inside = 0;
     for (uint32_t i = 0; i < near; i++) {
         const uint32_t index = found[i].index;
         if ((prims[index].item & TAHR__ITEM_SOLID) || ground_side(query, index) < TAHR__BELOW) continue;
@@ -197,13 +247,15 @@ static void find_spot(const tahr__query *query, tahr_vec3 place)
         }
         found[count++] = found[i];
     }
-    if (under == TAHR__NONE || (under != v->under && !stand_on(query, under))) return;
+    if (under == TAHR__NONE || (under != f->under && !stand_on(query, under))) return;
     for (uint32_t i = 0; i < count && alone > 0; i++) {
         const double far = d_max(found[i].time - TAHR__LANE_SLACK, 0);
         if (far < alone && !is_beside(query, found[i].index)) alone = far;
     }
-    v->spot = place;
+    f->spot = place;
     v->alone = alone - APART;
+    f->inside = inside_of_edges(v, place);
+    v->scope = f->inside >= scope - APART ? d_min(2 * scope, WIDEST) : SPOT;
 }
 
 /* Is it worth finding one again? */
@@ -216,39 +268,40 @@ static int tries_spot(tahr__vicinity *v)
     return 1;
 }
 
-static inline int is_at_spot(const tahr__vicinity *v, tahr_vec3 place)
-{
-    const tahr_vec3 off = v_sub(place, v->spot);
-    return v->alone > 0 && v_dot(off, off) <= v->alone * v->alone && is_within_edges(v, place);
-}
-
-/* The one triangle of the floor that may be met; NULL: it is not known which. */
-static const tahr__prim *floor_under(const tahr__query *query)
+/* Is it known which triangle of the floor alone may be met? found: it has just been found out. */
+static int knows_floor(const tahr__query *query, int *finds)
 {
     tahr__vicinity *v = &query->cache->vicinity;
     const tahr_vec3 place = place_on(&v->floor, query);
-    if (!is_at_spot(v, place)) {
-        if (!tries_spot(v)) return NULL;
-        find_spot(query, place);
-        v->rests = v->alone >= NARROW ? FEWEST : v->rests < MOST ? 2 * v->rests : MOST;
-        v->rest = v->alone >= NARROW ? 0 : v->rests;
-        if (!is_at_spot(v, place)) return NULL;
-    }
-    return &tahr__cache_prims(query->world, query->cache)[v->under];
+    *finds = 0;
+    if (ground_is_at_spot(query->cache, place)) return 1;
+    if (!tries_spot(v)) return 0;
+    find_spot(query, place);
+    v->rests = v->alone >= NARROW ? FEWEST : v->rests < MOST ? 2 * v->rests : MOST;
+    v->rest = v->alone >= NARROW ? 0 : v->rests;
+    *finds = ground_is_at_spot(query->cache, place);
+    return *finds;
+}
+
+int tahr__ground_finds(const tahr__query *query)
+{
+    int finds;
+    knows_floor(query, &finds);
+    return finds;
 }
 
 int tahr__ground_meets(const tahr__query *query, tahr__found *found)
 {
-    const tahr__prim *floor = floor_under(query);
-    if (!floor) return 0;
+    int finds;
+    if (!knows_floor(query, &finds)) return 0;
+    const tahr__prim *floor = &tahr__cache_prims(query->world, query->cache)[query->cache->footing.under];
     const double t = plane_earliest(query, floor, 1);
     return t <= 1 && tahr__probe_face(query, floor, query->cache->vicinity.face, t, found);
 }
 
 void tahr__ground_forget(const tahr__native *world, tahr__cache *cache)
 {
-    tahr__vicinity *v = &cache->vicinity;
-    v->alone = 0;
-    v->under = v->stood = TAHR__NONE;
+    forget_spot(cache);
+    cache->vicinity.stood = TAHR__NONE;
     if (!world->no_cache) forget_sides(world, cache);
 }

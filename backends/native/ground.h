@@ -33,12 +33,30 @@ static inline float ground_side(const tahr__query *query, uint32_t index)
     return side != TAHR__UNSEEN ? side : tahr__ground_see(query, index);
 }
 
+/* Is a place on the floor one where nothing else of it is met than the triangle under the spot? */
+static inline int ground_is_at_spot(const tahr__cache *cache, tahr_vec3 place)
+{
+    const tahr__footing *f = &cache->footing;
+    const tahr__vicinity *v = &cache->vicinity;
+    const tahr_vec3 off = v_sub(place, f->spot);
+    const double off2 = v_dot(off, off);
+    if (f->inside > 0 && off2 <= f->inside * f->inside) return 1;
+    if (!(v->alone > 0) || off2 > v->alone * v->alone) return 0;
+    int within = 1;
+    for (int i = 0; i < 3; i++)
+        within &= v_dot(v->across[i], place) <= v->border[i] - v->hem[i];
+    return within;
+}
+
 /* Takes the plane of what stopped the last foot for the floor; as it is, if that lies in it. */
 void tahr__ground_know(const tahr__query *query);
 
 /* A foot that comes down on the floor, well inside of a triangle which nothing else of the floor reaches over: 1 and
  * when and where; 0: it is not known what is there. */
 int tahr__ground_meets(const tahr__query *query, tahr__found *found);
+
+/* Looks what is where a foot comes down on the floor, if that is not known: 1, if it is now. */
+int tahr__ground_finds(const tahr__query *query);
 
 /* The cache holds something else now. */
 void tahr__ground_forget(const tahr__native *world, tahr__cache *cache);

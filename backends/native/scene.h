@@ -86,13 +86,18 @@ typedef struct tahr__frame {
     uint32_t turned, reserved;
 } tahr__frame;
 
+static inline uint64_t tahr__other_bits(const double *a, const double *b)
+{
+    uint64_t x, y;
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    return x ^ y;
+}
+
 /* The same bits, where a call of memcmp costs more than it does. */
 static inline int tahr__same_vec(const tahr_vec3 *a, const tahr_vec3 *b)
 {
-    uint64_t x[3], y[3];
-    memcpy(x, a, sizeof x);
-    memcpy(y, b, sizeof y);
-    return ((x[0] ^ y[0]) | (x[1] ^ y[1]) | (x[2] ^ y[2])) == 0;
+    return (tahr__other_bits(&a->x, &b->x) | tahr__other_bits(&a->y, &b->y) | tahr__other_bits(&a->z, &b->z)) == 0;
 }
 
 /* Body coordinates to local ones: offset + turn * v. */
@@ -158,37 +163,62 @@ typedef struct tahr__level {
     double length;
 } tahr__level;
 
-/* What was measured at a place where the character was (vicinity.c): the distances are behind the header of the
- * cache. */
+/* All that a walk on the inside of one triangle reads, with a few words of the cache behind it: five lines of memory
+ * (footing.c). */
+typedef struct tahr__footing {
+    tahr_vec3 origin, up; /* of the frame */
+    tahr_vec3 at;         /* local, the middle of an upright segment at the place where all has been measured */
+    double half;          /* of it */
+    double clear; /* m: nothing but what lies in the floor or below it, or behind a fence, is nearer; 0: not known */
+    tahr_vec3 cross, on;  /* of the triangle under the spot: its normal, up and not unit, and a corner */
+    double length, inverse;
+    tahr_vec3 spot; /* on the floor */
+    double inside;  /* m: so far around it there is that triangle of the floor alone, well inside of its edges; <= 0: none */
+    tahr_vec3 normal; /* the exact one, world, toward the character */
+    double walkable_angle;
+    uint32_t walkable_rule, surface, body, feature;
+    uint32_t under; /* index of the triangle */
+    uint32_t turned; /* as of the frame */
+    uint32_t fenced; /* 1: there are fences */
+    uint32_t steep;  /* 1: what is said here does not hold for so steep a triangle */
+} tahr__footing;
+
+/* Planes between the place that was measured and what is nearest to it (fence.c), rounded to single precision: all of
+ * that has x, y, z . p <= far. Those not in use keep nothing off. */
+enum { TAHR__FENCES = 8 };
+typedef struct tahr__fences {
+    float x[TAHR__FENCES], y[TAHR__FENCES], z[TAHR__FENCES], far[TAHR__FENCES];
+    uint32_t of[TAHR__FENCES]; /* index */
+} tahr__fences;
+
+/* What else is known of the place (vicinity.c, ground.c): the distances are behind the header of the cache. */
 typedef struct tahr__vicinity {
-    tahr_vec3 at;      /* local, the middle of an upright segment */
-    double half;       /* of it */
     tahr__level floor; /* of this frame: what stopped the last foot */
-    tahr_vec3
-        spot; /* on the floor: within `alone` m (<= 0: none) no triangle of it reaches over the edges of `under` */
-    double alone;
+    double alone;      /* m around the spot (<= 0: none) where no triangle of the floor reaches over the edges of `under` */
+    double scope;      /* m: so far around the next spot others are looked for */
     tahr_vec3 across[3];      /* outward of those edges, not unit; what is on one has this much along it, */
     double border[3], hem[3]; /* and this much less is well inside */
     tahr_vec3 face;           /* the exact normal of that, toward the character */
-    uint32_t under;           /* index */
     uint32_t stood;           /* index of what had stopped the last foot when the floor was found */
     uint32_t known;           /* 0: nothing has been measured */
-    uint32_t reserved;
-    uint32_t rest, rests; /* feet until a spot is looked for again, and after the next that was none */
+    uint32_t rest, rests;     /* feet until a spot is looked for again, and after the next that was none */
 } tahr__vicinity;
 
 /* One character's memory (gather.c): */
 typedef struct tahr__cache {
+    tahr__footing footing;
+    uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
+    tahr_bounds local;  /* everything static in it has been gathered */
+    uint64_t revision;  /* of the user's triangles in it */
+    uint32_t mask, announced;
+    tahr__fences fences;
     tahr__frame frame;
     tahr_bounds bounds; /* world: what was announced, grown by the margin */
-    tahr_bounds local;  /* everything static in it has been gathered */
     double volume;      /* m3, of what was announced */
     tahr_vec3 place;    /* world: where the character was then */
-    uint32_t announced, gathered, overflow, mask, count;
-    uint32_t plain;     /* no sensors: what has been gathered concerns every query of the same mask */
-    uint64_t revision;  /* of the user's triangles in it */
-    double margin;      /* to gather with the next time, 0: the most */
-    uint32_t recent[2]; /* index of what stopped the last motion of a segment, of others: likely to stop the next */
+    uint32_t gathered, overflow, count;
+    uint32_t plain; /* no sensors: what has been gathered concerns every query of the same mask */
+    double margin;  /* to gather with the next time, 0: the most */
     tahr__vicinity vicinity;
 } tahr__cache;
 
@@ -347,6 +377,9 @@ int tahr__margin_choose(const tahr__native *world, double width, uint32_t count,
 /* The most it may be. */
 double tahr__margin_most(const tahr__native *world, double width);
 
+/* Who has come farther (m) from the place looks around anew, but in the open: a runner after two steps or three. */
+#define TAHR__DRIFT 0.12
+
 /* vicinity.c: what a sweep need not ask. Where a motion leads: UNKNOWN: the cache or more is to be asked; AROUND: all
  * that is near; OVER: of that, what is above the floor; DOWN: the floor too. */
 enum { TAHR__UNKNOWN, TAHR__AROUND, TAHR__OVER, TAHR__DOWN };
@@ -358,13 +391,29 @@ uint32_t tahr__vicinity_way(const tahr__query *query);
 int tahr__vicinity_is_clear(const tahr__query *query, uint32_t way);
 /* A foot that goes DOWN on the inside of a face: 1 and what a sweep would tell; 0: there may be more to it. */
 int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit);
-/* The same of a body that stays OVER the floor, and then its foot that goes DOWN; or something may be in their way, or
- * it is not clear where the floor is. */
-enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
-int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit);
+/* A walk of which it is not known what it may meet of what is above the floor: what is not farther than `most` from the
+ * place; or of that only what is behind some fences. */
+typedef struct tahr__doubt {
+    tahr_vec3 body_start, body_motion, foot_start, foot_motion; /* local */
+    double half;                                                /* of the body */
+    double most;                                                /* m */
+    double until;                                               /* of the motion of the foot */
+    uint32_t fences, reserved;                                  /* a bit each; 0: all */
+} tahr__doubt;
+/* Is nothing of it met? */
+int tahr__doubt_settle(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
+                       const tahr__doubt *doubt);
+/* Of a body that stays OVER the floor, and then its foot that goes DOWN: finds out what a footing needs to know. 1: something of it is new. */
+int tahr__vicinity_learn(const tahr__query *body, const tahr__query *foot);
 /* m that the shape may go from the start of a query whose way is known, whichever way it goes, without meeting
  * anything; < 0: not known. What has not been gathered may be anywhere. */
 double tahr__vicinity_room(const tahr__query *query);
+
+/* footing.c: a walk over the floor, and a foot that comes down on it: LANDED and the hit; BARRED: something may be in the
+ * way; UNCLEAR: there is more to find out. The cache has to be of the revision of the world. */
+enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
+uint32_t tahr__footing_walk(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
+                            tahr_hit *hit);
 
 /* m from a place (world) to everything that is static: 0 within the bounds of all of it, and no more than 16. */
 double tahr__outside_of_all(const tahr__native *world, tahr_vec3 position);

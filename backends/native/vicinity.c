@@ -7,6 +7,7 @@
  * plane or below it cannot be met by who stays above; it is left out then, and a foot that comes down on it meets the
  * triangle under it. Nothing here decides anything but what is asked: every answer has the bits of one from the whole
  * cache (no_vicinity). */
+#include "fence.h"
 #include "form.h"
 #include "ground.h"
 #include "plane.h"
@@ -15,10 +16,10 @@
  * is not told, for the distances of lanes are right within TAHR__LANE_SLACK only near by. */
 #define LOOK 0.4
 #define FARTHEST 16.0
-/* A foot that comes down from a walk goes no farther (m), mostly. */
-#define DOWNWARD 0.02
-/* Who has come farther (m) from the place looks around anew: a runner after two steps or three. */
-#define DRIFT 0.12
+/* So far (m) beyond the reach it is looked for what is nearest of all that is above the floor. */
+#define ROUND 0.45
+#define WIDE_ROUND 2.0
+enum { FEW = 16 };
 /* Longer motions (m) are spanned by no place. */
 #define LONGEST 0.5
 /* Taken off what is known, against rounding and arrival (TAHR__ARRIVED) (m). */
@@ -31,17 +32,17 @@
 #define LARGE 8.0
 
 /* Square of how far the query's segment, centred at p, comes from that of the place. */
-static double away2(const tahr__vicinity *v, const tahr__query *query, tahr_vec3 p)
+static double away2(const tahr__query *query, tahr_vec3 p)
 {
-    double x = p.x - v->at.x, y = p.y - v->at.y, z = d_max(fabs(p.z - v->at.z) + query->half - v->half, 0);
+    const tahr__footing *f = &query->cache->footing;
+    double x = p.x - f->at.x, y = p.y - f->at.y, z = d_max(fabs(p.z - f->at.z) + query->half - f->half, 0);
     return (x * x + y * y) + z * z;
 }
 
 /* The same at this fraction of the motion, if that is farther than at its start. */
 static inline double farthest2(const tahr__query *query, double until)
 {
-    const tahr__vicinity *v = &query->cache->vicinity;
-    return d_max(away2(v, query, query->start), away2(v, query, v_mad(query->start, query->motion, until)));
+    return d_max(away2(query, query->start), away2(query, v_mad(query->start, query->motion, until)));
 }
 
 /* m: what is farther than this from the place is not met by who comes so far from it. */
@@ -75,15 +76,16 @@ static double outside_of_all(const tahr__query *query)
 /* Measures all that the cache holds. A foot alone looks as the whole that it is the foot of. */
 static void look_around(const tahr__query *query)
 {
-    tahr__vicinity *v = &query->cache->vicinity;
-    v->at = query->start;
+    tahr__footing *f = &query->cache->footing;
+    f->at = query->start;
+    f->clear = 0;
     if (query->half > 0)
-        v->half = query->half;
+        f->half = query->half;
     else
-        v->at.z += v->half;
-    v->known = 1;
+        f->at.z += f->half;
+    query->cache->vicinity.known = 1;
     const tahr__lanes lanes = tahr__cache_lanes(query->world, query->cache);
-    const tahr__lanes_query q = tahr__lanes_at(v->at, v->half, reach_of(query) + LOOK);
+    const tahr__lanes_query q = tahr__lanes_at(f->at, f->half, reach_of(query) + LOOK);
     query->world->lanes->measure(&lanes, &q, tahr__cache_far(query->cache));
 }
 
@@ -102,9 +104,8 @@ static int serves(const tahr__query *query)
 /* May a look around here be of more help? */
 static int is_stale(const tahr__query *query)
 {
-    const tahr__vicinity *v = &query->cache->vicinity;
     if (query->motion_length > LONGEST && outside_of_all(query) <= query->motion_length) return 0;
-    return !v->known || away2(v, query, query->start) > DRIFT * DRIFT;
+    return !query->cache->vicinity.known || away2(query, query->start) > TAHR__DRIFT * TAHR__DRIFT;
 }
 
 static inline uint32_t way_of(const tahr__query *query)
@@ -199,7 +200,7 @@ static double tied(const tahr__query *query, double t)
 
 static void tell(const tahr__query *query, const tahr__found *found, tahr_hit *hit)
 {
-    query->cache->recent[1] = query->cache->vicinity.under;
+    query->cache->recent[1] = query->cache->footing.under;
     tahr__fill_hit(query, found, hit);
 }
 
@@ -214,26 +215,123 @@ int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit)
     return 1;
 }
 
-int tahr__vicinity_walks(const tahr__query *body, const tahr__query *foot, tahr_hit *hit)
+/* Of a query only what plane.h reads of it, and tahr__ground_see. */
+static void ask_of(tahr__query *query, const tahr__native *world, tahr_query_context *context, tahr_vec3 start,
+                   tahr_vec3 motion)
+{
+    query->world = world;
+    query->context = context;
+    query->cache = context->cache;
+    query->frame = &query->cache->frame;
+    query->start = start;
+    query->motion = motion;
+    query->motion_length = v_length(motion);
+}
+
+static int settle_all(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt)
 {
     tahr__lanes_found found[TAHR__CACHE_MOST];
-    tahr__found floor;
-    const double reach = d_max(reach_of(body), reach_of(foot)), most = need(farthest2(body, 1), reach) + DOWNWARD;
-    const int near = passes(body, most, 1, 1, found);
-    if (near < 0) return TAHR__BARRED;
-    if (!tahr__ground_meets(foot, &floor)) return TAHR__UNCLEAR;
-    const double until = tied(foot, floor.t);
-    if (need(farthest2(foot, until), reach) > most) return TAHR__UNCLEAR;
+    const int near = passes(body, doubt->most, 1, 1, found);
+    const double until = tied(foot, doubt->until);
     for (int i = 0; i < near; i++) {
-        if (!is_passed(foot, tahr__formed(foot, found[i].index), until)) return TAHR__BARRED;
+        if (!is_passed(foot, tahr__formed(foot, found[i].index), until)) return 0;
     }
-    tell(foot, &floor, hit);
-    return TAHR__LANDED;
+    return near >= 0;
+}
+
+static int settle_fences(const tahr__query *body, const tahr__query *foot, const tahr__doubt *doubt)
+{
+    const tahr__fences *fences = &body->cache->fences;
+    const float *far = tahr__cache_far(body->cache), most = most_of(doubt->most);
+    const double until = tied(foot, doubt->until);
+    for (uint32_t i = 0; i < TAHR__FENCES; i++) {
+        if (!(doubt->fences >> i & 1) || far[fences->of[i]] > most) continue;
+        const tahr__prim *prim = tahr__formed(body, fences->of[i]);
+        if (!is_passed(body, prim, 1) || !is_passed(foot, prim, until)) return 0;
+    }
+    return 1;
+}
+
+int tahr__doubt_settle(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
+                       const tahr__doubt *doubt)
+{
+    tahr__query body, foot;
+    ask_of(&body, world, context, doubt->body_start, doubt->body_motion);
+    ask_of(&foot, world, context, doubt->foot_start, doubt->foot_motion);
+    body.half = doubt->half;
+    body.core.axis_count = doubt->half > 0;
+    foot.half = foot.core.axis_count = 0;
+    body.radius = walk->shape->radius;
+    foot.radius = walk->foot->radius;
+    body.margin = foot.margin = walk->margin;
+    return doubt->fences ? settle_fences(&body, &foot, doubt) : settle_all(&body, &foot, doubt);
+}
+
+/* The nearest of those above the floor, nearest first; what is left over is no nearer than `rest`. */
+typedef struct nearest {
+    tahr__lanes_found found[TAHR__FENCES];
+    uint32_t count;
+    float rest;
+} nearest;
+
+static void put_nearest(nearest *n, const tahr__lanes_found *one)
+{
+    uint32_t i = n->count;
+    if (i == TAHR__FENCES) {
+        n->rest = d_min(n->rest, d_max(one->time, n->found[i - 1].time));
+        if (one->time >= n->found[i - 1].time) return;
+        i--;
+    } else {
+        n->count++;
+    }
+    for (; i > 0 && n->found[i - 1].time > one->time; i--)
+        n->found[i] = n->found[i - 1];
+    n->found[i] = *one;
+}
+
+/* Those no farther than this from the place. */
+static void find_nearest(const tahr__query *query, double most, nearest *near)
+{
+    tahr__lanes_found found[TAHR__CACHE_MOST];
+    const uint32_t count = pick(query, most, 1, found);
+    near->count = 0;
+    near->rest = most_of(most);
+    for (uint32_t i = 0; i < count; i++) {
+        if (ground_side(query, found[i].index) < TAHR__BELOW) put_nearest(near, &found[i]);
+    }
+}
+
+/* How far all is that is above the floor, but for what is nearest, which is fenced off; once a look. */
+static void clear_around(const tahr__query *query)
+{
+    tahr__cache *cache = query->cache;
+    tahr__footing *f = &cache->footing;
+    nearest near;
+    if (f->clear > 0) return;
+    find_nearest(query, reach_of(query) + ROUND, &near);
+    if (near.count == 0 && cache->count <= FEW) find_nearest(query, reach_of(query) + WIDE_ROUND, &near);
+    f->fenced = near.count > 0;
+    if (f->fenced) {
+        const tahr__lanes lanes = tahr__cache_lanes(query->world, cache);
+        const tahr__lanes_query at = tahr__lanes_at(f->at, f->half, 0);
+        tahr__fences_clear(&cache->fences);
+        for (uint32_t i = 0; i < near.count; i++) {
+            const tahr__lanes_found *one = &near.found[i];
+            if (!tahr__fences_put(&cache->fences, i, &lanes, one->index, &at)) near.rest = d_min(near.rest, one->time);
+        }
+    }
+    f->clear = d_max((near.rest - TAHR__LANE_SLACK) * (1 - 4e-6), SPARE);
+}
+
+int tahr__vicinity_learn(const tahr__query *body, const tahr__query *foot)
+{
+    const int was_clear = body->cache->footing.clear > 0;
+    clear_around(body);
+    return tahr__ground_finds(foot) || !was_clear;
 }
 
 double tahr__vicinity_room(const tahr__query *query)
 {
-    const tahr__vicinity *v = &query->cache->vicinity;
     const float *far = tahr__cache_far(query->cache);
     const tahr_bounds *box = &query->cache->local;
     const tahr_vec3 low = v_sub(v_sub(query->start, query->extent), box->min);
@@ -241,12 +339,15 @@ double tahr__vicinity_room(const tahr__query *query)
     float least = (float)FARTHEST;
     for (uint32_t i = 0; i < query->cache->count; i++)
         least = far[i] < least ? far[i] : least;
-    const double nearest = (least - TAHR__LANE_SLACK) * (1 - 4e-6) - sqrt(away2(v, query, query->start));
+    const double nearest = (least - TAHR__LANE_SLACK) * (1 - 4e-6) - sqrt(away2(query, query->start));
     return d_min(nearest, d_min(edge.x, d_min(edge.y, edge.z))) - reach_of(query) - 2 * SPARE;
 }
 
 void tahr__vicinity_forget(const tahr__native *world, tahr__cache *cache)
 {
     cache->vicinity.known = 0;
+    cache->footing.origin = cache->frame.origin;
+    cache->footing.up = cache->frame.up;
+    cache->footing.turned = cache->frame.turned;
     tahr__ground_forget(world, cache);
 }

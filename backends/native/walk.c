@@ -51,8 +51,10 @@ static int goes_to(tahr__query *body, uint32_t way, const tahr_walk *walk, tahr_
     aim(&foot, body->context, walk, 1);
     const uint32_t down = tahr__vicinity_way(&foot);
     if (down == TAHR__UNKNOWN) return 0;
-    const int both = way == TAHR__OVER && down == TAHR__DOWN ? tahr__vicinity_walks(body, &foot, hit) : TAHR__UNCLEAR;
-    if (both != TAHR__UNCLEAR) return both == TAHR__LANDED;
+    if (way == TAHR__OVER && down == TAHR__DOWN && tahr__vicinity_learn(body, &foot)) {
+        const uint32_t end = tahr__footing_walk(body->world, body->context, walk, hit);
+        if (end != TAHR__UNCLEAR) return end == TAHR__LANDED;
+    }
     return tahr__vicinity_is_clear(body, way) && finds_floor(&foot, hit);
 }
 
@@ -63,6 +65,11 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
     tahr__cache *cache = context->cache;
     tahr__query body;
     *known = 0;
+    if (walk->foot && cache && cache->revision == world->revision) {
+        const uint32_t end = tahr__footing_walk(world, context, walk, hit);
+        if (end == TAHR__LANDED) *known = 1, context->spared += 2;
+        if (end != TAHR__UNCLEAR) return TAHR_OK;
+    }
     if (!walk->foot) {
         const double room = room_in_the_open(world, walk);
         hit->distance = d_max(room, 0);
