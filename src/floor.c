@@ -12,6 +12,7 @@
 #include "perch.h"
 #include "plane.h"
 #include "report.h"
+#include "rim.h"
 #include "shape.h"
 
 /* Faces this close to vertical are never a floor, whatever an override says. */
@@ -42,22 +43,6 @@ int tahr__is_walkable(tahr__step *step, const tahr_hit *hit, int was_walkable)
     int walkable = hit->blocking && !hit->start_overlap && hit->walkable_rule != TAHR_WALKABLE_NEVER;
     return tahr__decide(step, TAHR_RULE_WALKABLE, walkable && up >= limit, hit, up, limit,
                         "cosine of the face's slope");
-}
-
-static double inside_outline(const tahr__step *step, vec3 offset)
-{
-    vec3 x = rotate(step->state.orientation, vec(1, 0, 0));
-    vec3 y = rotate(step->state.orientation, vec(0, 1, 0));
-    return shape_inside(&step->limits->shape, dot(offset, x), dot(offset, y));
-}
-
-/* How far inside the rim of the shape and its skin, seen from above, the point of a hit lies. */
-static inline double inside_rim(const tahr__step *step, const tahr_hit *hit)
-{
-    vec3 offset = step_level(step, sub(hit->point, step->state.position));
-    const tahr_shape *s = &step->limits->shape;
-    double skin = step->config->skin;
-    return shape_is_round(s) ? s->radius + skin - length(offset) : skin + inside_outline(step, offset);
 }
 
 int tahr__was_walkable(const tahr__step *step, const tahr_hit *hit)
@@ -103,12 +88,12 @@ static void judge_whole(tahr__step *step, double reach, tahr_hit *hit, tahr_floo
     const tahr_config *c = step->config;
     double range = foot_range(c, reach);
     uint32_t flags = TAHR_FLOOR_BLOCKING;
-    double inside = hit->blocking ? inside_rim(step, hit) : 0;
+    double inside = hit->blocking ? inside_rim(step, step->state.position, hit->point) : 0;
     if (hit->blocking && !hit->start_overlap && inside < c->edge_tolerance) {
         tahr__decide(step, TAHR_RULE_EDGE_TOLERANCE, 0, hit, inside, c->edge_tolerance, "touches the rim");
         tahr__foot inner = tahr__thinner_foot(step, 2 * c->edge_tolerance);
         foot_sweep(step, &inner, range, hit);
-        inside = hit->blocking ? inside_rim(step, hit) : 0;
+        inside = hit->blocking ? inside_rim(step, step->state.position, hit->point) : 0;
         flags |= TAHR_FLOOR_RIM;
     }
     if (!hit->blocking || step->error < 0) {

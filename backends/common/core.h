@@ -22,7 +22,7 @@ typedef struct tahr__witness {
     tahr_vec3 point;  /* on the triangle */
     tahr_vec3 normal; /* unit, from the triangle to the core */
     uint32_t feature; /* TAHR__FACE, TAHR__EDGE + i, TAHR__CORNER + i */
-    uint32_t reserved;
+    uint32_t beside;  /* 1: nearest to something between the ends of an edge of the core */
 } tahr__witness;
 
 /* A triangle with what every measurement of it needs; what its plane needs comes first, in one line of memory. */
@@ -44,12 +44,16 @@ void tahr__core_distance(const tahr__core *core, tahr_vec3 centre, const tahr_ve
 /* The same, same bits, for who keeps the facet. */
 void tahr__facet_distance(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out);
 
+/* The same, same bits, of a segment near where `out` was found beside it: 1 if the same edge or corner is nearest again,
+ * clear of all else; 0: it has to be asked for. A third of the work. */
+int tahr__segment_again(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out);
+
 /* Does a box only touch the triangle, up to rounding? Then the direction between the nearest points is rounding, and
  * the way out of the triangle may lead anywhere: an axis that separates them is the normal, the triangle's own before
  * others. Sets all but the distance. */
 int tahr__box_touches(const tahr__core *box, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out);
 
-/* The pieces of it. A point sets everything but reserved. */
+/* The pieces of it. A point sets everything but beside. */
 void tahr__point_facet(tahr_vec3 q, const tahr__facet *f, tahr__witness *out);
 
 /* The same of a point that is known to lie straight over the face. */

@@ -94,7 +94,7 @@ void tahr__core_box(const tahr__core *core, tahr_vec3 centre, const tahr__box *b
     }
     out->point = v_add(box->middle, out->point);
     out->feature = TAHR__FACE;
-    out->reserved = 0;
+    out->beside = 0;
     out->distance = v_length(apart);
     out->normal = v_make(0, 0, 0);
     if (out->distance > 0) { /* divided, not scaled: straight in front of a face the normal is the face's to the bit */

@@ -129,6 +129,34 @@ static double sum_of(tahr_vec3 v)
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
+/* Of a segment against edge i: where on either they are nearest. */
+typedef struct passing {
+    double s, t;
+} passing;
+
+static passing against_edge(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 *v, int i, tahr__witness *out)
+{
+    const tahr_vec3 q0 = v[i], q1 = v[(i + 1) % 3];
+    passing at;
+    const double d2 = tahr__segment_segment(a, b, q0, q1, &at.s, &at.t);
+    if (!(d2 < out->distance * out->distance)) return at;
+    uint32_t feature = TAHR__EDGE + (uint32_t)i;
+    tahr_vec3 p = v_mad(q0, v_sub(q1, q0), at.t);
+    if (at.t <= 0) {
+        feature = TAHR__CORNER + (uint32_t)i;
+        p = q0;
+    } else if (at.t >= 1) {
+        feature = TAHR__CORNER + (uint32_t)((i + 1) % 3);
+        p = q1;
+    }
+    tahr__witness w;
+    w.normal = v_make(0, 0, 0);
+    w.beside = at.s > 0 && at.s < 1;
+    witness_at(&w, v_mad(a, v_sub(b, a), at.s), p, feature);
+    keep_nearer(out, &w);
+    return at;
+}
+
 /* A segment against the edges of the triangle; only interior pairs can beat the ends and the corners. No two sets are
  * nearer than they are along one direction: along the normal found so far most edges are seen to be too far away. */
 static void against_edges(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 *v, tahr__witness *out)
@@ -138,27 +166,9 @@ static void against_edges(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 *v, tahr__wi
     const double rounding = ROUNDING * (sum_of(from[0]) + sum_of(from[1]) + sum_of(to[0]) + sum_of(to[1]));
     const double height[3] = {0, v_dot(n, to[0]), v_dot(n, to[1])};
     const double needed = d_min(v_dot(n, from[0]), v_dot(n, from[1])) - out->distance - rounding;
-    tahr_vec3 d = v_sub(b, a);
     for (int i = 0; i < 3; i++) {
-        double s, t;
         if (d_max(height[i], height[(i + 1) % 3]) < needed) continue;
-        tahr_vec3 q0 = v[i], q1 = v[(i + 1) % 3];
-        double d2 = tahr__segment_segment(a, b, q0, q1, &s, &t);
-        if (!(d2 < out->distance * out->distance)) continue;
-        uint32_t feature = TAHR__EDGE + (uint32_t)i;
-        tahr_vec3 p = v_mad(q0, v_sub(q1, q0), t);
-        if (t <= 0) {
-            feature = TAHR__CORNER + (uint32_t)i;
-            p = q0;
-        } else if (t >= 1) {
-            feature = TAHR__CORNER + (uint32_t)((i + 1) % 3);
-            p = q1;
-        }
-        tahr__witness w;
-        w.normal = v_make(0, 0, 0);
-        w.reserved = 0;
-        witness_at(&w, v_mad(a, d, s), p, feature);
-        keep_nearer(out, &w);
+        against_edge(a, b, v, i, out);
     }
 }
 
@@ -191,6 +201,59 @@ static void segment_facet(tahr_vec3 a, tahr_vec3 b, const tahr__facet *f, tahr__
     if (!is_nearest_end(&w, v_sub(near, far))) against_edges(a, b, v, out);
 }
 
+/* Does all of the triangle but p (on it) lie behind the plane through p across n, the farther away the more? */
+static int lies_behind(const tahr_vec3 *v, tahr_vec3 p, tahr_vec3 n, uint32_t first, uint32_t end)
+{
+    static const double SLOPE2 = 1e-8;
+    const double n2 = v_dot(n, n);
+    for (uint32_t i = first; i < end; i++) {
+        const tahr_vec3 off = v_sub(v[i % 3], p);
+        const double behind = -v_dot(n, off), off2 = v_dot(off, off);
+        if (!(behind > 0 && behind * behind > SLOPE2 * n2 * off2 && off2 > SLOPE2 * n2)) return 0;
+    }
+    return 1;
+}
+
+/* Why no other two points are as near, by more than rounding, and so all else would be passed over, bit for bit: n leads
+ * from the edge or corner to the inside of the segment, across both. All else of the triangle lies behind the plane
+ * across n (lies_behind); what lies along the edge, which is not parallel (SLANT), or along the segment, has left n
+ * sideways, and has far to go before either ends (INSIDE, FAR of the distance too). Of a corner both of its edges are
+ * asked, in their order, as they would be: their roundings differ. */
+int tahr__segment_again(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
+{
+    static const double INSIDE = 1e-3, SLANT2 = 1e-6, FAR2 = 1e-8, LEAST = 1e-5;
+    const tahr_vec3 a = v_sub(centre, core->axis[0]), b = v_add(centre, core->axis[0]), d = v_sub(b, a);
+    const uint32_t before = out->feature, corner = before - TAHR__CORNER;
+    const int is_corner = before >= TAHR__CORNER;
+    const uint32_t edge = is_corner ? (corner + 2) % 3 : before - TAHR__EDGE; /* the one that ends there */
+    double least_s = 1, least_t = 1;
+    if (before == TAHR__FACE) return 0;
+    tahr__witness w;
+    w.distance = INFINITY;
+    for (uint32_t i = 0; i < 3; i++) {
+        if (i != edge && !(is_corner && i == corner)) continue;
+        const passing at = against_edge(a, b, f->v, (int)i, &w);
+        least_s = d_min(least_s, d_min(at.s, 1 - at.s));
+        least_t = d_min(at.t, 1 - at.t);
+    }
+    const double d2 = v_dot(d, d), g2 = w.distance * w.distance;
+    if (!(w.feature == before && w.distance > LEAST && least_s > INSIDE && least_s * least_s * d2 > FAR2 * g2)) return 0;
+    const tahr_vec3 n = w.normal;
+    if (is_corner) {
+        if (!lies_behind(f->v, w.point, v_scale(n, w.distance), corner + 1, corner + 3)) return 0;
+    } else {
+        const tahr_vec3 e = v_sub(f->v[(edge + 1) % 3], f->v[edge]), x = v_cross(d, e);
+        const double x2 = v_dot(x, x), e2 = v_dot(e, e);
+        if (!(least_t > INSIDE && x2 > SLANT2 * d2 * e2 && least_s * least_s * x2 > FAR2 * g2 * e2 &&
+              least_t * least_t * e2 > FAR2 * g2 &&
+              lies_behind(f->v, w.point, v_scale(n, w.distance), edge + 2, edge + 3))) {
+            return 0;
+        }
+    }
+    *out = w;
+    return 1;
+}
+
 /* Nearest point of the box to p; the normal points from p, a corner of the triangle, to the box. */
 static void corner_to_box(const tahr__core *core, tahr_vec3 centre, tahr_vec3 p, uint32_t feature, tahr__witness *out)
 {
@@ -202,7 +265,7 @@ static void corner_to_box(const tahr__core *core, tahr_vec3 centre, tahr_vec3 p,
     }
     tahr__witness w;
     w.normal = v_make(0, 0, 0);
-    w.reserved = 0;
+    w.beside = 0;
     witness_at(&w, q, p, feature);
     keep_nearer(out, &w);
 }
@@ -349,7 +412,7 @@ int tahr__box_touches(const tahr__core *box, tahr_vec3 centre, const tahr__facet
 void tahr__facet_distance(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
 {
     out->normal = v_make(0, 0, 0);
-    out->reserved = 0;
+    out->beside = 0;
     if (core->axis_count == 0)
         tahr__point_facet(centre, f, out);
     else if (core->axis_count == 1)

@@ -99,7 +99,7 @@ static int probe_solid(const tahr__query *query, const tahr__prim *prim, tahr__p
     tahr_vec3 n = out->witness.normal;
     out->witness.distance = 0;
     out->witness.feature = TAHR__FACE;
-    out->witness.reserved = 0;
+    out->witness.beside = 0;
     out->witness.point = v_mad(centre, n, depth - tahr__core_extent(&query->core, n));
     out->gap = -depth - query->radius;
     return 1;
@@ -135,6 +135,8 @@ static void measure(const tahr__query *query, const tahr__prim *prim, tahr_vec3 
 {
     const tahr_vec3 *v = prim->facet.v;
     if (query->core.axis_count == 1) {
+        if (out->beside && tahr__segment_again(&query->core, centre, &prim->facet, out)) return;
+        out->beside = 0;
         double half = query->core.axis[0].z;
         tahr_vec3 low = v_make(centre.x, centre.y, centre.z - half), high = v_make(centre.x, centre.y, centre.z + half);
         int below = v[0].z <= low.z && v[1].z <= low.z && v[2].z <= low.z;
@@ -153,6 +155,7 @@ static int probe_start(const tahr__query *query, const tahr__prim *prim, tahr__p
     tahr_vec3 centre = query->start;
     if (prim->item & TAHR__ITEM_SOLID) return probe_solid(query, prim, out);
     out->witness.normal = v_make(0, 0, 0);
+    out->witness.beside = 0;
     measure(query, prim, centre, &out->witness);
     double touch = query->radius + prim->radius, distance = out->witness.distance;
     out->gap = distance - touch;
@@ -216,6 +219,13 @@ typedef struct flight {
     double began; /* the gap at the start, or more than the margin */
     int leaps;    /* 1: allowed, 2: there was one, 0: not */
     tahr__probe probe;
+    struct { /* as it was before the first leap */
+        double target, t;
+        tahr__witness witness;
+        int steps, targets;
+    } before;
+    int steps, targets; /* where it goes on */
+    int wanders;        /* 1: it did not come straight to a corner */
 } flight;
 
 /* Is the surface being approached? Along the true normals, not those of rounded corners. */
@@ -297,6 +307,7 @@ static int leap(flight *f, double next, double limit)
     const double to = d_min(foresee(f), limit);
     if (!(to > next)) return 0;
     tahr__witness w = before;
+    f->wanders = 1;
     measure(query, f->prim, v_mad(query->start, query->motion, to), &w);
     query->context->narrow_iterations++;
     const double rest_there = w.distance - f->target, rate_there = v_dot(query->motion, w.normal);
@@ -315,7 +326,9 @@ static int leap(flight *f, double next, double limit)
 static int advance(flight *f, double limit)
 {
     const tahr__query *query = f->query;
-    for (int i = 0; i < ITERATIONS; i++) {
+    const int from = f->steps;
+    f->steps = 0;
+    for (int i = from; i < ITERATIONS; i++) {
         tahr__witness *w = &f->probe.witness;
         double rest = w->distance - f->target, rate = v_dot(query->motion, w->normal);
         if (rate >= -TAHR__PARALLEL * query->motion_length) return 0;
@@ -323,7 +336,16 @@ static int advance(flight *f, double limit)
         double next = f->t + rest / -rate;
         if (next > limit) return 0;
         if (i % LEAPS == 1 && f->leaps) {
+            const double t = f->t;
+            const tahr__witness here = *w;
             const int leaped = leap(f, next, limit);
+            if (leaped > 0 && f->leaps == 1) {
+                f->before.target = f->target;
+                f->before.t = t;
+                f->before.witness = here;
+                f->before.steps = i;
+                f->before.targets = f->targets;
+            }
             if (leaped != 0) f->leaps = 2;
             if (leaped < 0) return 0;
             if (leaped > 0) continue;
@@ -339,9 +361,64 @@ static int advance(flight *f, double limit)
                 w->feature = before.feature;
             }
         }
+        f->wanders |= w->feature < TAHR__CORNER || !tahr__same_vec(&w->point, &before.point);
         query->context->narrow_iterations++;
     }
     return -1;
+}
+
+/* Is the corner that is touched the nearest of the triangle to q, clear of its edges? */
+static int is_off_edges(const flight *f, tahr_vec3 q)
+{
+    const uint32_t k = f->probe.witness.feature - TAHR__CORNER;
+    const tahr_vec3 *v = f->prim->facet.v, off = v_sub(q, v[k]);
+    for (uint32_t i = 1; i < 3; i++) {
+        const tahr_vec3 e = v_sub(v[(k + i) % 3], v[k]);
+        const double along = v_dot(off, e);
+        if (!(along < 0 && along * along > 1e-18 * v_dot(off, off) * v_dot(e, e))) return 0;
+    }
+    return 1;
+}
+
+/* A point that comes to a corner does so alike over each of the triangles there to which the corner is nearest all the
+ * way; it is that where it is at both ends of a straight way. Only for ways that nothing leaps over (foresee): those
+ * hang on the limit too. */
+static int comes_again(flight *f)
+{
+    const tahr__query *query = f->query;
+    const tahr__corner_met *c = query->corner;
+    tahr__witness *w = &f->probe.witness;
+    if (!c || !c->flown || query->core.axis_count != 0 || w->feature < TAHR__CORNER || f->t != c->from ||
+        f->target != c->target || w->distance != c->first.distance || !tahr__same_vec(&w->point, &c->first.point) ||
+        !tahr__same_vec(&w->normal, &c->first.normal) ||
+        !is_off_edges(f, v_mad(query->start, query->motion, f->t)) ||
+        !is_off_edges(f, v_mad(query->start, query->motion, c->t))) {
+        return 0;
+    }
+    f->t = c->t;
+    w->distance = c->last.distance;
+    w->normal = c->last.normal;
+    return 1;
+}
+
+/* The first flight of a primitive. */
+static int fly_first(flight *f, double limit)
+{
+    tahr__corner_met *c = f->query->corner;
+    if (comes_again(f)) return f->t <= limit;
+    const double from = f->t;
+    const tahr__witness first = f->probe.witness;
+    f->wanders = first.feature < TAHR__CORNER;
+    const int arrived = advance(f, limit);
+    if (arrived == 1 && c && !f->wanders && f->query->core.axis_count == 0) {
+        c->flown = 1;
+        c->from = from;
+        c->target = f->target;
+        c->t = f->t;
+        c->first = first;
+        c->last = f->probe.witness;
+    }
+    return arrived;
 }
 
 /* Local frames have up along +z. */
@@ -415,13 +492,17 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
 {
     const tahr__query *query = f->query;
     double touch = query->radius + f->prim->radius;
-    int at_start = f->probe.gap <= query->margin;
-    for (int i = 0; i < TARGETS; i++, at_start = 0) {
-        int arrived = at_start ? 1 : advance(f, limit);
+    int at_start = f->probe.gap <= query->margin && f->targets == 0 && f->steps == 0;
+    for (int i = f->targets; i < TARGETS; i++, at_start = 0) {
+        f->targets = i;
+        int arrived = at_start ? 1 : i == 0 && f->steps == 0 ? fly_first(f, limit) : advance(f, limit);
         if (arrived == 0) return TAHR__FREE;
         if (!at_start) f->probe.gap = f->probe.witness.distance - touch;
         tahr__contact_normals normals;
+        const double lowest = touch + (beside ? d_min(*beside, query->margin) : 0);
         normals.measure = beside != NULL;
+        /* One that is nearer and how near need not be known where it changes nothing below. */
+        normals.enough = arrived < 0 ? -1 : i < TARGETS - 2 ? lowest : INFINITY;
         tahr_vec3 centre = v_mad(query->start, query->motion, f->t);
         int verdict = tahr__resolve(query, f->prim, centre, &f->probe.witness, query->motion, &normals);
         if (verdict == TAHR__REJECTED) return TAHR__FREE;
@@ -432,7 +513,6 @@ static int fly(flight *f, double limit, const double *beside, tahr__found *out)
         }
         out->t = f->t;
         if (!beside) return TAHR__LATER;
-        double lowest = touch + d_min(*beside, query->margin);
         f->target = (i < TARGETS - 2 ? d_max(normals.closer, lowest) : lowest) - 10 * TAHR__ARRIVED;
         /* The core itself is in something that it may leave: nothing of this surface can be nearer. */
         if (f->target <= 0) return TAHR__FREE;
@@ -444,7 +524,7 @@ int tahr__probe_face(const tahr__query *query, const tahr__prim *prim, tahr_vec3
 {
     tahr__witness w;
     if (query->core.axis_count != 0 || (prim->kind & (TAHR__PLANELESS | TAHR__ONE_WAY | TAHR__SENSOR))) return 0;
-    w.reserved = 0;
+    w.beside = 0;
     tahr__point_face(v_mad(query->start, query->motion, t), &prim->facet, &w);
     double rest = w.distance - (query->radius + query->margin), rate = v_dot(query->motion, w.normal);
     if (rest > TAHR__ARRIVED || w.distance < query->radius || w.distance < BLURRED) return 0;
@@ -468,6 +548,7 @@ static int take_off(flight *f, const tahr__ask *ask, tahr__found *out)
     query->context->narrow_iterations++;
     if (f->t > 0 && (prim->kind & TAHR__ONE_WAY) && (query->flags & TAHR_SWEEP_DROP)) f->t = 0;
     if (f->t > 0) {
+        f->probe.witness.beside = 0;
         measure(query, prim, v_mad(query->start, query->motion, f->t), &f->probe.witness);
         f->probe.gap = query->margin + 1; /* it is beyond the margin, by how much does not matter */
     } else if (!probe_start(query, prim, &f->probe)) {
@@ -477,19 +558,26 @@ static int take_off(flight *f, const tahr__ask *ask, tahr__found *out)
     return fly(f, ask->limit, ask->beside, out);
 }
 
-/* Leaps find out whether anything is met, which is seldom; what is met, and when, Newton alone says: along a graze any
- * of many places is near enough, and which one it is should not depend on how the others were left out. */
+/* Leaps find out whether anything is met, which is seldom; what is met, and when, Newton alone says, from where the first
+ * leap began: along a graze any of many places is near enough, and which one it is should not depend on how the others
+ * were left out. */
 int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const tahr__ask *ask, tahr__found *out)
 {
     flight f;
     f.query = query;
     f.prim = prim;
     f.leaps = 1;
+    f.steps = f.targets = 0;
     query->context->narrow_tests++;
     int answer = take_off(&f, ask, out);
     if (answer == TAHR__BLOCKED && f.leaps > 1) {
         f.leaps = 0;
-        answer = take_off(&f, ask, out);
+        f.target = f.before.target;
+        f.t = f.before.t;
+        f.probe.witness = f.before.witness;
+        f.steps = f.before.steps;
+        f.targets = f.before.targets;
+        answer = fly(&f, ask->limit, ask->beside, out);
     }
     return answer;
 }

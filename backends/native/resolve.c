@@ -38,6 +38,7 @@ typedef struct work {
     double best;    /* of motion . face so far */
     uint32_t best_feature, flat_feature;
     int measure, nearer;
+    int tied; /* 1: two faces that are not one oppose the motion alike, or are as flat */
 } work;
 
 /* Unit face normal in the local frame, from the unrounded corners. */
@@ -88,6 +89,7 @@ static double tilt2_to(const work *w, tahr_vec3 face)
 static void flatten(work *w, tahr_vec3 face, uint32_t feature)
 {
     double tilt2 = tilt2_to(w, face);
+    if (tilt2 == w->tilt2 && !tahr__same_vec(&face, &w->flat)) w->tied = 1;
     if (tilt2 > w->tilt2 || (tilt2 == w->tilt2 && feature >= w->flat_feature)) return;
     w->tilt2 = tilt2;
     w->flat_feature = feature;
@@ -105,9 +107,11 @@ static int weigh(work *w, tahr_vec3 face, const tahr_vec3 v[3], uint32_t at, uin
         tahr__witness other;
         tahr__core_distance(&w->query->core, w->centre, v, &other);
         w->out->closer = d_min(w->out->closer, other.distance);
+        if (w->out->closer <= w->out->enough) return 1;
     }
     flatten(w, face, feature);
     double along = v_dot(w->motion, face);
+    if (along == w->best && !tahr__same_vec(&face, &w->out->face)) w->tied = 1;
     if (along < w->best || (along == w->best && feature < w->best_feature)) {
         w->best = along;
         w->best_feature = feature;
@@ -142,16 +146,16 @@ static void around_edge(work *w, uint32_t triangle, uint32_t edge)
     }
 }
 
-/* All triangles at a corner that are connected to this one over edges at that corner. */
-static void around_corner(work *w, uint32_t triangle, uint32_t corner)
+/* All triangles at a corner that are connected to this one over edges at that corner. Returns how many; 0: not all. */
+static uint32_t around_corner(work *w, uint32_t triangle, uint32_t corner, uint32_t fan[FAN])
 {
     const tahr__triangle *all = w->body->mesh.triangles;
-    uint32_t vertex = all[triangle].vertex[corner], fan[FAN], count = 1;
+    uint32_t vertex = all[triangle].vertex[corner], count = 1;
     fan[0] = triangle;
     for (uint32_t i = 0; i < count; i++) {
         const tahr__triangle *t = &all[fan[i]];
         uint32_t at = corner_of(t, vertex), edges[2] = {at, (at + 2) % 3};
-        if (i > 0 && look_at(w, fan[i], at, 3)) return;
+        if (i > 0 && look_at(w, fan[i], at, 3)) return 0;
         for (int k = 0; k < 2; k++) {
             for (uint32_t next = t->ring[edges[k]]; next != fan[i] && count < FAN;) {
                 uint32_t known = 0;
@@ -164,6 +168,41 @@ static void around_corner(work *w, uint32_t triangle, uint32_t corner)
             }
         }
     }
+    return count < FAN ? count : 0;
+}
+
+/* Who has come to a corner over one of its triangles has weighed them all. Over another one he weighs the same, but that
+ * his own counts before others that are alike: where no two that differ are alike, all is the same, bit for bit. The
+ * first one lay behind the corner, and so leads no nearer, as the others were found not to. */
+static void remember(const work *w, const tahr__witness *witness, tahr__corner_met *c, uint32_t count)
+{
+    c->count = count;
+    c->body = w->prim->body;
+    c->point = witness->point;
+    c->direction = witness->normal;
+    c->distance = witness->distance;
+    c->normal = w->out->normal;
+    c->face = w->out->face;
+    c->flat = w->flat;
+    c->along = w->best;
+    c->tilt2 = w->tilt2;
+}
+
+static int recall(work *w, const tahr__witness *witness, const tahr__corner_met *c, tahr_vec3 own)
+{
+    uint32_t i = 0;
+    if (c->count == 0 || c->body != w->prim->body || c->distance != witness->distance ||
+        !tahr__same_vec(&c->point, &witness->point) || !tahr__same_vec(&c->direction, &witness->normal)) {
+        return 0;
+    }
+    while (i < c->count && c->fan[i] != w->prim->item)
+        i++;
+    int first = v_dot(w->motion, own) > c->along || tahr__same_vec(&own, &c->face);
+    int flat = tilt2_to(w, own) > c->tilt2 || tahr__same_vec(&own, &c->flat);
+    if (i == c->count || !first || !flat) return 0;
+    w->out->normal = c->normal;
+    w->out->face = c->face;
+    return 1;
 }
 
 int tahr__resolve_near(tahr__resolving *resolving, const tahr__near *n)
@@ -173,7 +212,7 @@ int tahr__resolve_near(tahr__resolving *resolving, const tahr__near *n)
     return meets(w, n->two_sided, &f) && weigh(w, f, n->v, n->at, n->to, n->feature);
 }
 
-static void look_around(work *w, const tahr__witness *witness)
+static uint32_t look_around(work *w, const tahr__witness *witness, uint32_t fan[FAN])
 {
     int is_edge = witness->feature < TAHR__CORNER;
     uint32_t which = witness->feature - (is_edge ? TAHR__EDGE : TAHR__CORNER);
@@ -182,7 +221,8 @@ static void look_around(work *w, const tahr__witness *witness)
     else if (is_edge)
         around_edge(w, w->prim->item, which);
     else
-        around_corner(w, w->prim->item, which);
+        return around_corner(w, w->prim->item, which, fan);
+    return 0;
 }
 
 /* What rounding makes of a normal. */
@@ -224,13 +264,19 @@ int tahr__resolve(const tahr__query *query, const tahr__prim *prim, tahr_vec3 ce
     w.best = v_dot(motion, own);
     w.best_feature = 0;
     w.measure = (int)out->measure;
-    w.nearer = 0;
+    w.nearer = w.tied = 0;
     w.flat = out->normal;
     w.flat_feature = 0;
     w.tilt2 = snap * snap;
+    tahr__corner_met *corner = query->corner;
+    int keeps = corner && witness->feature >= TAHR__CORNER && !(prim->kind & (TAHR__GATHERED | TAHR__FACELESS));
+    if (keeps && recall(&w, witness, corner, own)) return TAHR__ACCEPTED;
+    uint32_t own_fan[FAN];
     flatten(&w, own, 0);
-    look_around(&w, witness);
+    if (keeps) corner->count = 0;
+    const uint32_t count = look_around(&w, witness, keeps ? corner->fan : own_fan);
     if (w.nearer) return TAHR__NEIGHBOUR;
     out->normal = tilt2_to(&w, out->face) < snap * snap ? out->face : w.flat;
+    if (keeps && !w.tied) remember(&w, witness, corner, count);
     return TAHR__ACCEPTED;
 }

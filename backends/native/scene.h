@@ -271,6 +271,21 @@ static inline int tahr__cache_spans(const tahr__cache *cache, const tahr_bounds 
 /* Which bodies a query looks at: those that block, all, or sensors alone. */
 enum { TAHR__SENSORS_NONE = 0, TAHR__SENSORS_TOO = 1, TAHR__SENSORS_ONLY = 2 };
 
+/* A corner of a mesh that was met, seen from a core, and what it was found to be: all triangles at it that are connected
+ * there find the same of it (resolve.c). */
+typedef struct tahr__corner_met {
+    uint32_t count, body;    /* so many triangles; 0: none was met */
+    uint32_t fan[TAHR__FAN]; /* their names */
+    tahr_vec3 point, direction;
+    double distance;
+    tahr_vec3 normal, face, flat;
+    double along, tilt2; /* of the face, of what is flat */
+    /* How a point came to one (probe.c): from where it was nearest already; flown: 0: none did. */
+    uint32_t flown, reserved;
+    double from, target, t;
+    tahr__witness first, last;
+} tahr__corner_met;
+
 typedef struct tahr__query {
     const tahr__native *world;
     tahr__cache *cache; /* or NULL */
@@ -287,6 +302,7 @@ typedef struct tahr__query {
     uint32_t mask, ignore_body, flags; /* flags: of a sweep; with ONLY_BODY nothing but ignore_body is searched */
     uint32_t sensors;                  /* TAHR__SENSORS_* */
     uint32_t sinks;                    /* 1: the foot has sunk into a one-way body (one_way.h) */
+    tahr__corner_met *corner;          /* of this motion, the last one; NULL: nobody keeps it */
     tahr_status *failed;               /* what went wrong while gathering */
 } tahr__query;
 
@@ -455,6 +471,7 @@ enum { TAHR__REJECTED = 0, TAHR__ACCEPTED = 1, TAHR__NEIGHBOUR = 2 };
 typedef struct tahr__contact_normals {
     tahr_vec3 normal, face; /* local, unit */
     double closer;          /* with TAHR__NEIGHBOUR: distance of the core to the neighbour that is nearer */
+    double enough;          /* [in] less of it need not be told apart */
     uint32_t measure;       /* [in] 1: closer is asked for */
     uint32_t reserved;
 } tahr__contact_normals;

@@ -68,6 +68,7 @@ void tahr__query_begin(tahr__query *query, const tahr__native *world, tahr_query
     query->flags = 0;
     query->sensors = TAHR__SENSORS_NONE;
     query->sinks = 0;
+    query->corner = NULL;
 }
 
 void tahr__query_shape(tahr__query *query, const tahr_shape *shape, tahr_quat orientation)
@@ -354,8 +355,11 @@ static tahr_status report(sweep_state *s, tahr_hit *hits, uint32_t capacity, uin
 tahr_status tahr__sweep_rest(tahr__query *query, tahr_hit *hits, uint32_t capacity, uint32_t *count)
 {
     sweep_state s;
+    tahr__corner_met corner;
     tahr_status failed = TAHR_OK;
     query->failed = &failed;
+    corner.count = corner.flown = 0;
+    query->corner = query->world->no_vicinity ? NULL : &corner;
     begin(&s, query);
     run(&s);
     if (s.edged && s.sinks) { /* which edges hold was not known before all had been asked */
@@ -363,6 +367,7 @@ tahr_status tahr__sweep_rest(tahr__query *query, tahr_hit *hits, uint32_t capaci
         begin(&s, query);
         run(&s);
     }
+    query->corner = NULL;
     return failed < 0 ? failed : report(&s, hits, capacity, count);
 }
 
