@@ -30,9 +30,31 @@ static inline void aim(tahr__query *query, tahr_query_context *context, const ta
 /* Beyond all that there is: how far the shape may go (m; < 0: it is not). A metre is more than any rounding. */
 static double room_in_the_open(const tahr__native *world, const tahr_walk *walk)
 {
-    return world->movable.count > 0 ? -1
-                                    : tahr__outside_of_all(world, walk->position) -
-                                          (1 + walk->shape->half_height + walk->shape->radius + walk->margin);
+    const double all = tahr__outside_of_all(world, walk->position);
+    return tahr__movable_gap(world, walk->position, all) -
+           (1 + walk->shape->half_height + walk->shape->radius + walk->margin);
+}
+
+/* m that a motion sweeps, and a little more than any rounding. */
+static tahr_bounds swept(tahr_vec3 from, tahr_vec3 motion, double reach)
+{
+    const tahr_vec3 to = v_add(from, motion), grow = v_make(reach, reach, reach);
+    return (tahr_bounds){v_sub(v_min(from, to), grow), v_add(v_max(from, to), grow)};
+}
+
+/* May a body that moves be met? What is known of the vicinity is what is at rest for good; the sweeps look for the
+ * others beside it. */
+static int meets_movable(const tahr__native *world, const tahr_walk *walk)
+{
+    if (world->movable.count == 0) return 0;
+    const double more = walk->margin + 2 * TAHR__SLACK;
+    tahr_bounds box = swept(walk->position, walk->motion, walk->shape->half_height + walk->shape->radius + more);
+    if (walk->foot) {
+        const tahr_bounds foot = swept(walk->foot_position, walk->foot_motion, walk->foot->radius + more);
+        box.min = v_min(box.min, foot.min);
+        box.max = v_max(box.max, foot.max);
+    }
+    return tahr__movable_meets(world, &box);
 }
 
 /* May a foot that did not simply come down have met something all the same? */
@@ -58,6 +80,14 @@ static int goes_to(tahr__query *body, uint32_t way, const tahr_walk *walk, tahr_
     return tahr__vicinity_is_clear(body, way) && finds_floor(&foot, hit);
 }
 
+/* m that the shape may go from where it is, whichever way. */
+static double room_here(const tahr__query *body, const tahr_walk *walk)
+{
+    const double reach = walk->shape->half_height + walk->shape->radius + walk->margin + 2 * TAHR__SLACK;
+    const double room = tahr__vicinity_room(body);
+    return tahr__movable_gap(body->world, walk->position, room + reach) - reach;
+}
+
 tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tahr_walk *walk, tahr_hit *hit,
                               uint32_t *known)
 {
@@ -65,6 +95,7 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
     tahr__cache *cache = context->cache;
     tahr__query body;
     *known = 0;
+    if (meets_movable(world, walk)) return TAHR_OK;
     if (walk->foot && cache && cache->revision == world->revision) {
         const uint32_t end = tahr__footing_walk(world, context, walk, hit);
         if (end == TAHR__LANDED) *known = 1, context->spared += 2;
@@ -79,7 +110,7 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
             return TAHR_OK;
         }
     }
-    if (world->movable.count > 0 || !cache || !cache->announced) return TAHR_OK;
+    if (!cache || !cache->announced) return TAHR_OK;
     if (!tahr__frame_holds(&cache->frame, walk->position, walk->up)) return TAHR_OK;
     body.world = world;
     body.cache = cache;
@@ -89,6 +120,6 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
     if (way == TAHR__UNKNOWN) return TAHR_OK;
     *known = (uint32_t)(walk->foot ? goes_to(&body, way, walk, hit) : tahr__vicinity_is_clear(&body, way));
     context->spared += *known ? walk->foot ? 2 : 1 : 0;
-    if (!walk->foot && *known) hit->distance = d_max(tahr__vicinity_room(&body), 0);
+    if (!walk->foot && *known) hit->distance = d_max(room_here(&body, walk), 0);
     return TAHR_OK;
 }
