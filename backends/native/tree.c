@@ -274,17 +274,36 @@ void tahr__tree_search(tahr__search *s, const tahr__group *group)
     }
 }
 
+/* Relative to the centre of the tree, in double: the boxes of nodes are rounded outward. */
+static int node_meets(const tahr__bvh_node *n, const tahr_bounds *b)
+{
+    int x = (n->lo[0] <= b->max.x) & (b->min.x <= n->hi[0]), y = (n->lo[1] <= b->max.y) & (b->min.y <= n->hi[1]);
+    return x & y & (n->lo[2] <= b->max.z) & (b->min.z <= n->hi[2]);
+}
+
+static int leaf_meets(const tahr__native *world, const tahr__bvh_node *leaf, const tahr_bounds *box)
+{
+    for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
+        if (!is_apart(&world->bodies[world->movable.order[i]].bounds, box)) return 1;
+    }
+    return 0;
+}
+
 int tahr__movable_meets(const tahr__native *world, const tahr_bounds *box)
 {
-    const tahr__group *group = &world->movable;
-    tahr__bvh_walk walk;
-    uint32_t first, count;
-    if (group->count == 0) return 0;
-    tahr__bvh_walk_begin(&walk, &group->tree, box, 0, box->min);
-    while (tahr__bvh_walk_next(&walk, &first, &count)) {
-        for (uint32_t i = first; i < first + count; i++) {
-            if (!is_apart(&world->bodies[group->order[i]].bounds, box)) return 1;
+    const tahr__bvh *tree = &world->movable.tree;
+    uint32_t stack[TAHR__BVH_STACK], top = 0;
+    if (world->movable.count == 0) return 0;
+    const tahr_bounds own = {v_sub(box->min, tree->centre), v_sub(box->max, tree->centre)};
+    for (stack[top++] = 0; top > 0;) {
+        const tahr__bvh_node *node = &tree->nodes[stack[--top]];
+        if (!node_meets(node, &own)) continue;
+        if (node->count > 0) {
+            if (leaf_meets(world, node, box)) return 1;
+            continue;
         }
+        stack[top++] = node->first;
+        stack[top++] = node->first + 1;
     }
     return 0;
 }

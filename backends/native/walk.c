@@ -35,25 +35,24 @@ static double room_in_the_open(const tahr__native *world, const tahr_walk *walk)
            (1 + walk->shape->half_height + walk->shape->radius + walk->margin);
 }
 
-/* m that a motion sweeps, and a little more than any rounding. */
-static tahr_bounds swept(tahr_vec3 from, tahr_vec3 motion, double reach)
+/* m: no part of a vector is more. */
+static double sum_of(tahr_vec3 v)
 {
-    const tahr_vec3 to = v_add(from, motion), grow = v_make(reach, reach, reach);
-    return (tahr_bounds){v_sub(v_min(from, to), grow), v_add(v_max(from, to), grow)};
+    return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
-/* May a body that moves be met? What is known of the vicinity is what is at rest for good; the sweeps look for the
- * others beside it. */
+/* May a body that moves be met? What is known of the vicinity is what is at rest for good. Asked of a cube around the
+ * place, which is far larger than both motions need, and soon made. */
 static int meets_movable(const tahr__native *world, const tahr_walk *walk)
 {
     if (world->movable.count == 0) return 0;
-    const double more = walk->margin + 2 * TAHR__SLACK;
-    tahr_bounds box = swept(walk->position, walk->motion, walk->shape->half_height + walk->shape->radius + more);
+    double reach = walk->shape->half_height + walk->shape->radius + sum_of(walk->motion);
     if (walk->foot) {
-        const tahr_bounds foot = swept(walk->foot_position, walk->foot_motion, walk->foot->radius + more);
-        box.min = v_min(box.min, foot.min);
-        box.max = v_max(box.max, foot.max);
+        reach += walk->foot->radius + sum_of(v_sub(walk->foot_position, walk->position)) + sum_of(walk->foot_motion);
     }
+    reach += walk->margin + 2 * TAHR__SLACK;
+    const tahr_vec3 grow = v_make(reach, reach, reach);
+    const tahr_bounds box = {v_sub(walk->position, grow), v_add(walk->position, grow)};
     return tahr__movable_meets(world, &box);
 }
 
