@@ -15,6 +15,15 @@ static const double SPARE = 0.5;
 /* m: farther than anything is from anything in a world of 2e7 m. */
 static const double FAR_AND_WIDE = 1e8;
 
+/* As a state is allowed to be. */
+static const double FARTHEST_PLACE = 2e7;
+
+/* More than the rounding of a number to single precision, of itself. */
+static const double ROUNDED = 1.3e-7;
+
+/* Of tahr__calm.changed. */
+enum { SEEN = 1, REVISION = 2 };
+
 /* So many bodies may be looked at in each step, in the mean. */
 enum { LOOKED_AT = 64 };
 
@@ -71,13 +80,11 @@ void tahr__calm_prepare(tahr_mover *mover)
     const tahr_config *c = &mover->config;
     const tahr_world *world = mover->world;
     tahr__calm *calm = &mover->calm;
-    calm->extent = extent_of(c, &mover->limits);
-    calm->speed = max_of(c->max_speed, mover->limits.speed) + c->jump_speed;
-    calm->gravity = mover->limits.pull.size;
+    calm->speed = (float)((max_of(c->max_speed, mover->limits.speed) + c->jump_speed) * (1 + ROUNDED));
     calm->room = -1;
     calm->may_go_short_way = (uint8_t)tahr__may_go_short_way(world, c, &mover->limits);
-    mover->calms = world->specials_known && world->special_count > 0 && c->short_ways && !c->keep_level_speed &&
-                   !mover->limits.feel && !mover->limits.in_plane && mover->pace.upright && !world_is_planar(world);
+    calm->may = world->specials_known && world->special_count > 0 && c->short_ways && !c->keep_level_speed &&
+                !mover->limits.feel && !mover->limits.in_plane && mover->pace.upright && !world_is_planar(world);
 }
 
 /* m from a place to a body, on all of its way. */
@@ -88,31 +95,40 @@ static double gap_to(const tahr__body_note *note, vec3 p)
     return length(add_scaled(off, way, -t)) - note->reach;
 }
 
+static vec3 place_of(const tahr__calm *calm)
+{
+    return vec((double)calm->at[0], (double)calm->at[1], (double)calm->at[2]);
+}
+
 static void look_for_specials(tahr_mover *mover, vec3 p)
 {
     const tahr_world *world = mover->world;
     tahr__calm *calm = &mover->calm;
     double room = FAR_AND_WIDE;
+    calm->at[0] = (float)p.x;
+    calm->at[1] = (float)p.y;
+    calm->at[2] = (float)p.z;
+    const vec3 at = place_of(calm);
     for (uint32_t i = 0; i < world->special_count; i++) {
-        room = min_of(room, gap_to(&world->bodies[world->specials[i]], p));
+        room = min_of(room, gap_to(&world->bodies[world->specials[i]], at));
     }
-    calm->place = p;
-    calm->room = room;
+    room -= extent_of(&mover->config, &mover->limits);
+    calm->room = (float)(room - ROUNDED * fabs(room));
     calm->drift = world->drift;
-    calm->wait = world->special_count / LOOKED_AT;
 }
 
-static double room_left(const tahr_mover *mover, vec3 p)
+/* Is more room left at a place than that? */
+static int has_room(const tahr_mover *mover, vec3 p, double reach)
 {
     const tahr__calm *calm = &mover->calm;
-    return calm->room - length(sub(p, calm->place)) - (mover->world->drift - calm->drift);
+    return (double)calm->room - (mover->world->drift - calm->drift) - length(sub(p, place_of(calm))) > reach;
 }
 
-/* m: all that a step may ask about. What it loses against a wall, turns along a slope or gains by its wish and by
- * gravity is no more than its speed and theirs, and they are taken twice. */
-static double reach_of(const tahr__calm *calm, const tahr_state *s, double dt)
+/* m: all that the motion of a step adds to what it may ask about. What it loses against a wall, turns along a slope or
+ * gains by its wish and by gravity is no more than its speed and theirs, and they are taken twice. */
+static double reach_of(const tahr_mover *mover, const tahr_state *s, double dt)
 {
-    return calm->extent + 2 * dt * (length(s->velocity) + calm->speed + calm->gravity * dt);
+    return 2 * dt * (length(s->velocity) + (double)mover->calm.speed + mover->dive.gravity * dt);
 }
 
 /* Is nothing special within all that a step from this state may ask about? False for what is not finite. */
@@ -120,22 +136,19 @@ static int nothing_is_near(tahr_mover *mover, const tahr_state *s, double dt)
 {
     const tahr_world *world = mover->world;
     tahr__calm *calm = &mover->calm;
-    const double reach = reach_of(calm, s, dt);
-    if (!(world->drift < FARTHEST_DRIFT)) {
-        return 0;
-    }
-    if (room_left(mover, s->position) > reach) {
+    const double reach = reach_of(mover, s, dt);
+    if (has_room(mover, s->position, reach)) {
         return 1;
     }
-    if (calm->wait > 0) {
-        calm->wait--;
-        return 0;
-    }
-    if (!backoff_tries(&calm->looks)) {
+    const int may_be_told =
+        world->drift < FARTHEST_DRIFT && length_squared(s->position) <= FARTHEST_PLACE * FARTHEST_PLACE;
+    if (!may_be_told || !backoff_tries(&calm->looks)) {
         return 0;
     }
     look_for_specials(mover, s->position);
-    return backoff_note(&calm->looks, calm->room > reach);
+    const int found = backoff_note(&calm->looks, has_room(mover, s->position, reach));
+    calm->looks.rest += world->special_count / LOOKED_AT;
+    return found;
 }
 
 /* A floor that is said to be special is where the state says that it is, wherever the body may be now. */
@@ -161,12 +174,11 @@ static void begin(tahr_mover *mover, tahr_state *s)
     const uint32_t seen = world->moved_count > 0 ? (uint32_t)(world->revision + world->motion) : 0;
     const int moved = world->moved_count > 0 && s->base.seen != seen;
     calm->seen = s->base.seen;
-    calm->floor_revision = s->floor_revision;
-    calm->changes = s->base.seen != seen;
+    calm->changed = s->base.seen != seen ? SEEN : 0;
     s->base.seen = seen;
     if (moved && s->floor_revision == world->last_revision && world->last_revision != 0) {
         s->floor_revision = world->revision;
-        calm->changes |= calm->floor_revision != world->revision;
+        calm->changed |= (uint8_t)REVISION;
     }
     calm->on = 1;
     mover->pace.bare.seen = seen;
@@ -177,7 +189,7 @@ static void begin(tahr_mover *mover, tahr_state *s)
 
 static void end(tahr_mover *mover)
 {
-    mover->calm.on = 0;
+    mover->calm.on = mover->calm.changed = 0;
     mover->pace.bare.seen = 0;
     mover->plain = mover->may_go_short_way = 0;
     mover->not_quick = 1;
@@ -186,7 +198,9 @@ static void end(tahr_mover *mover)
 void tahr__calm_quit(tahr_mover *mover, tahr_state *state)
 {
     state->base.seen = mover->calm.seen;
-    state->floor_revision = mover->calm.floor_revision;
+    if (mover->calm.changed & REVISION) {
+        state->floor_revision = mover->world->last_revision;
+    }
     end(mover);
 }
 

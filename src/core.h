@@ -209,19 +209,19 @@ typedef struct tahr__dive {
     tahr__clear clear;
 } tahr__dive;
 
-/* How far it is to the nearest special body (calm.h). */
+/* How far it is to the nearest special body (calm.h). In single precision, rounded to the safe side: a mover shall stay
+ * small. */
 typedef struct tahr__calm {
-    uint8_t on;               /* 1: the step under way is calm, */
-    uint8_t changes;          /* and began with a state that had to be changed; */
-    uint8_t may_go_short_way; /* what the mover may do in such a step */
-    uint8_t reserved;
-    uint32_t seen; /* of the state before it */
-    uint64_t floor_revision;
-    double extent, speed, gravity; /* m, m/s, m/s2: what a step reaches */
-    vec3 place;                    /* where room was measured, */
-    double room, drift;            /* m, and what the world's drift was then */
+    double drift; /* the world's, when room was measured: */
+    float at[3];
+    float room;  /* m from there to the nearest, less what a step reaches that stands still */
+    float speed; /* m/s that a step may add to what it begins with */
     tahr__backoff looks;
-    uint32_t wait; /* steps until the next look */
+    uint32_t seen;            /* of the state before the step under way, */
+    uint8_t on;               /* which is calm; */
+    uint8_t changed;          /* bits: its seen had to be changed, its floor_revision was the world's last one */
+    uint8_t may_go_short_way; /* what the mover may do in such a step */
+    uint8_t may;              /* 1: its steps may be calm */
 } tahr__calm;
 
 /* What a state remembers, from base on, that has nothing to remember; and how it is made, for who needs to know it when
@@ -256,7 +256,6 @@ struct tahr_mover {
     tahr__limits limits;
     tahr__dive dive;
     tahr__calm calm;
-    uint32_t calms;         /* 1: steps may be calm */
     tahr__backoff onward;   /* of the looks of onward.h */
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */

@@ -41,6 +41,15 @@ static double sum_of(tahr_vec3 v)
     return fabs(v.x) + fabs(v.y) + fabs(v.z);
 }
 
+/* Is all that may move farther than `reach` along an axis? Most often one is enough to tell. */
+static int is_beyond(const tahr__group *group, tahr_vec3 position, double reach)
+{
+    const tahr__bvh_node *root = &group->tree.nodes[0];
+    const tahr_vec3 at = v_sub(position, group->tree.centre);
+    return at.x + reach < root->lo[0] || at.x - reach > root->hi[0] || at.y + reach < root->lo[1] ||
+           at.y - reach > root->hi[1] || at.z + reach < root->lo[2] || at.z - reach > root->hi[2];
+}
+
 /* May a body that moves be met? What is known of the vicinity is what is at rest for good. Asked of a cube around the
  * place, which is far larger than both motions need, and soon made. */
 static int meets_movable(const tahr__native *world, const tahr_walk *walk)
@@ -51,6 +60,7 @@ static int meets_movable(const tahr__native *world, const tahr_walk *walk)
         reach += walk->foot->radius + sum_of(v_sub(walk->foot_position, walk->position)) + sum_of(walk->foot_motion);
     }
     reach += walk->margin + 2 * TAHR__SLACK;
+    if (is_beyond(&world->movable, walk->position, reach)) return 0;
     const tahr_vec3 grow = v_make(reach, reach, reach);
     const tahr_bounds box = {v_sub(walk->position, grow), v_add(walk->position, grow)};
     return tahr__movable_meets(world, &box);

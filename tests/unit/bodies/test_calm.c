@@ -13,6 +13,7 @@
 #include "dice.h"
 #include "oracle.h"
 #include "rig.h"
+#include "throng.h"
 
 static const double DT = 1.0 / 60;
 
@@ -61,7 +62,8 @@ typedef struct course {
     tahr_pose pose[BODIES], kept_pose[BODIES];
     tahr_vec3 wish[WALKERS];
     oracle_random random;
-    int calm, restless; /* steps */
+    int quiet;                  /* steps left in which nothing moves and nobody wants to */
+    int calm, restless, asleep; /* steps */
 } course;
 
 static void open_course(course *c, uint64_t seed)
@@ -148,6 +150,10 @@ static void move_bodies(course *c)
 
 static void disturb(course *c)
 {
+    if (c->quiet > 0 || chance(c, 0.004)) {
+        c->quiet = c->quiet > 0 ? c->quiet - 1 : 90;
+        return;
+    }
     if (chance(c, 0.8)) {
         move_bodies(c);
     }
@@ -173,6 +179,9 @@ static void disturb(course *c)
 /* Keeps, or goes back to what was kept: the states alone, or with the bodies. */
 static void roll_back(course *c)
 {
+    if (c->quiet > 0) {
+        return;
+    }
     if (chance(c, 0.02)) {
         memcpy(c->kept, c->state[0], sizeof c->kept);
         memcpy(c->kept_pose, c->pose, sizeof c->kept_pose);
@@ -191,6 +200,9 @@ static void roll_back(course *c)
 static tahr_input input_for(course *c, int w)
 {
     const tahr_vec3 at = c->state[0][w].position;
+    if (c->quiet > 0) {
+        return (tahr_input){.struct_size = sizeof(tahr_input)};
+    }
     if (chance(c, 0.02)) {
         const double home = chance(c, 0.4) ? 1 : 0;
         c->wish[w] = dice_direction(&c->random);
@@ -211,7 +223,7 @@ static tahr_input input_for(course *c, int w)
 static void step_both(course *c, int w)
 {
     const tahr_input in = input_for(c, w);
-    const double dt = chance(c, 0.05) ? oracle_uniform(&c->random, 0, 0.1) : DT;
+    const double dt = c->quiet == 0 && chance(c, 0.05) ? oracle_uniform(&c->random, 0, 0.1) : DT;
     tahr_report on = {.struct_size = sizeof on}, off = on;
     tahr_state *a = &c->state[0][w], *b = &c->state[1][w];
     const tahr_status is = tahr_mover_step(c->on.mover, &in, dt, a, &on);
@@ -222,6 +234,7 @@ static void step_both(course *c, int w)
     assert_int_equal(on.flags, off.flags);
     assert_true(on.residual == off.residual && on.step_offset == off.step_offset && on.time_lost == off.time_lost);
     c->calm += off.fluid_queries > 0 && on.fluid_queries == 0;
+    c->asleep += (on.flags & TAHR_REPORT_ASLEEP) != 0;
     c->restless += on.fluid_queries > 0;
 }
 
@@ -229,22 +242,23 @@ static void short_ways_never_show_among_bodies_that_move(void **unused)
 {
     (void)unused;
     static course c;
-    int calm = 0, restless = 0;
+    int calm = 0, restless = 0, asleep = 0;
     for (uint64_t seed = 1; seed <= 6; seed++) {
         open_course(&c, seed);
         for (int i = 0; i < 1500; i++) {
             disturb(&c);
             roll_back(&c);
-            for (int w = 0; w < WALKERS; w++) {
+            for (int w = 0; w < (c.quiet > 0 ? 1 : WALKERS); w++) { /* a mover remembers one sleeper */
                 step_both(&c, w);
             }
         }
         close_course(&c);
         calm += c.calm;
         restless += c.restless;
+        asleep += c.asleep;
     }
-    print_message("    %d steps calm, %d restless\n", calm, restless);
-    assert_true(calm > 3000 && restless > 3000);
+    print_message("    %d steps calm, %d restless, %d asleep\n", calm, restless, asleep);
+    assert_true(calm > 2000 && restless > 2000 && asleep > 100);
 }
 
 /* Who walks on a flat floor, or falls above it, takes the same looks with a body 500 m away and without. */
@@ -322,10 +336,52 @@ static void what_is_refused_is_left_as_it_was(void **unused)
     rig_close(&r);
 }
 
+/* A crowd among them, with the short ways and without. */
+static void open_throng(throng *t, const tahr_body_desc *bodies, int short_ways, uint32_t flags)
+{
+    enum { COUNT = 40 };
+    throng_open(t, bodies, BODIES);
+    t->config.short_ways = (uint32_t)short_ways;
+    t->desc.flags |= flags;
+    throng_make(t, COUNT);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        throng_place(t, i, 3.0 * (i % 8) - 10 + 30 * (i % 3), 2.5 * (i / 8) - 6);
+        throng_go(t, i, i % 2 ? -0.7 : 0.5, i % 5 ? 0.3 : -0.4);
+    }
+}
+
+static void assert_crowds_alike(uint32_t flags)
+{
+    static tahr_body_desc bodies[BODIES];
+    oracle_random random = {7};
+    throng on, off;
+    make_scene(bodies, &random);
+    open_throng(&on, bodies, 1, flags);
+    open_throng(&off, bodies, 0, flags);
+    for (int i = 0; i < 240; i++) {
+        tahr_body_pose p = {.body = LIFT + (uint32_t)i % MOVABLES, .pose = bodies[LIFT + i % MOVABLES].pose};
+        p.pose.position.x += 0.03 * (i % 90);
+        assert_int_equal(tahr_world_move(on.world, &p, 1, DT), TAHR_OK);
+        assert_int_equal(tahr_world_move(off.world, &p, 1, DT), TAHR_OK);
+        assert_int_equal(throng_step(&on), throng_step(&off));
+        assert_true(throng_hash(&on) == throng_hash(&off));
+    }
+    throng_close(&on);
+    throng_close(&off);
+}
+
+static void nor_in_a_crowd(void **unused)
+{
+    (void)unused;
+    assert_crowds_alike(0);
+    assert_crowds_alike(TAHR_CROWD_LEAN);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(short_ways_never_show_among_bodies_that_move),
+        cmocka_unit_test(nor_in_a_crowd),
         cmocka_unit_test(a_step_far_from_all_that_is_special_is_as_short_as_in_a_world_without),
         cmocka_unit_test(what_is_refused_is_left_as_it_was),
     };
