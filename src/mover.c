@@ -332,7 +332,8 @@ static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double 
             tahr_state before;
             copy_state(&before, state);
             hand_over(&step, !plain, state);
-            tahr__sleep_note(mover, &step, dt, state, around || mover->calm.changed || memcmp(&before, state, sizeof before) != 0);
+            tahr__sleep_note(mover, &step, dt, state,
+                             around || mover->calm.changed || memcmp(&before, state, sizeof before) != 0);
         } else {
             hand_over(&step, !plain, state);
         }
@@ -391,7 +392,7 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
     }
     if (!tahr__is_quick(mover)) {
         return mover->calm.may ? tahr__step_calmly(mover, input, dt, state, report)
-                            : tahr__step_awake(mover, input, dt, state, report);
+                               : tahr__step_awake(mover, input, dt, state, report);
     }
     return mover->wide ? tahr__quick_step_wide(mover, input, dt, state, report)
                        : tahr__quick_step(mover, input, dt, state, report);
