@@ -377,11 +377,93 @@ static void nor_in_a_crowd(void **unused)
     assert_crowds_alike(TAHR_CROWD_LEAN);
 }
 
+/* On a floor with a plate 10 cm above it, which is put there, and away again. */
+static void what_is_known_of_a_place_holds_no_body_that_moves(void **unused)
+{
+    (void)unused;
+    tahr_body_desc bodies[2];
+    rig r;
+    make_box(&bodies[0], (tahr_vec3){0, 0, -1}, (tahr_vec3){2000, 2000, 1}, 0);
+    make_box(&bodies[1], (tahr_vec3){0, 500, 0.05}, (tahr_vec3){1, 1, 0.05}, TAHR_BODY_MOVABLE);
+    const tahr_config config = rig_config();
+    rig_open_bodies(&r, bodies, 2, &config, (tahr_vec3){0, 0, 1});
+    rig_steps(&r, 60, DT);
+    r.input.move = (tahr_vec3){1, 0, 0};
+    rig_steps(&r, 120, DT);
+    for (int i = 0; i < 3; i++) {
+        tahr_body_pose p = {.body = 1, .pose = bodies[1].pose};
+        p.pose.position.x = r.state.position.x;
+        p.pose.position.y = i == 1 ? 0 : 500;
+        assert_int_equal(tahr_world_set(r.world, &p, 1), TAHR_OK);
+        tahr_query_context context = {.cache = r.mover->cache};
+        const tahr__pace *pace = &r.mover->pace;
+        tahr_shape foot = r.mover->limits.foot.shape;
+        const tahr_vec3 from = {r.state.position.x, r.state.position.y, r.state.position.z + 0.3};
+        const tahr_vec3 foot_from = {from.x + 0.01, from.y, from.z + pace->foot};
+        const tahr_walk walk = {.shape = &r.mover->limits.shape,
+                                .foot = &foot,
+                                .position = from,
+                                .motion = {0.01, 0, 0},
+                                .foot_position = foot_from,
+                                .foot_motion = {0, 0, -0.6},
+                                .up = {0, 0, 1},
+                                .margin = config.skin,
+                                .mask = config.mask};
+        tahr_hit hit = {0};
+        uint32_t known = 0;
+        assert_int_equal(r.world->backend->walk(r.world->self, &context, &walk, &hit, &known), TAHR_OK);
+        assert_int_equal(known, i != 1);
+        const tahr_sweep sweep = {.shape = foot,
+                                  .position = foot_from,
+                                  .orientation = {0, 0, 0, 1},
+                                  .motion = {0, 0, -0.6},
+                                  .up = {0, 0, 1},
+                                  .margin = config.skin,
+                                  .mask = config.mask,
+                                  .ignore_body = TAHR_NO_BODY};
+        uint32_t count = 0;
+        assert_int_equal(r.world->backend->sweep(r.world->self, &context, &sweep, &hit, 1, &count), TAHR_OK);
+        assert_int_equal(count, 1);
+        assert_int_equal(hit.body, i == 1);
+    }
+    rig_close(&r);
+}
+
+/* Who is put back to where a lift was, which has been put away and moves there: the state says that it stands on it. */
+static void who_says_that_he_stands_on_a_lift_is_carried_by_it_however_far_it_is(void **unused)
+{
+    (void)unused;
+    tahr_state end[2];
+    for (int i = 0; i < 2; i++) {
+        tahr_body_desc bodies[2];
+        rig r;
+        make_box(&bodies[0], (tahr_vec3){0, 0, -1}, (tahr_vec3){2000, 2000, 1}, 0);
+        make_box(&bodies[1], (tahr_vec3){0, 0, 0.05}, (tahr_vec3){1, 1, 0.05}, TAHR_BODY_MOVABLE);
+        tahr_config config = rig_config();
+        config.short_ways = i == 0;
+        rig_open_bodies(&r, bodies, 2, &config, (tahr_vec3){0, 0, 1.2});
+        rig_steps(&r, 60, DT);
+        assert_int_equal(r.state.floor.body, 1);
+        tahr_body_pose p = {.body = 1, .pose = bodies[1].pose};
+        p.pose.position.y = 500;
+        assert_int_equal(tahr_world_set(r.world, &p, 1), TAHR_OK);
+        p.pose.position.y += 0.1;
+        assert_int_equal(tahr_world_move(r.world, &p, 1, DT), TAHR_OK);
+        assert_int_equal(tahr_mover_step(r.mover, &r.input, DT, &r.state, NULL), TAHR_OK);
+        end[i] = r.state;
+        rig_close(&r);
+    }
+    assert_memory_equal(&end[0], &end[1], sizeof end[0]);
+    assert_true(end[0].position.y > 0.05 || end[0].velocity.y > 0.05); /* carried 0.1 m, or let go at 6 m/s */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(short_ways_never_show_among_bodies_that_move),
         cmocka_unit_test(nor_in_a_crowd),
+        cmocka_unit_test(what_is_known_of_a_place_holds_no_body_that_moves),
+        cmocka_unit_test(who_says_that_he_stands_on_a_lift_is_carried_by_it_however_far_it_is),
         cmocka_unit_test(a_step_far_from_all_that_is_special_is_as_short_as_in_a_world_without),
         cmocka_unit_test(what_is_refused_is_left_as_it_was),
     };
