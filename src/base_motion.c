@@ -334,9 +334,6 @@ void tahr__ride(tahr__step *step, double dt)
     const vec3 from = s->position;
     uint32_t seen = world->moved_count > 0 ? (uint32_t)(world->revision + world->motion) : 0;
     int moved = world->moved_count > 0 && s->base.seen != seen;
-    step->frame_body = TAHR_NO_BODY;
-    step->frame_is_base = 0;
-    step->decay_mean = 0;
     if (s->mode != TAHR_MODE_NONE) {
         if (moved && s->base.body == TAHR_NO_BODY) {
             adopt_base(step);

@@ -62,7 +62,12 @@ struct tahr_world {
     uint64_t motion;        /* the same of their motions; 0: all at rest */
     uint64_t last_revision; /* before the last tahr_world_move; 0: since then, or in it, something changed without a
                              * motion */
+    uint64_t ground;        /* from 1: changes with what cannot be placed, by tahr_world_touch */
+    double drift;           /* m: no body has come farther since another value of it than the difference */
     tahr__body_note *bodies;
+    uint32_t *specials;      /* bodies that are more than a floor and a wall (calm.h) */
+    uint32_t special_count;
+    uint32_t specials_known; /* 1: there are no others, and all of them are described */
     uint32_t record_round; /* number of the last recording */
     uint32_t crowds;       /* open on it: then numbers from TAHR_CHARACTER_BODY on are characters */
     uint32_t derived;      /* the most sweeps that a contacts query is made of (derived.c); 0: it is none */
@@ -183,12 +188,12 @@ typedef struct tahr__custom {
     void *user;
 } tahr__custom;
 
-/* Where the config's shape may go without meeting anything, while the world stays what it was: as told by the slot
- * walk. */
+/* Where the config's shape may go without meeting anything that is at rest for good, while the ground stays what it was:
+ * as told by the slot walk. What else there is, is not near: else it is not asked (calm.h). */
 typedef struct tahr__clear {
     vec3 at;
     double far2;       /* m2: square of how far from there */
-    uint64_t revision; /* of the world; 0: nothing is known */
+    uint64_t ground; /* of the world; 0: nothing is known */
 } tahr__clear;
 
 /* What a rise or fall the short way (plummet.h) asks of config and limits, and what it remembers. */
@@ -203,6 +208,21 @@ typedef struct tahr__dive {
     double terminal;   /* m/s */
     tahr__clear clear;
 } tahr__dive;
+
+/* How far it is to the nearest special body (calm.h). In single precision, rounded to the safe side: a mover shall stay
+ * small. */
+typedef struct tahr__calm {
+    double drift; /* the world's, when room was measured: */
+    float at[3];
+    float room;  /* m from there to the nearest, less what a step reaches that stands still */
+    float speed; /* m/s that a step may add to what it begins with */
+    tahr__backoff looks;
+    uint32_t seen;            /* of the state before the step under way, */
+    uint8_t on;               /* which is calm; */
+    uint8_t changed;          /* bits: its seen had to be changed, its floor_revision was the world's last one */
+    uint8_t may_go_short_way; /* what the mover may do in such a step */
+    uint8_t may;              /* 1: its steps may be calm */
+} tahr__calm;
 
 /* What a state remembers, from base on, that has nothing to remember; and how it is made, for who needs to know it when
  * it is compiled. */
@@ -235,6 +255,7 @@ struct tahr_mover {
     tahr__pace pace;
     tahr__limits limits;
     tahr__dive dive;
+    tahr__calm calm;
     tahr__backoff onward;   /* of the looks of onward.h */
     uint32_t record_round;  /* of the recording that has numbered it, */
     uint32_t record_number; /* and the number */
@@ -292,6 +313,7 @@ struct tahr__step {
     tahr_status error;        /* sticky: after it every query answers "blocked here" */
     uint32_t iterations;      /* slices begun so far, of max_substeps: STEPPED, TWO_WALLS */
     uint32_t apexes;          /* of them cut short at an apex */
+    uint32_t calm;            /* 1: nothing special is near (calm.h) */
     /* The mover's, if the last piece along a wall may be asked for with the floor under its end (onward.h), or NULL. */
     tahr__backoff *onward;
     /* For what a perch meets (perch.h), or NULL. */

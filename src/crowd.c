@@ -55,6 +55,8 @@ static tahr_mover *mover_of(const tahr__tick *t, uint32_t i, const tahr__part *p
         m->dive = c->kinds[kind]->dive;
         m->may_go_short_way = c->kinds[kind]->may_go_short_way;
         m->not_quick = c->kinds[kind]->not_quick;
+        m->calm = c->kinds[kind]->calm;
+        m->calm.may = m->calm.may && !c->is_lean;
         mover_wake(m);
         c->kind_of[at] = kind;
     }

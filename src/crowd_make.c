@@ -161,6 +161,9 @@ static tahr_status make_movers(tahr_crowd *c, const tahr_crowd_desc *d)
     }
     for (uint32_t i = 0; i < c->mover_count && status >= 0; i++) {
         status = tahr_mover_create(c->world, d->configs, &c->movers[i]);
+        if (status >= 0 && c->is_lean) { /* knows the surroundings of one character, and serves many */
+            c->movers[i]->calm.may = 0;
+        }
     }
     return status;
 }

@@ -4,6 +4,7 @@
 
 #include "arguments.h"
 #include "base_motion.h"
+#include "calm.h"
 #include "core.h"
 #include "drop.h"
 #include "fit.h"
@@ -68,8 +69,9 @@ tahr_status tahr_mover_create(tahr_world *world, const tahr_config *config, tahr
     mover->plain = !world->has && !mover->limits.feel && !mover->limits.in_plane;
     mover->pace = tahr__pace_of(&mover->config, &mover->limits);
     mover->dive = tahr__dive_of(&mover->config, &mover->limits);
-    mover->may_go_short_way = (uint8_t)tahr__may_go_short_way(world, config, &mover->limits);
+    mover->may_go_short_way = !world->has && tahr__may_go_short_way(world, config, &mover->limits);
     mover->not_quick = !mover->may_go_short_way || !mover->pace.upright;
+    tahr__calm_prepare(mover);
     mover->cache = cache;
     mover->cache_size = cache_size;
     *out = mover;
@@ -205,6 +207,8 @@ static void run(tahr__step *step, double dt, int plain)
     }
     if (!plain) {
         end(step);
+    } else if (step->calm && step->state.mode == TAHR_MODE_WALKING) {
+        step->state.velocity = step_level(step, step->state.velocity); /* as tahr__note_base does */
     }
 }
 
@@ -319,7 +323,11 @@ static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double 
     step.onward = plain && !around && may_look_onward(mover, report) ? &mover->onward : NULL;
     step.around = around;
     step.neighbours = NULL;
-    if (step.world->has & TAHR__HAS_SENSORS) {
+    step.calm = mover->calm.on;
+    step.frame_body = TAHR_NO_BODY;
+    step.frame_is_base = 0;
+    step.decay_mean = 0;
+    if (step.world->has & TAHR__HAS_SENSORS && !step.calm) {
         tahr__trail_begin(&trail, &step);
     }
     if (dt > 0) {
@@ -342,7 +350,8 @@ static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double 
             tahr_state before;
             copy_state(&before, state);
             hand_over(&step, !plain, state);
-            tahr__sleep_note(mover, &step, dt, state, around || memcmp(&before, state, sizeof before) != 0);
+            tahr__sleep_note(mover, &step, dt, state,
+                             around || mover->calm.changed || memcmp(&before, state, sizeof before) != 0);
         } else {
             hand_over(&step, !plain, state);
         }
@@ -367,6 +376,9 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     }
     const int plain = state_is_blank(mover, state) && arguments_are_usual(mover, input, dt, state, report);
     if (!plain) {
+        if (mover->calm.on) {
+            tahr__calm_quit(mover, state);
+        }
         tahr_status status = tahr__check_arguments(mover, input, dt, state, report);
         if (status < 0) {
             return status;
@@ -397,7 +409,8 @@ tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double d
                                  : tahr__step_noted(mover, input, dt, state, report);
     }
     if (!tahr__is_quick(mover)) {
-        return tahr__step_awake(mover, input, dt, state, report);
+        return mover->calm.may ? tahr__step_calmly(mover, input, dt, state, report)
+                               : tahr__step_awake(mover, input, dt, state, report);
     }
     return mover->wide ? tahr__quick_step_wide(mover, input, dt, state, report)
                        : tahr__quick_step(mover, input, dt, state, report);

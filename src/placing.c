@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "body_motion.h"
+#include "calm.h"
 #include "message.h"
 #include "record.h"
 #include "scene.h"
@@ -116,6 +117,9 @@ tahr_status tahr_world_set(tahr_world *world, const tahr_body_pose *poses, uint3
         return TAHR_E_NULL;
     }
     tahr_status status = place(world, "tahr_world_set", poses, count, 0);
+    if (status >= 0) {
+        tahr__specials_go(world, poses, count);
+    }
     for (uint32_t i = 0; i < count && status >= 0; i++) {
         tahr__body_note *note = &world->bodies[poses[i].body];
         take_pose(world, &poses[i]);
@@ -166,6 +170,7 @@ tahr_status tahr_world_move(tahr_world *world, const tahr_body_pose *poses, uint
     for (uint32_t i = 0; i < world->moved_count; i++) {
         rest(world, &world->bodies[world->moved[i]]);
     }
+    tahr__specials_go(world, poses, count);
     world->moved_count = 0;
     world->moves++;
     world->last_revision = world->revision;

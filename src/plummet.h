@@ -20,7 +20,7 @@ typedef struct flight {
 static inline int is_in_clear(const tahr_mover *mover, vec3 from, vec3 to)
 {
     const tahr__clear *clear = &mover->dive.clear;
-    return clear->revision == mover->world->revision && length_squared(sub(from, clear->at)) <= clear->far2 &&
+    return clear->ground == mover->world->ground && length_squared(sub(from, clear->at)) <= clear->far2 &&
            length_squared(sub(to, clear->at)) <= clear->far2;
 }
 
@@ -44,7 +44,7 @@ static inline int is_known_free(tahr_mover *mover, vec3 from, vec3 motion, vec3 
         return 0;
     }
     if (none.distance > 0) {
-        mover->dive.clear = (tahr__clear){from, none.distance * none.distance, mover->world->revision};
+        mover->dive.clear = (tahr__clear){from, none.distance * none.distance, mover->world->ground};
     }
     return 1;
 }

@@ -239,6 +239,9 @@ tahr_fluid tahr__fluid(tahr__step *step, vec3 position)
     if (!step_has_fluids(step) || !may_ask(step)) {
         return fluid;
     }
+    if (step->calm) { /* as good as asked, of those that a step may ask */
+        return fluid;
+    }
     tahr_fluid_query q = {.position = position,
                           .up = step->state.up,
                           .radius = step->limits->width,

@@ -7,6 +7,7 @@
 
 #include "arguments.h"
 #include "callbacks.h"
+#include "calm.h"
 #include "message.h"
 #include "scene.h"
 #include "sized.h"
@@ -110,6 +111,7 @@ static tahr_status restore(tahr_world *world, const tahr_record_world *w, const 
     world->moves = w->moves;
     world->derived = w->derived;
     world->moved_count = 0;
+    world_unrest(world);
     for (uint32_t i = 0; i < world->body_count; i++) {
         world->bodies[i] = note_of(&bodies[i]);
         if (bodies[i].dt > 0) {

@@ -13,7 +13,7 @@
 /* Of an arc that falling.c cuts into more chords than this the long way is no detour: 10 Hz are 5 at most. */
 enum { TAHR__MOST_CHORDS = 6 };
 
-/* May steps of this mover be such? Asked once. No query. */
+/* May steps of this mover be such, where nothing special is near (calm.h)? Asked once. No query. */
 int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits);
 
 /* What a stroll asks of them, and a plummet. */

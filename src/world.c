@@ -5,6 +5,7 @@
 
 #include "backend_check.h"
 #include "callbacks.h"
+#include "calm.h"
 #include "core.h"
 #include "float_mode.h"
 #include "message.h"
@@ -114,6 +115,7 @@ static tahr_status new_world(const char *function, const tahr_world_desc *desc, 
     world->host.allocator = tahr__counting_allocator(&world->memory);
     world->host.log = (tahr_log){world, write_named};
     world->revision = 1;
+    world->ground = 1;
     world->moves = 1;
     *out = world;
     return TAHR_OK;
@@ -123,6 +125,7 @@ static void free_world(tahr_world *world, size_t extra)
 {
     tahr_allocator counting = world->host.allocator;
     counting.free(counting.user, world->bodies, world->body_count * sizeof *world->bodies, 8);
+    tahr__specials_free(world);
     counting.free(counting.user, world->moved, world->body_count * sizeof *world->moved, 8);
     tahr_allocator user = world->memory.user;
     user.free(user.user, world, sizeof *world + extra, 64);
@@ -239,6 +242,9 @@ static tahr_status note_bodies(tahr_world *world, const tahr_world_desc *desc)
         world->has |= has_of(&world->bodies[i]);
         tahr__move_revision(world, world->bodies[i].pose_hash);
     }
+    if (tahr__specials_list(world) < 0) {
+        return tahr__complain(&world->log, TAHR_E_MEMORY, "tahr_world_open", "allocator", "returned NULL");
+    }
     return TAHR_OK;
 }
 
@@ -299,6 +305,7 @@ tahr_status tahr_world_open(const tahr_backend *backend, const tahr_world_desc *
     if (brings_own && (backend->capabilities & TAHR_CAP_SENSORS)) {
         world->has |= TAHR__HAS_SENSORS | TAHR__HAS_MOVING_SENSORS;
     }
+    world->specials_known = !backend->body_motion;
     *out = world;
     return TAHR_OK;
 }
@@ -358,6 +365,7 @@ tahr_status tahr_world_touch(tahr_world *world)
         return TAHR_E_NULL;
     }
     tahr__move_revision(world, 1);
+    world->ground++;
     world->last_revision = 0;
     if (world->backend->place) { /* a backend may have caches of geometry that is not described */
         (void)world->backend->place(world->self, NULL, 0);

@@ -466,6 +466,10 @@ uint32_t tahr__hull_face(const tahr__mesh *mesh, tahr_vec3 direction);
 
 /* tree.c: primitives of a group of bodies, straight from their trees. */
 void tahr__tree_search(tahr__search *search, const tahr__group *group);
+/* Does a box (world) meet the bounds of any movable body? */
+int tahr__movable_meets(const tahr__native *world, const tahr_bounds *box);
+/* m from a place (world) to any movable body at least; `most` where they are farther. */
+double tahr__movable_gap(const tahr__native *world, tahr_vec3 position, double most);
 /* And of one body alone. */
 void tahr__tree_search_body(tahr__search *search, uint32_t body);
 

@@ -405,6 +405,15 @@ tahr_status tahr__sweep_rest(tahr__query *query, tahr_hit *hits, uint32_t capaci
     return failed < 0 ? failed : report(&s, hits, capacity, count);
 }
 
+/* May a body that moves be met? Of the vicinity only what is at rest for good is known. */
+static int meets_movable(const tahr__query *query)
+{
+    if (query->world->movable.count == 0) return 0;
+    const tahr_bounds box = tahr__query_box(query, 1);
+    const tahr_bounds world = tahr__frame_box_to_world(query->frame, &box, query->radius + query->margin + TAHR__SLACK);
+    return tahr__movable_meets(query->world, &world);
+}
+
 tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const tahr_sweep *sweep, tahr_hit *hits,
                                uint32_t capacity, uint32_t *count)
 {
@@ -420,8 +429,8 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
     query.flags = sweep->flags;
     query.sensors = capacity > 1 ? TAHR__SENSORS_TOO : TAHR__SENSORS_NONE;
     if (sweep->flags & TAHR_SWEEP_SENSORS) query.sensors = TAHR__SENSORS_ONLY;
-    if (query.core.axis_count == 0 && capacity > 0 && query.world->movable.count == 0 &&
-        tahr__vicinity_known(&query) == TAHR__DOWN && tahr__vicinity_lands(&query, hits)) {
+    if (query.core.axis_count == 0 && capacity > 0 && tahr__vicinity_known(&query) == TAHR__DOWN &&
+        !meets_movable(&query) && tahr__vicinity_lands(&query, hits)) {
         context->spared++;
         *count = 1;
         return TAHR_OK;

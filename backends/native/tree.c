@@ -273,3 +273,66 @@ void tahr__tree_search(tahr__search *s, const tahr__group *group)
         tahr__bvh_walk_narrow(&walk, &box);
     }
 }
+
+/* Relative to the centre of the tree, in double: the boxes of nodes are rounded outward. */
+static int node_meets(const tahr__bvh_node *n, const tahr_bounds *b)
+{
+    int x = (n->lo[0] <= b->max.x) & (b->min.x <= n->hi[0]), y = (n->lo[1] <= b->max.y) & (b->min.y <= n->hi[1]);
+    return x & y & (n->lo[2] <= b->max.z) & (b->min.z <= n->hi[2]);
+}
+
+static int leaf_meets(const tahr__native *world, const tahr__bvh_node *leaf, const tahr_bounds *box)
+{
+    for (uint32_t i = leaf->first; i < leaf->first + leaf->count; i++) {
+        if (!is_apart(&world->bodies[world->movable.order[i]].bounds, box)) return 1;
+    }
+    return 0;
+}
+
+int tahr__movable_meets(const tahr__native *world, const tahr_bounds *box)
+{
+    const tahr__bvh *tree = &world->movable.tree;
+    uint32_t stack[TAHR__BVH_STACK], top = 0;
+    if (world->movable.count == 0) return 0;
+    const tahr_bounds own = {v_sub(box->min, tree->centre), v_sub(box->max, tree->centre)};
+    for (stack[top++] = 0; top > 0;) {
+        const tahr__bvh_node *node = &tree->nodes[stack[--top]];
+        if (!node_meets(node, &own)) continue;
+        if (node->count > 0) {
+            if (leaf_meets(world, node, box)) return 1;
+            continue;
+        }
+        stack[top++] = node->first;
+        stack[top++] = node->first + 1;
+    }
+    return 0;
+}
+
+/* m2 from a place, relative to the centre of the tree, to a node. */
+static double gap2_to(const tahr__bvh_node *node, tahr_vec3 at)
+{
+    double x = gap(node->lo[0], node->hi[0], at.x, at.x), y = gap(node->lo[1], node->hi[1], at.y, at.y);
+    double z = gap(node->lo[2], node->hi[2], at.z, at.z);
+    return x * x + y * y + z * z;
+}
+
+double tahr__movable_gap(const tahr__native *world, tahr_vec3 position, double most)
+{
+    const tahr__bvh *tree = &world->movable.tree;
+    uint32_t stack[TAHR__BVH_STACK], top = 0;
+    if (world->movable.count == 0 || !(most > 0)) return most;
+    const tahr_vec3 at = v_sub(position, tree->centre);
+    double least2 = most * most;
+    for (stack[top++] = 0; top > 0;) {
+        const tahr__bvh_node *node = &tree->nodes[stack[--top]];
+        const double gap2 = gap2_to(node, at);
+        if (gap2 >= least2) continue;
+        if (node->count > 0) {
+            least2 = gap2;
+            continue;
+        }
+        stack[top++] = node->first;
+        stack[top++] = node->first + 1;
+    }
+    return sqrt(least2) * (1 - 1e-9);
+}
