@@ -144,12 +144,13 @@ static edge_seen edge_of(const tahr__step *step, const look *l, const contact *c
     edge_seen e;
     vec3 along = cross(c->face, c->normal), away = step_level(step, sub(c->point, l->position));
     e.along = step_level(step, along);
-    e.level = c->stays ? 1 : length_squared(e.along) / length_squared(along);
-    if (e.level > SMALL * SMALL && !c->stays) {
-        away = add_scaled(away, e.along, -dot(away, e.along) / length_squared(e.along));
-    } else {
+    e.level = length_squared(e.along) / length_squared(along);
+    if (e.level <= SMALL * SMALL) {
         e.along = vec(0, 0, 0);
+    } else if (!c->stays) {
+        away = add_scaled(away, e.along, -dot(away, e.along) / length_squared(e.along));
     }
+    e.level = c->stays ? 1 : e.level;
     e.off = length(away);
     e.away = unit(away);
     return e;
