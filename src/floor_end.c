@@ -280,7 +280,8 @@ static double meets_edge(const tahr__step *step, const search *s, const passing 
         return NOWHERE;
     }
     double root = sqrt(root2), first = (-b - root) / a, second = (-b + root) / a;
-    return p->look->at + (first * first < second * second ? first : second);
+    double next = first * first < second * second ? first : second;
+    return dot(add_scaled(from, way, next), up) > 0 ? p->look->at + next : NOWHERE; /* else it is past the edge by then */
 }
 
 static int same_direction(vec3 a, vec3 b)
@@ -315,7 +316,7 @@ static double between(const tahr__step *step, const search *s, const contact *a,
         /* Flat sides and straight edges alike go down evenly; how far an edge sticks out of its face does not. */
         return same_direction(a->face, b->face) ? NOWHERE : same_depth(step, s, a, b);
     }
-    if (a->kind == EDGE && b->kind == FREE) { /* by the rim, or out of reach */
+    if (a->kind == EDGE && (b->kind == FREE || (b->kind == FACE && !is_on(b, a)))) { /* by the rim, or out of reach */
         passing p = {.look = &s->inside, .edge = a, .face = b};
         double sinks = meets_edge(step, s, &p, &s->outside);
         double passes = passes_edge(step, s, &s->inside, a, whole ? LEAVES_RIM : PASSES_INNER);
@@ -336,7 +337,7 @@ static double between(const tahr__step *step, const search *s, const contact *a,
             p.tilts = whole && same_direction(p.face->face, p.edge->face);
             return passes_face(step, s, &p);
         }
-        return meets_edge(step, s, &p, a->kind == FACE ? &s->inside : &s->outside);
+        return meets_edge(step, s, &p, &s->inside);
     }
     return same_depth(step, s, a, b);
 }
@@ -380,7 +381,7 @@ static double measure(const tahr__step *step, const search *s, const look *l, in
     const contact *c = contact_in(l, thin), *in = contact_in(&s->inside, thin), *out = contact_in(&s->outside, thin);
     int touches = l->known && (!thin || l->has_inner) && c->kind != FREE;
     if (!touches || (what == TILTS && (c->kind != EDGE || in->kind == out->kind || out->kind == FREE)) ||
-        (what == SINKS && out->kind != FREE)) {
+        (what == SINKS && out->kind != FREE) || (what <= TURNS_FROM && in->kind == FACE && out->kind == FACE)) {
         return NAN;
     }
     switch (what) {
