@@ -160,9 +160,7 @@ static double meets_edge(const tahr__step *step, const looks *s, const passing *
         return NOWHERE;
     }
     double root = sqrt(root2), first = (-b - root) / a, second = (-b + root) / a;
-    double next = first * first < second * second ? first : second;
-    return dot(add_scaled(from, way, next), up) > 0 ? p->look->at + next
-                                                    : NOWHERE; /* else it is past the edge by then */
+    return p->look->at + (first * first < second * second ? first : second);
 }
 
 static int same_direction(vec3 a, vec3 b)
@@ -191,7 +189,7 @@ static double between(const tahr__step *step, const looks *s, const contact *a, 
         /* Flat sides and straight edges alike go down evenly; how far an edge sticks out of its face does not. */
         return same_direction(a->face, b->face) ? NOWHERE : same_depth(step, s, a, b);
     }
-    if (a->kind == EDGE && (b->kind == FREE || (b->kind == FACE && !is_on(b, a)))) { /* by the rim, or out of reach */
+    if (a->kind == EDGE && b->kind == FREE) { /* by the rim, or out of reach */
         passing p = {.look = &s->inside, .edge = a, .face = b};
         double sinks = meets_edge(step, s, &p, &s->outside);
         double passes = passes_edge(step, s, &s->inside, a, whole ? LEAVES_RIM : PASSES_INNER);
@@ -212,7 +210,7 @@ static double between(const tahr__step *step, const looks *s, const contact *a, 
             p.tilts = whole && same_direction(p.face->face, p.edge->face);
             return passes_face(step, s, &p);
         }
-        return meets_edge(step, s, &p, &s->inside);
+        return meets_edge(step, s, &p, a->kind == FACE ? &s->inside : &s->outside);
     }
     return same_depth(step, s, a, b);
 }
