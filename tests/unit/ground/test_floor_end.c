@@ -184,6 +184,53 @@ static void a_floor_that_breaks_off_into_a_slope_ends_where_the_perch_slides_ont
     assert_true(looks <= 20 * 10); /* 20 ways; halving takes 20 for each */
 }
 
+/* Gone straight across, an edge is touched at the same point all along, as a corner is; it passes to its face all the
+ * same. */
+static void a_perch_that_comes_straight_over_an_edge_slides_onto_its_face(void **unused)
+{
+    const double degree = acos(-1) / 180;
+    (void)unused;
+    for (double angle = 76; angle < 89; angle += 2) {
+        roof f;
+        const tahr_body_desc body = roof_body(&f, 0, angle * degree);
+        const double end = 0.21 * sin(angle * degree);
+        rig r;
+        rig_open_bodies(&r, &body, 1, NULL, fake_vec(0, 0, HEIGHT));
+        for (double before = 0.01; before < 0.05; before += 0.01) {
+            const tahr_vec3 from = fake_vec(2 + end - before, 0, HEIGHT);
+            const search s = find(&r, from, add(from, fake_vec(0.08, 0, 0)));
+            expect(&s, before, 1e-2); /* both faces are met at once there: which is told is known to 1e-7 m */
+            assert_true(s.looks <= MOST / 2);
+        }
+        rig_close(&r);
+    }
+}
+
+/* A level floor, and from x = 2 on one that climbs by too much. A ball of 0.21 m meets both 0.21 tan(half the angle)
+ * before that. Until there the thinner foot stands on the level one; the whole foot has met the other before. */
+static void a_perch_in_front_of_a_steep_slope_ends_in_the_crease(void **unused)
+{
+    const double degree = acos(-1) / 180;
+    (void)unused;
+    for (double angle = 50; angle < 66; angle += 5) {
+        const double a = angle * degree, end = 2 - 0.21 * tan(a / 2);
+        tahr_body_desc boxes[2] = {native_box(fake_vec(-3, 0, -1), fake_vec(20, 5, 1)),
+                                   native_box(fake_vec(2 + sin(a), 0, -cos(a)), fake_vec(5, 5, 1))};
+        rig r;
+        boxes[1].pose.orientation = (tahr_quat){0, -sin(a / 2), 0, cos(a / 2)};
+        rig_open_bodies(&r, boxes, 2, NULL, fake_vec(0, 0, HEIGHT));
+        for (double turn = -0.6; turn < 0.7; turn += 0.3) {
+            const double before = 0.03, after = 0.02; /* m across; over the slope at the end, by a ball of 0.36 m */
+            const double height = (0.36 + (end + after - 2) * sin(a)) / cos(a);
+            const tahr_vec3 from = fake_vec(end - before, 0, height + HEIGHT - 0.36);
+            const search s = find(&r, from, add(from, fake_vec(before + after, (before + after) * tan(turn), 0)));
+            expect(&s, before / cos(turn), 1e-2 * cos(turn)); /* of either face the depth is known to 1e-9 m */
+            assert_true(s.looks <= MOST / 2);
+        }
+        rig_close(&r);
+    }
+}
+
 /* The top climbs along y, and its edge with it: seen from above it is as far away. */
 static void an_edge_that_slopes_holds_as_far_as_a_level_one(void **unused)
 {
@@ -321,6 +368,8 @@ int main(void)
         cmocka_unit_test(a_straight_edge_is_found_to_a_nanometre_however_it_is_met),
         cmocka_unit_test(a_corner_holds_as_far_as_an_edge_in_every_direction),
         cmocka_unit_test(a_floor_that_breaks_off_into_a_slope_ends_where_the_perch_slides_onto_that),
+        cmocka_unit_test(a_perch_that_comes_straight_over_an_edge_slides_onto_its_face),
+        cmocka_unit_test(a_perch_in_front_of_a_steep_slope_ends_in_the_crease),
         cmocka_unit_test(an_edge_that_slopes_holds_as_far_as_a_level_one),
         cmocka_unit_test(a_perch_over_a_lower_floor_ends_at_the_rim),
         cmocka_unit_test(what_60_halvings_find_lies_between_inside_and_outside),
