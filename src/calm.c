@@ -67,7 +67,8 @@ void tahr__specials_go(tahr_world *world, const tahr_body_pose *poses, uint32_t 
 }
 
 /* All that a step may ask about lies within so much of the character, but for its motion: its shape three times over
- * (what it perches on, steps up to or is pushed out of is beside it), and each of the ways that rules look beyond it. */
+ * (what it perches on, steps up to or is pushed out of is beside it), and each of the ways that rules look beyond it.
+ * */
 static double extent_of(const tahr_config *c, const tahr__limits *l)
 {
     const double shape = l->around + l->axis + l->shape.half_height + l->width;

@@ -65,12 +65,12 @@ struct tahr_world {
     uint64_t ground;        /* from 1: changes with what cannot be placed, by tahr_world_touch */
     double drift;           /* m: no body has come farther since another value of it than the difference */
     tahr__body_note *bodies;
-    uint32_t *specials;      /* bodies that are more than a floor and a wall (calm.h) */
+    uint32_t *specials; /* bodies that are more than a floor and a wall (calm.h) */
     uint32_t special_count;
     uint32_t specials_known; /* 1: there are no others, and all of them are described */
-    uint32_t record_round; /* number of the last recording */
-    uint32_t crowds;       /* open on it: then numbers from TAHR_CHARACTER_BODY on are characters */
-    uint32_t derived;      /* the most sweeps that a contacts query is made of (derived.c); 0: it is none */
+    uint32_t record_round;   /* number of the last recording */
+    uint32_t crowds;         /* open on it: then numbers from TAHR_CHARACTER_BODY on are characters */
+    uint32_t derived;        /* the most sweeps that a contacts query is made of (derived.c); 0: it is none */
 };
 
 /* Gravity and what follows from it. */
@@ -188,11 +188,11 @@ typedef struct tahr__custom {
     void *user;
 } tahr__custom;
 
-/* Where the config's shape may go without meeting anything that is at rest for good, while the ground stays what it was:
- * as told by the slot walk. What else there is, is not near: else it is not asked (calm.h). */
+/* Where the config's shape may go without meeting anything that is at rest for good, while the ground stays what it
+ * was: as told by the slot walk. What else there is, is not near: else it is not asked (calm.h). */
 typedef struct tahr__clear {
     vec3 at;
-    double far2;       /* m2: square of how far from there */
+    double far2;     /* m2: square of how far from there */
     uint64_t ground; /* of the world; 0: nothing is known */
 } tahr__clear;
 

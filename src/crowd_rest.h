@@ -74,8 +74,8 @@ static inline uint32_t rests_among(const tahr__tick *t, uint32_t begin, uint32_t
     return count;
 }
 
-/* Looks who of some characters rests on: the step of this tick, which tells nobody, would be the last one's again. [out]
- * crowd->still of each. Returns how many. Inputs are of this version. */
+/* Looks who of some characters rests on: the step of this tick, which tells nobody, would be the last one's again.
+ * [out] crowd->still of each. Returns how many. Inputs are of this version. */
 uint32_t tahr__rests(const tahr__tick *tick, uint32_t begin, uint32_t end);
 /* The same where the processor has 32-byte vectors. */
 uint32_t tahr__rests_wide(const tahr__tick *tick, uint32_t begin, uint32_t end);

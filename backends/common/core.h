@@ -44,8 +44,8 @@ void tahr__core_distance(const tahr__core *core, tahr_vec3 centre, const tahr_ve
 /* The same, same bits, for who keeps the facet. */
 void tahr__facet_distance(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out);
 
-/* The same, same bits, of a segment near where `out` was found beside it: 1 if the same edge or corner is nearest again,
- * clear of all else; 0: it has to be asked for. A third of the work. */
+/* The same, same bits, of a segment near where `out` was found beside it: 1 if the same edge or corner is nearest
+ * again, clear of all else; 0: it has to be asked for. A third of the work. */
 int tahr__segment_again(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out);
 
 /* Does a box only touch the triangle, up to rounding? Then the direction between the nearest points is rounding, and

@@ -214,10 +214,10 @@ static int lies_behind(const tahr_vec3 *v, tahr_vec3 p, tahr_vec3 n, uint32_t fi
     return 1;
 }
 
-/* Why no other two points are as near, by more than rounding, and so all else would be passed over, bit for bit: n leads
- * from the edge or corner to the inside of the segment, across both. All else of the triangle lies behind the plane
- * across n (lies_behind); what lies along the edge, which is not parallel (SLANT), or along the segment, has left n
- * sideways, and has far to go before either ends (INSIDE, FAR of the distance too). Of a corner both of its edges are
+/* Why no other two points are as near, by more than rounding, and so all else would be passed over, bit for bit: n
+ * leads from the edge or corner to the inside of the segment, across both. All else of the triangle lies behind the
+ * plane across n (lies_behind); what lies along the edge, which is not parallel (SLANT), or along the segment, has left
+ * n sideways, and has far to go before either ends (INSIDE, FAR of the distance too). Of a corner both of its edges are
  * asked, in their order, as they would be: their roundings differ. */
 int tahr__segment_again(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
 {

@@ -60,8 +60,8 @@ const tahr__hull *tahr__scene_hull(const tahr__scene *scene, const tahr_shape *s
 void tahr__scene_piece(const tahr__scene_body *body, const tahr__placement *frame, uint32_t triangle,
                        tahr__piece *piece);
 
-/* Of the describe slot: a line of how many bodies of which kinds, the backend's own about the way that its queries take,
- * and one of each mesh. name: of the backend. */
+/* Of the describe slot: a line of how many bodies of which kinds, the backend's own about the way that its queries
+ * take, and one of each mesh. name: of the backend. */
 void tahr__scene_describe(const tahr__scene *scene, const char *name, const char *path, const tahr_log *to);
 
 /* The fluid slot. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * fence.h: planes between a place and the primitives nearest to it. Who goes along a wall comes no nearer to it, however
- * far that is: a fence tells, where a distance does not. */
+ * fence.h: planes between a place and the primitives nearest to it. Who goes along a wall comes no nearer to it,
+ * however far that is: a fence tells, where a distance does not. */
 #ifndef TAHR_NATIVE_FENCE_H
 #define TAHR_NATIVE_FENCE_H
 

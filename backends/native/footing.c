@@ -3,10 +3,10 @@
  *
  * Where the walk goes no farther from the place that was measured than everything above the floor was from it, less
  * what the shape reaches, nothing of that is met; what lies in the floor or below it is not met by who stays above; and
- * of the floor there is one triangle alone where the foot comes down. What is nearest of all is behind fences (fence.h). That is what vicinity.c finds out at length, and
- * here it is only asked whether it still holds. What is left is to say when the point of the foot comes to a plane:
- * plane_earliest, tahr__probe_face and tahr__fill_hit, the same operations in the same order, where none of their
- * exceptions can happen. */
+ * of the floor there is one triangle alone where the foot comes down. What is nearest of all is behind fences
+ * (fence.h). That is what vicinity.c finds out at length, and here it is only asked whether it still holds. What is
+ * left is to say when the point of the foot comes to a plane: plane_earliest, tahr__probe_face and tahr__fill_hit, the
+ * same operations in the same order, where none of their exceptions can happen. */
 #include "footing.h"
 
 #include "fence.h"

@@ -11,8 +11,8 @@ enum { TAHR__UNCLEAR, TAHR__BARRED, TAHR__LANDED };
 uint32_t tahr__footing_walk(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
                             tahr_hit *hit);
 
-/* vicinity.c: a walk of which it is not known what it may meet of what is above the floor: what is not farther than `most` from the
- * place; or of that only what is behind some fences. */
+/* vicinity.c: a walk of which it is not known what it may meet of what is above the floor: what is not farther than
+ * `most` from the place; or of that only what is behind some fences. */
 typedef struct tahr__doubt {
     tahr_vec3 body_start, body_motion, foot_start, foot_motion; /* local */
     double half;                                                /* of the body */

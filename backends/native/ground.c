@@ -78,8 +78,8 @@ static float side_of(const tahr__query *query, const tahr__level *l, const tahr_
     return highest <= LEVEL && is_flat(v, d_min(h[0], d_min(h[1], h[2]))) ? TAHR__IN_IT : TAHR__ABOVE;
 }
 
-/* What its box tells without its corners: TAHR__UNSEEN, if it does not. What stands over the floor by more than HIGH (m)
- * is ABOVE; what is wholly below it by more than the rounding of boxes is BELOW. */
+/* What its box tells without its corners: TAHR__UNSEEN, if it does not. What stands over the floor by more than HIGH
+ * (m) is ABOVE; what is wholly below it by more than the rounding of boxes is BELOW. */
 #define HIGH 0.05
 #define BOXED 1e-4
 static float side_by_box(const tahr__query *query, const tahr__level *l, uint32_t index)

@@ -137,9 +137,9 @@ static inline double box_beyond(const tahr__query *query, const tahr__facet *f, 
 
 /* The same by edges and corners, not before `earliest`, what the plane says: for ordering and leaving out, not to begin
  * at. A place beside the triangle is off the edge that it is farthest beyond, or off the end of that; across the way
- * from there to the place lies a plane that may separate them, and the corners say by how much: the distance is at least
- * that. The place is the end of a segment that is nearest to the plane of the triangle, or either, if that plane is
- * upright; where the other end is nearer along that way, a level way is taken, along which both are alike. */
+ * from there to the place lies a plane that may separate them, and the corners say by how much: the distance is at
+ * least that. The place is the end of a segment that is nearest to the plane of the triangle, or either, if that plane
+ * is upright; where the other end is nearer along that way, a level way is taken, along which both are alike. */
 static inline double edges_earliest(const tahr__query *query, const tahr__prim *prim, double limit, double earliest)
 {
     if (prim->kind & TAHR__PLANELESS) return earliest;

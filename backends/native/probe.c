@@ -580,9 +580,9 @@ static int take_off(flight *f, const tahr__ask *ask, tahr__found *out)
     return fly(f, ask->limit, ask->beside, out);
 }
 
-/* Leaps find out whether anything is met, which is seldom; what is met, and when, Newton alone says, from where the first
- * leap began: along a graze any of many places is near enough, and which one it is should not depend on how the others
- * were left out. */
+/* Leaps find out whether anything is met, which is seldom; what is met, and when, Newton alone says, from where the
+ * first leap began: along a graze any of many places is near enough, and which one it is should not depend on how the
+ * others were left out. */
 int tahr__probe_sweep(const tahr__query *query, const tahr__prim *prim, const tahr__ask *ask, tahr__found *out)
 {
     flight f;

@@ -171,9 +171,9 @@ static uint32_t around_corner(work *w, uint32_t triangle, uint32_t corner, uint3
     return count < FAN ? count : 0;
 }
 
-/* Who has come to a corner over one of its triangles has weighed them all. Over another one he weighs the same, but that
- * his own counts before others that are alike: where no two that differ are alike, all is the same, bit for bit. The
- * first one lay behind the corner, and so leads no nearer, as the others were found not to. */
+/* Who has come to a corner over one of its triangles has weighed them all. Over another one he weighs the same, but
+ * that his own counts before others that are alike: where no two that differ are alike, all is the same, bit for bit.
+ * The first one lay behind the corner, and so leads no nearer, as the others were found not to. */
 static void remember(const work *w, const tahr__witness *witness, tahr__corner_met *c, uint32_t count)
 {
     c->count = count;

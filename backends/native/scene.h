@@ -174,7 +174,7 @@ typedef struct tahr__footing {
     double length, inverse;
     tahr_vec3 spot; /* on the floor */
     double
-        inside; /* m: so far around it there is that triangle of the floor alone, well inside of its edges; <= 0: none */
+        inside; /* m: so far around the spot that triangle is alone, well inside of its edges; <= 0: none */
     tahr_vec3 normal; /* the exact one, world, toward the character */
     double walkable_angle;
     uint32_t walkable_rule, surface, body, feature;
@@ -289,8 +289,8 @@ static inline int tahr__cache_spans(const tahr__cache *cache, const tahr_bounds 
 /* Which bodies a query looks at: those that block, all, or sensors alone. */
 enum { TAHR__SENSORS_NONE = 0, TAHR__SENSORS_TOO = 1, TAHR__SENSORS_ONLY = 2 };
 
-/* A corner of a mesh that was met, seen from a core, and what it was found to be: all triangles at it that are connected
- * there find the same of it (resolve.c). */
+/* A corner of a mesh that was met, seen from a core, and what it was found to be: all triangles at it that are
+ * connected there find the same of it (resolve.c). */
 typedef struct tahr__corner_met {
     uint32_t count, body;    /* so many triangles; 0: none was met */
     uint32_t fan[TAHR__FAN]; /* their names */

@@ -179,8 +179,8 @@ static int is_passed(const tahr__query *query, const tahr__prim *prim, double un
     return t > until || edges_earliest(query, prim, until, t) > until;
 }
 
-/* Is nothing met, up to this fraction of the motion, that was within `most` of the place? over: but for what is not above
- * the floor. Returns how many have been asked, now the first of found; -1: one of them may be met. */
+/* Is nothing met, up to this fraction of the motion, that was within `most` of the place? over: but for what is not
+ * above the floor. Returns how many have been asked, now the first of found; -1: one of them may be met. */
 static int passes(const tahr__query *query, double most, int over, double until, tahr__lanes_found *found)
 {
     const uint32_t count = pick(query, most, over, found);

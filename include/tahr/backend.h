@@ -63,9 +63,9 @@ typedef struct tahr_query_context {
     uint64_t spared;            /* sweeps answered from what was known of the place, without a look at the scene */
 } tahr_query_context;
 
-/* What a walk slot knows: it is not known, or not so, what *hit holds then means nothing; nothing blocks the motion, and
- * *hit (of a foot) is the blocking one that sweep answers for it, bit for bit; the former, but it may be the latter after
- * an announcement from here. */
+/* What a walk slot knows: it is not known, or not so, what *hit holds then means nothing; nothing blocks the motion,
+ * and *hit (of a foot) is the blocking one that sweep answers for it, bit for bit; the former, but it may be the latter
+ * after an announcement from here. */
 enum { TAHR_WALK_UNKNOWN = 0, TAHR_WALK_KNOWN = 1, TAHR_WALK_UNANNOUNCED = 2 };
 
 /* The announcement before a step: everything the step is expected to ask about lies in bounds. A hint only. World

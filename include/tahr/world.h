@@ -131,10 +131,10 @@ typedef struct tahr_world_desc {
 } tahr_world_desc;
 
 /* [in] query, [out] hit (zeroed before the call: leaving it so means "free"). Fill in blocking, fraction and normal, or
- * start_overlap, depth and normal; and body, surface and feature if you have them. Points lie within 1e8 m. What stays zero is derived:
- * surface_normal from normal, distance from the margin, point from the shape. Return TAHR_OK, or a negative status to
- * end the step with TAHR_E_BACKEND. Called from the stepping thread, or from the one that asks tahr_world_sweep: from
- * several at once if you step on several. */
+ * start_overlap, depth and normal; and body, surface and feature if you have them. Points lie within 1e8 m. What stays
+ * zero is derived: surface_normal from normal, distance from the margin, point from the shape. Return TAHR_OK, or a
+ * negative status to end the step with TAHR_E_BACKEND. Called from the stepping thread, or from the one that asks
+ * tahr_world_sweep: from several at once if you step on several. */
 typedef tahr_status (*tahr_sweep_fn)(void *user, const tahr_sweep *query, tahr_hit *hit);
 /* [in] query, [out] contacts (capacity of them, zeroed before the call) and *count (0 before the call, at most
  * capacity): one per surface within query->margin, ordered by (distance, body, feature), with distance, normal and

@@ -358,7 +358,8 @@ static uint32_t expected(const run_request *q, const trial *t)
 {
     uint32_t keeps = t->keeps & q->subject->keeps;
     if (q->preset == TAHR_PRESET_UNREAL) keeps &= ~q->family->unreal_loses;
-    /* One surface at a time is left only by a motion that begins in it: who stands still overlaps, and does not know. */
+    /* One surface at a time is left only by a motion that begins in it: who stands still overlaps, and does not know.
+     * */
     if (t->config.depenetration == TAHR_DEPENETRATION_SINGLE) keeps &= ~(uint32_t)KEEPS_WORD;
     /* Behind callbacks the library does not know which bodies move: what moves in is left as an overlap is. */
     if (q->family->moves && strcmp(q->subject->name, "callbacks") == 0) {

@@ -8,7 +8,8 @@
 
 /* What a setting is there for, beside its place on a chart: only a KNOB that is never on a front is a candidate to go.
  * DEFAULT: what a preset has. OFF: the off switch of a shortcut. PARITY: another library's behaviour, to move alike.
- * ONLY: all that its backend, or the engine under it, can do. DEFINITION: what is right changes with it, so that it has no place on a front. */
+ * ONLY: all that its backend, or the engine under it, can do. DEFINITION: what is right changes with it, so that it has
+ * no place on a front. */
 #define CHART_DEFAULT "default"
 #define CHART_KNOB "knob"
 #define CHART_OFF "off"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_corner.c: who comes to a corner over one of its triangles has weighed it for all of them: the same bits as by each
- * of them (no_vicinity), and less work. */
+ * test_corner.c: who comes to a corner over one of its triangles has weighed it for all of them: the same bits as by
+ * each of them (no_vicinity), and less work. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,8 +18,8 @@ static double peaks(double x, double y)
     return 0.25 * (double)(((int)floor(x) * 5 + (int)floor(y) * 3) & 3);
 }
 
-/* Sweeps of spheres and capsules past, at and onto corners, some exactly and some a little beside. Returns how much less
- * was measured, of all. */
+/* Sweeps of spheres and capsules past, at and onto corners, some exactly and some a little beside. Returns how much
+ * less was measured, of all. */
 static double compare(const tahr_body_desc *body, const tahr_vec3 *corners, uint32_t corner_count, uint64_t seed)
 {
     oracle_random random = {.state = seed};

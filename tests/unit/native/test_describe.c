@@ -48,8 +48,8 @@ static void assert_says(const page *p, const char *what)
     fail_msg("\"%s\" is not in:\n%s", what, p->text);
 }
 
-/* A cube of 20 cm, 12 triangles: 36 sides, each with one neighbour, and those of the 6 diagonals, 12 of 36, flat. One triangle
- * more is there twice, one has no area. */
+/* A cube of 20 cm, 12 triangles: 36 sides, each with one neighbour, and those of the 6 diagonals, 12 of 36, flat. One
+ * triangle more is there twice, one has no area. */
 static void a_cube_is_closed_and_a_third_of_its_edges_is_flat(void **state)
 {
     (void)state;
@@ -85,8 +85,8 @@ static void open_edges_and_edges_of_several_are_counted(void **state)
     assert_true(strstr(p.text, "boxes and hulls") == NULL);
 }
 
-/* 24 x 24 cells of 4 cm, cut from their lowest corners, corners in the order of columns: a field that is not known as one.
- * A step's box of 1 m x 1 m holds all of it. */
+/* 24 x 24 cells of 4 cm, cut from their lowest corners, corners in the order of columns: a field that is not known as
+ * one. A step's box of 1 m x 1 m holds all of it. */
 static void a_grid_is_said_to_be_a_field(void **state)
 {
     (void)state;

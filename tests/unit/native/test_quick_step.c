@@ -469,8 +469,8 @@ static void a_decay_that_is_known_changes_no_bit(void **unused)
     }
 }
 
-/* A lean crowd of one goes as a mover of its own does, turning now and then. The crowd's mover was made for the first of
- * two configs; the second one steps its velocity, which no short way does. */
+/* A lean crowd of one goes as a mover of its own does, turning now and then. The crowd's mover was made for the first
+ * of two configs; the second one steps its velocity, which no short way does. */
 static void a_lean_crowd_takes_no_short_way_for_who_may_not(void **unused)
 {
     pair p;

@@ -209,8 +209,8 @@ static void the_floor_is_that_of_the_higher_sheet(void **state)
     }
 }
 
-/* To and fro over the border of two great triangles, the second a little lower, so that the foot that has stood on it is
- * asked for in the plane of the first. */
+/* To and fro over the border of two great triangles, the second a little lower, so that the foot that has stood on it
+ * is asked for in the plane of the first. */
 static void steps(double lower, uint64_t dice)
 {
     const double high[] = {-30, -30, 0, 2, -30, 0, 2, 40, 0};
