@@ -172,9 +172,8 @@ typedef struct tahr__footing {
     double clear; /* m: nothing but what lies in the floor or below it, or behind a fence, is nearer; 0: not known */
     tahr_vec3 cross, on; /* of the triangle under the spot: its normal, up and not unit, and a corner */
     double length, inverse;
-    tahr_vec3 spot; /* on the floor */
-    double
-        inside; /* m: so far around the spot that triangle is alone, well inside of its edges; <= 0: none */
+    tahr_vec3 spot;   /* on the floor */
+    double inside;    /* m: so far around the spot that triangle is alone, well inside of its edges; <= 0: none */
     tahr_vec3 normal; /* the exact one, world, toward the character */
     double walkable_angle;
     uint32_t walkable_rule, surface, body, feature;
