@@ -193,8 +193,9 @@ typedef struct tahr_config {
     double braking_substep; /* s [1/33] STEPPED: longest piece of braking */
     uint32_t max_substeps;  /* [8] STEPPED: slices of a step; the last takes all that is left */
     uint32_t sleep;         /* [1] 0: compute also a step whose like has just changed nothing */
-    /* [1] 0: a walk over open ground, the last piece of one along walls, and a fall in free air, too, are computed the
-     * long way, query by query. The same bits */
+    /* [1] 0: a walk over open ground, the last piece of one along walls, a fall in free air, and what is far from all
+     * that moves, carries or is only felt, too, are computed the long way, query by query. The same bits; queries for
+     * what could not be there are not counted */
     uint32_t short_ways;
     uint32_t reserved_time; /* 0 */
     double turn_rate;       /* rad/s [12.5 | 6.283] of the orientation toward input.facing */
