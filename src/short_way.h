@@ -33,8 +33,7 @@ tahr_status tahr__quick_step(tahr_mover *mover, const tahr_input *input, double 
 tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                   tahr_report *report);
 
-/* The long way, for a state that remembers nothing, and an input that asks for nothing but to go and to jump: checked.
- * */
+/* The long way, for a state that remembers nothing and an input that asks for nothing but to go and to jump, checked. */
 tahr_status tahr__take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                             tahr_report *report);
 

@@ -12,13 +12,8 @@
 #include "fence.h"
 #include "ground.h"
 
-/* As in vicinity.c: against rounding and arrival (m), twice, for planes that are one but for rounding; and shapes of
- * less and more reach are left to it. */
+/* As in vicinity.c, against rounding and arrival (m), twice: for planes that are one but for rounding. */
 #define SPARE 2e-6
-#define SMALL 1e-3
-#define LARGE 8.0
-/* Side of a cell (m, frame.c). */
-#define CELL 4.0
 /* Places that are one but for rounding (m). */
 #define SAME 1e-9
 /* Of a foot that goes less far (m) it is not said that it goes straight down. */
@@ -42,7 +37,7 @@ static inline double half_of(const tahr_shape *shape)
 /* Is it in the cell of the frame? By a difference, which is rounded: less is said than tahr__frame_holds does. */
 static inline int is_in_cell(tahr_vec3 p)
 {
-    return p.x >= 0 && p.x < CELL && p.y >= 0 && p.y < CELL && p.z >= 0 && p.z < CELL;
+    return p.x >= 0 && p.x < TAHR__CELL && p.y >= 0 && p.y < TAHR__CELL && p.z >= 0 && p.z < TAHR__CELL;
 }
 
 static inline int is_plumb(const local_walk *w)
@@ -64,7 +59,7 @@ static inline int read_walk(const tahr__cache *cache, const tahr_walk *walk, loc
     w->foot_reach = w->foot_radius + walk->margin;
     w->most = d_max(w->reach, w->foot_reach);
     if (w->half < 0 || half_of(walk->foot) != 0) return 0;
-    if (!(w->reach > SMALL && w->foot_reach > SMALL && w->most < LARGE)) return 0;
+    if (!(w->reach > TAHR__SMALL && w->foot_reach > TAHR__SMALL && w->most < TAHR__LARGE)) return 0;
     w->from = p;
     w->way = walk->motion;
     w->foot = v_sub(walk->foot_position, f->origin);

@@ -4,17 +4,13 @@
 
 #include <string.h>
 
-/* Side of a cell (m). All is relative to its corner, so that what is moved by whole cells keeps its bits, that the
- * float lanes tell as much apart far out as near the origin (2.4e-7 m within a cell), and that the rest is computed
- * with numbers of a few metres. A power of two: places on a grid stay exact. Large enough to be left seldom. */
-#define CELL 4.0
-
 tahr__frame tahr__frame_make(tahr_vec3 position, tahr_vec3 up)
 {
     tahr__frame frame;
     /* + 0.0: never minus zero, so that the same cell is the same bits. */
-    frame.origin = v_make(floor(position.x / CELL) * CELL + 0.0, floor(position.y / CELL) * CELL + 0.0,
-                          floor(position.z / CELL) * CELL + 0.0);
+    frame.origin =
+        v_make(floor(position.x / TAHR__CELL) * TAHR__CELL + 0.0, floor(position.y / TAHR__CELL) * TAHR__CELL + 0.0,
+               floor(position.z / TAHR__CELL) * TAHR__CELL + 0.0);
     frame.up = up;
     frame.turned = !(up.x == 0 && up.y == 0 && up.z == 1);
     /* Callers' axes are unit within 1e-9, which of a place 1e6 m away from its body's origin is a millimetre. */
@@ -25,8 +21,9 @@ tahr__frame tahr__frame_make(tahr_vec3 position, tahr_vec3 up)
 int tahr__frame_holds(const tahr__frame *frame, tahr_vec3 position, tahr_vec3 up)
 {
     const tahr_vec3 *o = &frame->origin;
-    int x = (position.x >= o->x) & (position.x < o->x + CELL), y = (position.y >= o->y) & (position.y < o->y + CELL);
-    return x & y & (position.z >= o->z) & (position.z < o->z + CELL) & tahr__same_vec(&frame->up, &up);
+    int x = (position.x >= o->x) & (position.x < o->x + TAHR__CELL),
+        y = (position.y >= o->y) & (position.y < o->y + TAHR__CELL);
+    return x & y & (position.z >= o->z) & (position.z < o->z + TAHR__CELL) & tahr__same_vec(&frame->up, &up);
 }
 
 tahr__map tahr__map_make(const tahr__frame *frame, const tahr__body *body)

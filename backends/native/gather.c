@@ -5,9 +5,6 @@
 
 #include <string.h>
 
-/* m, around a part of what was too much: more than the reach and the slack of a query. */
-#define LEAST_MARGIN 1e-3
-
 static uint32_t buckets_of(const tahr__native *world)
 {
     uint32_t size = 16;

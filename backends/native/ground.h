@@ -5,6 +5,11 @@
 
 #include "scene.h"
 
+/* Shapes of less reach (m) are left to the cache, for it has to be much more than the lengths of vicinity.c; and
+ * of more, for APART (ground.c). */
+#define TAHR__SMALL 1e-3
+#define TAHR__LARGE 8.0
+
 /* m from the core at which something is met. */
 static inline double reach_of(const tahr__query *query)
 {

@@ -78,6 +78,11 @@ typedef struct tahr__native {
     uint64_t revision; /* of them */
 } tahr__native;
 
+/* Side of a cell (m). All is relative to its corner, so that what is moved by whole cells keeps its bits, that the
+ * float lanes tell as much apart far out as near the origin (2.4e-7 m within a cell), and that the rest is computed
+ * with numbers of a few metres. A power of two: places on a grid stay exact. Large enough to be left seldom. */
+#define TAHR__CELL 4.0
+
 /* Where a query is computed: relative to the corner of a 4 m cell, up along +z. Everything in a frame is a pure
  * function of (vertex, pose, origin, up), which is why cached and fresh answers are the same bits. */
 typedef struct tahr__frame {

@@ -27,10 +27,6 @@ enum { FEW = 16 };
 #define SPARE 1e-6
 /* More than what counts as the same time (m, HAIR of sweep.c). */
 #define TIED 2e-9
-/* Shapes of less reach (m) are left to the cache, for it has to be much more than the lengths here; and of more, for
- * APART (ground.c). */
-#define SMALL 1e-3
-#define LARGE 8.0
 
 /* Square of how far the query's segment, centred at p, comes from that of the place. */
 static double away2(const tahr__query *query, tahr_vec3 p)
@@ -99,7 +95,7 @@ static int serves(const tahr__query *query)
     int whole = (c->overflow == 0) & (c->plain == 1) & (c->revision == world->revision);
     int plain = (query->mask == c->mask) & (query->ignore_body == TAHR_NO_BODY) & (query->core.axis_count < 2) &
                 (query->sensors != TAHR__SENSORS_ONLY) & !(query->flags & TAHR_SWEEP_ONLY_BODY);
-    return whole & plain & (reach_of(query) > SMALL) & (reach_of(query) < LARGE);
+    return whole & plain & (reach_of(query) > TAHR__SMALL) & (reach_of(query) < TAHR__LARGE);
 }
 
 /* May a look around here be of more help? */

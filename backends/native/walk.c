@@ -103,18 +103,18 @@ tahr_status tahr__native_walk(void *self, tahr_query_context *context, const tah
     const tahr__native *world = self;
     tahr__cache *cache = context->cache;
     tahr__query body;
-    *known = 0;
+    *known = TAHR_WALK_UNKNOWN;
     if (meets_movable(world, walk)) return TAHR_OK;
     if (walk->foot && cache && cache->revision == world->revision) {
         const uint32_t end = tahr__footing_walk(world, context, walk, hit);
-        if (end == TAHR__LANDED) *known = 1, context->spared += 2;
+        if (end == TAHR__LANDED) *known = TAHR_WALK_KNOWN, context->spared += 2;
         if (end != TAHR__UNCLEAR) return TAHR_OK;
     }
     if (!walk->foot) {
         const double room = room_in_the_open(world, walk);
         hit->distance = d_max(room, 0);
         if (room > v_length(walk->motion)) {
-            *known = 1;
+            *known = TAHR_WALK_KNOWN;
             context->spared++;
             return TAHR_OK;
         }
