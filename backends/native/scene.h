@@ -302,7 +302,7 @@ typedef struct tahr__corner_met {
     double distance;
     tahr_vec3 normal, face, flat;
     double along, tilt2; /* of the face, of what is flat */
-    /* How a point came to one (probe.c): from where it was nearest already; flown: 0: none did. */
+    /* How a point came to one (flight.c): from where it was nearest already; flown: 0: none did. */
     uint32_t flown, reserved;
     double from, target, t;
     tahr__witness first, last;

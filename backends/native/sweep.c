@@ -14,8 +14,8 @@ enum { SENSORS = 32 };
 enum { TIES = 8 };
 #define HAIR 1e-9
 /* Boxes are stopped at least at this distance (m), and go the rest straight: they have no radius, and where the core
- * itself touches, the direction to what it touches is rounding. Four times what is told from rounding (BLURRED of
- * probe.c). */
+ * itself touches, the direction to what it touches is rounding. Four times what is told from rounding (TAHR__BLURRED of
+ * flight.h). */
 #define LEAST_OF_BOXES 4e-9
 
 /* Cached primitives that wait for their turn, the earliest first; one more is probed at once. */
