@@ -7,10 +7,6 @@
 
 #include "core.h"
 
-#if defined(__GNUC__) && defined(__x86_64__)
-#define TAHR__HAS_WIDE 1
-#endif
-
 /* 1: this processor has 32-byte vectors, and this library functions that use them. */
 uint8_t tahr__is_wide(void);
 
