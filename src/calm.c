@@ -88,14 +88,6 @@ void tahr__calm_prepare(tahr_mover *mover)
                 !mover->limits.feel && !mover->limits.in_plane && mover->pace.upright && !world_is_planar(world);
 }
 
-/* m from a place to a body, on all of its way. */
-static double gap_to(const tahr__body_note *note, vec3 p)
-{
-    const vec3 way = sub(note->pose.position, note->before.position), off = sub(p, note->before.position);
-    const double length2 = length_squared(way), t = length2 > 0 ? clamp(dot(off, way) / length2, 0, 1) : 0;
-    return length(add_scaled(off, way, -t)) - note->reach;
-}
-
 static vec3 place_of(const tahr__calm *calm)
 {
     return vec((double)calm->at[0], (double)calm->at[1], (double)calm->at[2]);
@@ -111,7 +103,7 @@ static void look_for_specials(tahr_mover *mover, vec3 p)
     calm->at[2] = (float)p.z;
     const vec3 at = place_of(calm);
     for (uint32_t i = 0; i < world->special_count; i++) {
-        room = min_of(room, gap_to(&world->bodies[world->specials[i]], at));
+        room = min_of(room, note_gap(world, &world->bodies[world->specials[i]], at));
     }
     room -= extent_of(&mover->config, &mover->limits);
     calm->room = (float)(room - ROUNDED * fabs(room));

@@ -201,11 +201,11 @@ typedef struct tahr__dive {
     tahr__asked asked; /* of the last one, */
     tahr__law law;     /* and how its move is approached */
     uint32_t wishes;   /* law_wishes of law */
-    uint32_t upright;  /* 1: up is exactly +z */
-    double gravity;    /* m/s2 */
-    double chord;      /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
-    double longest;    /* s: longer steps go the long way */
-    double terminal;   /* m/s */
+    uint32_t reserved;
+    double gravity;  /* m/s2 */
+    double chord;    /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
+    double longest;  /* s: longer steps go the long way */
+    double terminal; /* m/s */
     tahr__clear clear;
 } tahr__dive;
 
@@ -355,6 +355,17 @@ static inline vec3 step_level(const tahr__step *step, vec3 v)
 static inline int world_is_planar(const tahr_world *world)
 {
     return (world->backend->capabilities & TAHR_CAP_PLANAR) != 0;
+}
+
+/* m from a place to a body, on all of the way of its last motion; less than 0 within the ball around it. */
+static inline double note_gap(const tahr_world *world, const tahr__body_note *note, vec3 p)
+{
+    vec3 way = sub(note->pose.position, note->before.position), off = sub(p, note->before.position);
+    if (world_is_planar(world)) { /* there is no far and near along z */
+        way.z = off.z = 0;
+    }
+    const double length2 = length_squared(way), t = length2 > 0 ? clamp(dot(off, way) / length2, 0, 1) : 0;
+    return length(add_scaled(off, way, -t)) - note->reach;
 }
 
 /* What is said of a vector that leaves such a world. */

@@ -64,7 +64,8 @@ static int same_input(const tahr_delay *d, const tahr_input *in)
            (!(in->flags & TAHR_INPUT_GRAVITY) || vec_equal(d->gravity, in->gravity));
 }
 
-/* May a body that moves come near a character within `around` of a place? */
+/* May a body that moves come near a character within `around` of a place? Any way from where it is now, as far as it
+ * has come last: it may turn before it is asked for again. */
 static int moves_near(const tahr_mover *mover, vec3 at, double around)
 {
     const tahr_world *world = mover->world;

@@ -281,9 +281,8 @@ static inline void copy_state(tahr_state *to, const tahr_state *from)
     memcpy((char *)to + half, (const char *)from + half, half);
 }
 
-/* The long way. plain: the state remembers nothing, and nothing was asked for but to go and to jump. */
-static tahr_status take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                             tahr_report *report, int plain)
+tahr_status tahr__take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
+                            tahr_report *report, int plain)
 {
     const tahr__neighbours *around = mover->company ? mover->company->neighbours : NULL;
     if (state->mode == TAHR_MODE_WALKING) {
@@ -386,13 +385,7 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     } else if (tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
     }
-    return take_step(mover, input, dt, state, report, plain);
-}
-
-tahr_status tahr__take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                            tahr_report *report)
-{
-    return take_step(mover, input, dt, state, report, 1);
+    return tahr__take_step(mover, input, dt, state, report, plain);
 }
 
 tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,

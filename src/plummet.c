@@ -5,12 +5,10 @@
 tahr__dive tahr__dive_of(const tahr_config *c, const tahr__limits *limits)
 {
     const double gravity = limits->pull.size;
-    const vec3 up = limits->pull.up, none = vec(0, 0, 0);
     tahr__dive dive = {.asked = {.struct_size = sizeof(tahr_input), .dt = c->max_dt},
                        .gravity = gravity,
                        .terminal = c->terminal_speed,
-                       .upright = up.z == 1 && up.x == 0 && up.y == 0,
-                       .law = tahr__arc_law(c, none)};
+                       .law = tahr__arc_law(c, vec(0, 0, 0))};
     dive.chord = gravity > 0 ? sqrt(8 * c->arc_tolerance / gravity) : 0;
     dive.longest = gravity > 1e-6 ? TAHR__MOST_CHORDS * dive.chord : 0;
     return dive;

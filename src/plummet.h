@@ -158,7 +158,8 @@ static inline int plummet(tahr_mover *mover, const tahr_input *input, double dt,
         learn_wish(mover, input);
     }
     const double rise = state->velocity.z;
-    const int simple = dt <= dive->chord && dive->upright && (rise <= 0 || rise > dt * dive->gravity * (1 + 1e-9));
+    const int simple =
+        dt <= dive->chord && mover->pace.upright && (rise <= 0 || rise > dt * dive->gravity * (1 + 1e-9));
     const int done = simple ? drop(mover, dt, state, &f, &context) : fly_all(mover, dt, state, &f, &context);
     const int rests = f.position.z == state->position.z && vec_equal(f.position, state->position);
     if (!done || rests || length_squared(f.velocity) > FASTEST2 || (f.apexes > 0 && report && report->events) ||

@@ -71,15 +71,9 @@ static int meets(tahr__step *step, uint32_t body, vec3 from, vec3 to, meeting *m
 /* May the body come near a character that is within `around` of p? */
 static int is_near(const tahr__step *step, const tahr__body_note *note, vec3 p, double around)
 {
-    vec3 way = sub(note->pose.position, note->before.position), off = sub(p, note->before.position);
-    if (world_is_planar(step->world)) { /* there is no far and near along z */
-        way.z = off.z = 0;
-    }
-    double length2 = length_squared(way);
-    double t = length2 > 0 ? clamp(dot(off, way) / length2, 0, 1) : 0;
     const tahr__limits *l = step->limits;
-    double reach = note->reach + around + l->around + l->shape.half_height + 2 * step->config->skin;
-    return !(note->flags & TAHR_BODY_SENSOR) && length_squared(sub(off, scale(way, t))) <= reach * reach;
+    double reach = around + l->around + l->shape.half_height + 2 * step->config->skin;
+    return !(note->flags & TAHR_BODY_SENSOR) && note_gap(step->world, note, p) <= reach;
 }
 
 int tahr__moves_near(const tahr__step *step, uint32_t except)

@@ -42,7 +42,7 @@ static inline tahr_status quick_step(tahr_mover *mover, const tahr_input *input,
     if (!done || mover->short_way.failed) {
         backoff_note(&mover->short_way, done);
     }
-    return done ? TAHR_OK : tahr__take_step(mover, input, dt, state, report);
+    return done ? TAHR_OK : tahr__take_step(mover, input, dt, state, report, 1);
 }
 
 #endif

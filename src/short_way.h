@@ -33,9 +33,10 @@ tahr_status tahr__quick_step(tahr_mover *mover, const tahr_input *input, double 
 tahr_status tahr__quick_step_wide(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                   tahr_report *report);
 
-/* The long way, for a state that remembers nothing and an input that asks for nothing but to go and to jump, checked. */
+/* The long way, of arguments that are checked. plain: the state remembers nothing, and nothing was asked for but to go
+ * and to jump. */
 tahr_status tahr__take_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
-                            tahr_report *report);
+                            tahr_report *report, int plain);
 
 /* The announcement of the long way, before it is known to be short. Returns 1; 0: that failed, and will again. */
 int tahr__announce_early(tahr_mover *mover, double dt, const tahr_state *state, tahr_query_context *context);
