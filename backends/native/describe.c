@@ -266,8 +266,8 @@ static void describe_solids(const tahr__native *world, uint32_t pieces, uint32_t
 
 static const char *lanes_of(const tahr__native *world)
 {
-    tahr__lanes_fn *cull = world->lanes->cull;
-    return cull == tahr__lanes_cull_1 ? "scalar" : cull == tahr__lanes_cull_8 ? "AVX2" : "four lanes";
+    const uint32_t width = world->lanes->width;
+    return width == 1 ? "scalar" : width == 8 ? "AVX2" : "four lanes";
 }
 
 tahr_status tahr__native_describe(void *self, const tahr_log *to)

@@ -118,7 +118,7 @@ static float time_within(const beside *b, float reach)
     return gap <= closing ? gap / closing : NEVER;
 }
 
-uint32_t tahr__lanes_cull_1(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+static uint32_t cull_1(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < lanes->count; i++) {
@@ -131,7 +131,7 @@ uint32_t tahr__lanes_cull_1(const tahr__lanes *lanes, const tahr__lanes_query *q
     return kept;
 }
 
-uint32_t tahr__lanes_near_1(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+static uint32_t near_1(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < lanes->count; i++) {
@@ -144,7 +144,7 @@ uint32_t tahr__lanes_near_1(const tahr__lanes *lanes, const tahr__lanes_query *q
     return kept;
 }
 
-void tahr__lanes_measure_1(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
+static void measure_1(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
 {
     for (uint32_t i = 0; i < (lanes->count + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES; i++) {
         float away2 = box_distance(lanes, i, query->lo, query->hi);
@@ -156,7 +156,7 @@ void tahr__lanes_measure_1(const tahr__lanes *lanes, const tahr__lanes_query *qu
     }
 }
 
-uint32_t tahr__lanes_pick_1(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
+static uint32_t pick_1(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -172,59 +172,23 @@ uint32_t tahr__lanes_pick_1(const float *far, const float *lift, uint32_t count,
 
 #include "lanes_kernel.h"
 
-uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
-{
-    return lanes_cull(lanes, query, found);
-}
-
-uint32_t tahr__lanes_near_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
-{
-    return lanes_near(lanes, query, found);
-}
-
-void tahr__lanes_measure_4(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
-{
-    lanes_measure(lanes, query, far);
-}
-
-uint32_t tahr__lanes_pick_4(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
-{
-    return lanes_pick(far, lift, count, most, found);
-}
-
-#else
-
-uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
-{
-    return tahr__lanes_cull_1(lanes, query, found);
-}
-
-uint32_t tahr__lanes_near_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
-{
-    return tahr__lanes_near_1(lanes, query, found);
-}
-
-void tahr__lanes_measure_4(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
-{
-    tahr__lanes_measure_1(lanes, query, far);
-}
-
-uint32_t tahr__lanes_pick_4(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
-{
-    return tahr__lanes_pick_1(far, lift, count, most, found);
-}
-
 #endif
+
+const tahr__lanes_way *tahr__lanes_of(uint32_t width)
+{
+    static const tahr__lanes_way one = {cull_1, near_1, measure_1, pick_1, 1, 0};
+#if defined(__GNUC__)
+    static const tahr__lanes_way four = {lanes_cull, lanes_near, lanes_measure, lanes_pick, 4, 0};
+    if (width == 4) return &four;
+#endif
+    return width == 1 ? &one : width == 8 ? tahr__lanes_of_eight() : NULL;
+}
 
 const tahr__lanes_way *tahr__lanes_best(uint32_t no_simd)
 {
-    static const tahr__lanes_way ways[] = {
-        {tahr__lanes_cull_1, tahr__lanes_near_1, tahr__lanes_measure_1, tahr__lanes_pick_1},
-        {tahr__lanes_cull_4, tahr__lanes_near_4, tahr__lanes_measure_4, tahr__lanes_pick_4},
-        {tahr__lanes_cull_8, tahr__lanes_near_8, tahr__lanes_measure_8, tahr__lanes_pick_8}};
-    if (no_simd) return &ways[0];
-#if defined(__GNUC__) && defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return &ways[2];
-#endif
-    return &ways[1];
+    for (uint32_t width = no_simd ? 1 : 8; width > 1; width /= 2) {
+        const tahr__lanes_way *way = tahr__lanes_of(width);
+        if (way) return way;
+    }
+    return tahr__lanes_of(1);
 }

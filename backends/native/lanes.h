@@ -89,16 +89,15 @@ typedef struct tahr__lanes_way {
     tahr__lanes_fn *cull, *near;
     tahr__lanes_measure_fn *measure;
     tahr__lanes_pick_fn *pick;
+    uint32_t width, reserved; /* primitives at a time */
 } tahr__lanes_way;
 
-/* The scalar twin; four lanes, which every machine has by its compiler's vectors; eight, where the processor has
- * AVX2. */
-tahr__lanes_fn tahr__lanes_cull_1, tahr__lanes_cull_4, tahr__lanes_cull_8;
-tahr__lanes_fn tahr__lanes_near_1, tahr__lanes_near_4, tahr__lanes_near_8;
-tahr__lanes_measure_fn tahr__lanes_measure_1, tahr__lanes_measure_4, tahr__lanes_measure_8;
-tahr__lanes_pick_fn tahr__lanes_pick_1, tahr__lanes_pick_4, tahr__lanes_pick_8;
+/* That wide: 1, the scalar twin; 4, by the vectors of the compiler; 8, with AVX2. NULL: not here. */
+const tahr__lanes_way *tahr__lanes_of(uint32_t width);
+/* lanes_avx2.c */
+const tahr__lanes_way *tahr__lanes_of_eight(void);
 
-/* The fastest that this machine can run; or the scalar twin. */
+/* The widest that this machine can run; or the scalar twin. */
 const tahr__lanes_way *tahr__lanes_best(uint32_t no_simd);
 
 #endif

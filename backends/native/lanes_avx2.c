@@ -11,48 +11,19 @@
 
 #include "lanes_kernel.h"
 
-uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
-{
-    return lanes_cull(lanes, query, found);
-}
-
-uint32_t tahr__lanes_near_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
-{
-    return lanes_near(lanes, query, found);
-}
-
-void tahr__lanes_measure_8(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
-{
-    lanes_measure(lanes, query, far);
-}
-
-uint32_t tahr__lanes_pick_8(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
-{
-    return lanes_pick(far, lift, count, most, found);
-}
-
 #include "../common/avx2_end.h"
+
+const tahr__lanes_way *tahr__lanes_of_eight(void)
+{
+    static const tahr__lanes_way eight = {lanes_cull, lanes_near, lanes_measure, lanes_pick, 8, 0};
+    return __builtin_cpu_supports("avx2") ? &eight : NULL;
+}
 
 #else
 
-uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+const tahr__lanes_way *tahr__lanes_of_eight(void)
 {
-    return tahr__lanes_cull_4(lanes, query, found);
-}
-
-uint32_t tahr__lanes_near_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
-{
-    return tahr__lanes_near_4(lanes, query, found);
-}
-
-void tahr__lanes_measure_8(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
-{
-    tahr__lanes_measure_4(lanes, query, far);
-}
-
-uint32_t tahr__lanes_pick_8(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
-{
-    return tahr__lanes_pick_4(far, lift, count, most, found);
+    return NULL;
 }
 
 #endif

@@ -104,7 +104,7 @@ static inline lane square_gaps(const float *block, const box_lanes *b)
     return (x + y) + z;
 }
 
-static inline uint32_t lanes_cull(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+static uint32_t lanes_cull(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
     const box_lanes box = box_lanes_of(query);
     uint32_t kept = 0;
@@ -122,7 +122,7 @@ static inline uint32_t lanes_cull(const tahr__lanes *lanes, const tahr__lanes_qu
     return kept;
 }
 
-static inline void lanes_measure(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
+static void lanes_measure(const tahr__lanes *lanes, const tahr__lanes_query *query, float *far)
 {
     const box_lanes box = box_lanes_of(query);
     const uint32_t whole = (lanes->count + TAHR__LANES - 1) / TAHR__LANES * TAHR__LANES;
@@ -139,8 +139,7 @@ static inline void lanes_measure(const tahr__lanes *lanes, const tahr__lanes_que
     }
 }
 
-static inline uint32_t lanes_pick(const float *far, const float *lift, uint32_t count, float most,
-                                  tahr__lanes_found *found)
+static uint32_t lanes_pick(const float *far, const float *lift, uint32_t count, float most, tahr__lanes_found *found)
 {
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i += WIDTH) {
@@ -150,7 +149,7 @@ static inline uint32_t lanes_pick(const float *far, const float *lift, uint32_t 
     return kept;
 }
 
-static inline uint32_t lanes_near(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
+static uint32_t lanes_near(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
 {
     const box_lanes box = box_lanes_of(query);
     uint32_t kept = 0;

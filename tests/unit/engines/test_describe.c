@@ -20,20 +20,7 @@
 #endif
 
 #include "fake_host.h"
-
-typedef struct page {
-    char text[2048];
-    int lines;
-} page;
-
-static void write_line(void *user, int32_t level, const char *line)
-{
-    page *p = user;
-    assert_int_equal(level, TAHR_LOG_INFO);
-    size_t used = strlen(p->text);
-    snprintf(p->text + used, sizeof p->text - used, "%s\n", line);
-    p->lines++;
-}
+#include "page.h"
 
 /* Nothing is allocated. */
 static void describe(const tahr_backend *backend, const tahr_body_desc *bodies, uint32_t count, const void *options,
@@ -41,7 +28,7 @@ static void describe(const tahr_backend *backend, const tahr_body_desc *bodies, 
 {
     fake_memory memory = {0};
     const tahr_allocator allocator = fake_allocator(&memory);
-    const tahr_log to = {p, write_line};
+    const tahr_log to = page_log(p);
     tahr_world_desc desc;
     tahr_world *world = NULL;
     memset(p, 0, sizeof *p);
@@ -55,12 +42,6 @@ static void describe(const tahr_backend *backend, const tahr_body_desc *bodies, 
     assert_int_equal(tahr_world_describe(world, &to), TAHR_OK);
     assert_true(memory.requests == requests);
     tahr_world_close(world);
-}
-
-static void assert_says(const page *p, const char *what)
-{
-    if (strstr(p->text, what)) return;
-    fail_msg("\"%s\" is not in:\n%s", what, p->text);
 }
 
 static const double CORNERS[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
@@ -94,7 +75,7 @@ static void bodies_in_space_are_counted(const tahr_backend *backend, const char 
     describe(backend, bodies, 3, NULL, &p);
     snprintf(first, sizeof first, "%s, 3D: 1 movable and 2 static bodies, 1 meshes, 1 boxes, 1 spheres\n", name);
     assert_memory_equal(p.text, first, strlen(first));
-    assert_says(&p, "body 0: mesh, 2 triangles (1 more dropped: no area, or there twice), 4 vertices, two-sided\n");
+    page_says(&p, "body 0: mesh, 2 triangles (1 more dropped: no area, or there twice), 4 vertices, two-sided\n");
     assert_int_equal(p.lines, 3);
 }
 
@@ -107,13 +88,13 @@ static void ccd_says_what_it_is_made_of_and_whom_it_asks(void **unused)
     bodies_in_space_are_counted(tahr_backend_v1_ccd(), "ccd");
     make_bodies(bodies);
     describe(tahr_backend_v1_ccd(), bodies, 3, NULL, &p);
-    assert_says(&p, "libccd is not asked");
+    page_says(&p, "libccd is not asked");
     const tahr_ccd_desc halves = {.struct_size = sizeof halves,
                                   .sweep = TAHR_CCD_SWEEP_BISECTION,
                                   .boolean = TAHR_CCD_BOOLEAN_GJK,
                                   .max_iterations = 77};
     describe(tahr_backend_v1_ccd(), bodies, 3, &halves, &p);
-    assert_says(&p, "by libccd's GJK in halves, 77 iterations at most");
+    page_says(&p, "by libccd's GJK in halves, 77 iterations at most");
 #else
     puts("SKIP: unit_engines_describe: built without libccd");
 #endif
@@ -128,10 +109,10 @@ static void fcl_says_what_it_is_made_of_and_how_it_searches(void **unused)
     bodies_in_space_are_counted(tahr_backend_v1_fcl(), "fcl");
     make_bodies(bodies);
     describe(tahr_backend_v1_fcl(), bodies, 3, NULL, &p);
-    assert_says(&p, "in meshes its trees of AABB, searched by a descent");
+    page_says(&p, "in meshes its trees of AABB, searched by a descent");
     const tahr_fcl_desc other = {.struct_size = sizeof other, .volumes = TAHR_FCL_OBBRSS, .search = TAHR_FCL_COLLIDE};
     describe(tahr_backend_v1_fcl(), bodies, 3, &other, &p);
-    assert_says(&p, "in meshes its trees of OBBRSS, searched by collide()");
+    page_says(&p, "in meshes its trees of OBBRSS, searched by collide()");
 #else
     puts("SKIP: unit_engines_describe: built without FCL");
 #endif
@@ -153,8 +134,8 @@ static void box2d_counts_bodies_and_segments(void **unused)
     bodies[1].vertices = points;
     bodies[1].vertex_count = 3;
     describe(tahr_backend_v1_box2d(), bodies, 2, NULL, &p);
-    assert_says(&p, "box2d, 2D: 1 movable and 1 static bodies, 1 of them chains; path: the tree of Box2D ");
-    assert_says(&p, ", 3 pieces: ");
+    page_says(&p, "box2d, 2D: 1 movable and 1 static bodies, 1 of them chains; path: the tree of Box2D ");
+    page_says(&p, ", 3 pieces: ");
     assert_int_equal(p.lines, 1);
 #else
     puts("SKIP: unit_engines_describe: built without Box2D");

@@ -12,26 +12,13 @@
 #include <tahr/tahr.h>
 
 #include "native_world.h"
-
-typedef struct page {
-    char text[4096];
-    int lines;
-} page;
-
-static void write_line(void *user, int32_t level, const char *line)
-{
-    page *p = user;
-    assert_int_equal(level, TAHR_LOG_INFO);
-    size_t used = strlen(p->text);
-    snprintf(p->text + used, sizeof p->text - used, "%s\n", line);
-    p->lines++;
-}
+#include "page.h"
 
 static void describe(const tahr_body_desc *bodies, uint32_t count, const tahr_native_desc *options, page *p)
 {
     tahr_world_desc desc;
     tahr_world *world = NULL;
-    const tahr_log to = {p, write_line};
+    const tahr_log to = page_log(p);
     memset(p, 0, sizeof *p);
     tahr_world_desc_init(&desc, sizeof desc);
     desc.bodies = bodies;
@@ -40,12 +27,6 @@ static void describe(const tahr_body_desc *bodies, uint32_t count, const tahr_na
     assert_int_equal(tahr_world_open(tahr_backend_v1_native(), &desc, &world), TAHR_OK);
     assert_int_equal(tahr_world_describe(world, &to), TAHR_OK);
     tahr_world_close(world);
-}
-
-static void assert_says(const page *p, const char *what)
-{
-    if (strstr(p->text, what)) return;
-    fail_msg("\"%s\" is not in:\n%s", what, p->text);
 }
 
 /* A cube of 20 cm, 12 triangles: 36 sides, each with one neighbour, and those of the 6 diagonals, 12 of 36, flat. One
@@ -61,14 +42,14 @@ static void a_cube_is_closed_and_a_third_of_its_edges_is_flat(void **state)
     tahr_body_desc bodies[] = {fixture_mesh(v, 8, t, 14), native_box(v_make(9, 0, 0), v_make(1, 1, 1))};
     page p;
     describe(bodies, 2, NULL, &p);
-    assert_says(&p, "native, 3D");
-    assert_says(&p, "0 movable and 2 static bodies, 1 meshes, 1 boxes");
-    assert_says(&p, "boxes and hulls: 1, met as their triangles");
-    assert_says(&p, "spheres and capsules: 0");
-    assert_says(&p, "body 0: mesh, 12 triangles (2 more dropped");
-    assert_says(&p, "8 vertices");
-    assert_says(&p, "100.0 % with one neighbour (33.3 % flat), 0.0 % open, 0.0 % with several");
-    assert_says(&p, "densest around a step: 12 primitives; gathered there within");
+    page_says(&p, "native, 3D");
+    page_says(&p, "0 movable and 2 static bodies, 1 meshes, 1 boxes");
+    page_says(&p, "boxes and hulls: 1, met as their triangles");
+    page_says(&p, "spheres and capsules: 0");
+    page_says(&p, "body 0: mesh, 12 triangles (2 more dropped");
+    page_says(&p, "8 vertices");
+    page_says(&p, "100.0 % with one neighbour (33.3 % flat), 0.0 % open, 0.0 % with several");
+    page_says(&p, "densest around a step: 12 primitives; gathered there within");
     assert_true(strstr(p.text, "is a field") == NULL);
 }
 
@@ -81,7 +62,7 @@ static void open_edges_and_edges_of_several_are_counted(void **state)
     tahr_body_desc body = fixture_mesh(v, 5, t, 3);
     page p;
     describe(&body, 1, NULL, &p);
-    assert_says(&p, "0.0 % with one neighbour (0.0 % flat), 66.7 % open, 33.3 % with several");
+    page_says(&p, "0.0 % with one neighbour (0.0 % flat), 66.7 % open, 33.3 % with several");
     assert_true(strstr(p.text, "boxes and hulls") == NULL);
 }
 
@@ -95,15 +76,15 @@ static void a_grid_is_said_to_be_a_field(void **state)
     tahr_native_desc options = fixture_options();
     page p;
     describe(&body, 1, NULL, &p);
-    assert_says(&p, "is a field of 25 x 25 heights: as TAHR_BODY_HEIGHTS 4.3 bytes per triangle, and the same surface");
-    assert_says(&p, "densest around a step: 1152 primitives; too many for a cache of 128");
+    page_says(&p, "is a field of 25 x 25 heights: as TAHR_BODY_HEIGHTS 4.3 bytes per triangle, and the same surface");
+    page_says(&p, "densest around a step: 1152 primitives; too many for a cache of 128");
     options.cache_triangles = 2000;
     options.cache_margin = 0.25;
     describe(&body, 1, &options, &p);
-    assert_says(&p, "gathered there within 0.25 m of it: cache_margin says so");
+    page_says(&p, "gathered there within 0.25 m of it: cache_margin says so");
     options.no_cache = 1;
     describe(&body, 1, &options, &p);
-    assert_says(&p, "nothing is gathered: no_cache");
+    page_says(&p, "nothing is gathered: no_cache");
 }
 
 static void a_field_takes_its_own_path(void **state)
@@ -115,10 +96,10 @@ static void a_field_takes_its_own_path(void **state)
     tahr_native_desc options = fixture_options();
     page p;
     describe(&body, 1, &options, &p);
-    assert_says(&p, "body 0: field of 2 x 2 heights, 2 triangles less its holes; path: straight from the grid");
+    page_says(&p, "body 0: field of 2 x 2 heights, 2 triangles less its holes; path: straight from the grid");
     options.no_fields = 1;
     describe(&body, 1, &options, &p);
-    assert_says(&p, "body 0: mesh, 2 triangles");
+    page_says(&p, "body 0: mesh, 2 triangles");
 }
 
 static void wrong_arguments_are_refused(void **state)
@@ -128,7 +109,7 @@ static void wrong_arguments_are_refused(void **state)
     tahr_world *world = NULL;
     tahr_body_desc box = native_box(v_make(0, 0, 0), v_make(1, 1, 1));
     page p = {.lines = 0};
-    const tahr_log to = {&p, write_line}, mute = {&p, NULL};
+    const tahr_log to = page_log(&p), mute = {&p, NULL};
     tahr_world_desc_init(&desc, sizeof desc);
     desc.bodies = &box;
     desc.body_count = 1;

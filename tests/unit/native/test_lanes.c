@@ -101,7 +101,7 @@ static void what_is_left_out_is_out_of_reach(void **unused)
         motion m = random_motion(&seed);
         tahr__lanes_query q = query_of(&m);
         tahr__lanes_found found[COUNT];
-        uint32_t count = tahr__lanes_cull_1(&s.lanes, &q, found), next = 0;
+        uint32_t count = tahr__lanes_of(1)->cull(&s.lanes, &q, found), next = 0;
         for (uint32_t i = 0; i < COUNT; i++) {
             int is_found = next < count && found[next].index == i;
             double until = is_found ? found[next].time : 1;
@@ -129,7 +129,7 @@ static void what_is_kept_comes_near(void **unused)
         motion m = random_motion(&seed);
         tahr__lanes_query q = query_of(&m);
         tahr__lanes_found found[COUNT];
-        uint32_t count = tahr__lanes_cull_1(&s.lanes, &q, found);
+        uint32_t count = tahr__lanes_of(1)->cull(&s.lanes, &q, found);
         for (uint32_t k = 0; k < count; k++) {
             double least = 1e9;
             for (int i = 0; i <= 50; i++)
@@ -155,7 +155,7 @@ static void what_is_near_is_no_nearer_than_told(void **unused)
         m.by = v_make(0, 0, 0);
         tahr__lanes_query q = query_of(&m);
         tahr__lanes_found found[COUNT];
-        uint32_t count = tahr__lanes_near_1(&s.lanes, &q, found), next = 0;
+        uint32_t count = tahr__lanes_of(1)->near(&s.lanes, &q, found), next = 0;
         for (uint32_t i = 0; i < COUNT; i++) {
             int is_found = next < count && found[next].index == i;
             double away = distance(&m, &s.facets[i], 0);
@@ -192,8 +192,8 @@ static void what_is_measured_is_no_nearer_than_told(void **unused)
         const tahr__lanes_query q = query_of(&m);
         tahr__lanes_found near[COUNT], found[COUNT];
         float far[BLOCKS * TAHR__LANES], lift[BLOCKS * TAHR__LANES] = {0};
-        tahr__lanes_measure_1(&s.lanes, &q, far);
-        const uint32_t count = tahr__lanes_near_1(&s.lanes, &q, near);
+        tahr__lanes_of(1)->measure(&s.lanes, &q, far);
+        const uint32_t count = tahr__lanes_of(1)->near(&s.lanes, &q, near);
         for (uint32_t i = 0; i < count; i++)
             assert_true(far[near[i].index] == near[i].time);
         for (uint32_t i = 0; i < COUNT; i++) {
@@ -202,8 +202,8 @@ static void what_is_measured_is_no_nearer_than_told(void **unused)
         }
         for (uint32_t i = COUNT; i < BLOCKS * TAHR__LANES; i++)
             assert_true(far[i] > 1e29f);
-        const uint32_t all = tahr__lanes_pick_1(far, NULL, COUNT, q.reach, found);
-        const uint32_t some = tahr__lanes_pick_1(far, lift, COUNT, q.reach, near);
+        const uint32_t all = tahr__lanes_of(1)->pick(far, NULL, COUNT, q.reach, found);
+        const uint32_t some = tahr__lanes_of(1)->pick(far, lift, COUNT, q.reach, near);
         uint32_t expected = 0, unlifted = 0;
         for (uint32_t i = 0; i < COUNT; i++) {
             if (!(far[i] <= q.reach)) continue;
@@ -221,15 +221,13 @@ static void what_is_measured_is_no_nearer_than_told(void **unused)
     assert_true(picked > 3000 && lifted > 0.2 * picked && lifted < 0.5 * picked);
 }
 
-static void assert_same_bits(tahr__lanes_fn *one, tahr__lanes_fn *const widths[3], const tahr__lanes *lanes,
+static void assert_same_bits(tahr__lanes_fn *one, tahr__lanes_fn *many, const tahr__lanes *lanes,
                              const tahr__lanes_query *q)
 {
-    tahr__lanes_found expected[COUNT], many[COUNT];
-    uint32_t count = one(lanes, q, expected);
-    for (int w = 0; w < 3; w++) {
-        assert_int_equal(widths[w](lanes, q, many), count);
-        assert_memory_equal(many, expected, count * sizeof expected[0]);
-    }
+    tahr__lanes_found found[2][COUNT];
+    const uint32_t count = one(lanes, q, found[0]);
+    assert_int_equal(many(lanes, q, found[1]), count);
+    assert_memory_equal(found[0], found[1], count * sizeof found[0][0]);
 }
 
 /* The same of what is measured at a place, and picked. */
@@ -254,13 +252,12 @@ static void every_width_keeps_the_same_bits(void **unused)
 {
     static scene s;
     oracle_random seed = {5};
-    const tahr__lanes_way *best = tahr__lanes_best(0);
-    const int eight = best->cull == tahr__lanes_cull_8;
-    tahr__lanes_fn *const culls[] = {tahr__lanes_cull_4, best->cull, eight ? tahr__lanes_cull_8 : tahr__lanes_cull_4};
-    tahr__lanes_fn *const nears[] = {tahr__lanes_near_4, best->near, eight ? tahr__lanes_near_8 : tahr__lanes_near_4};
-    const tahr__lanes_way four = {NULL, NULL, tahr__lanes_measure_4, tahr__lanes_pick_4};
+    const tahr__lanes_way *one = tahr__lanes_of(1), *best = tahr__lanes_best(0), *four = tahr__lanes_of(4);
+    const tahr__lanes_way *const widths[] = {four ? four : one, best};
     (void)unused;
-    print_message("    eight lanes: %s\n", eight ? "tested" : "no AVX2 here, not tested");
+    assert_ptr_equal(tahr__lanes_best(1), one);
+    assert_true(best->width == 8 || !tahr__lanes_of(8));
+    print_message("    up to %u lanes\n", (unsigned)best->width);
     for (int run = 0; run < 20000; run++) {
         if (run % 50 == 0) make(&s, &seed);
         motion m = random_motion(&seed);
@@ -270,10 +267,11 @@ static void every_width_keeps_the_same_bits(void **unused)
         memcpy(rest, s.blocks, sizeof rest);
         tahr__lanes_end(rest, lanes.count);
         lanes.blocks = rest;
-        assert_same_bits(tahr__lanes_cull_1, culls, &lanes, &q);
-        assert_same_bits(tahr__lanes_near_1, nears, &lanes, &q);
-        assert_same_measures(tahr__lanes_best(1), &four, &lanes, &q);
-        assert_same_measures(tahr__lanes_best(1), best, &lanes, &q);
+        for (int w = 0; w < 2; w++) {
+            assert_same_bits(one->cull, widths[w]->cull, &lanes, &q);
+            assert_same_bits(one->near, widths[w]->near, &lanes, &q);
+            assert_same_measures(one, widths[w], &lanes, &q);
+        }
     }
 }
 

@@ -68,6 +68,18 @@ static void make(scene *s, uint32_t kind, uint32_t count, tahr_vec3 offset, orac
     build(s);
 }
 
+/* The n-th tree, when the one before is not needed any more: of every kind and size, near and far out. 0: that was all.
+ */
+static int next_tree(scene *s, uint32_t n, oracle_random *r)
+{
+    static const uint32_t counts[] = {1, 2, 8, 9, 65, 1000, MOST};
+    static const tahr_vec3 offsets[] = {{0, 0, 0}, {1e6, -2e6, 3e5}};
+    if (n > 0) discard(s);
+    if (n == KINDS * 14) return 0;
+    make(s, n % KINDS, counts[n / KINDS % 7], offsets[n / KINDS / 7], r);
+    return 1;
+}
+
 static double gap(const tahr_bounds *a, const tahr_bounds *b)
 {
     tahr_vec3 apart = v_max(v_max(v_sub(a->min, b->max), v_sub(b->min, a->max)), v_make(0, 0, 0));
@@ -112,16 +124,12 @@ static void a_walk_finds_every_item_within_reach_once(void **state)
     (void)state;
     static scene s;
     oracle_random r = {5};
-    const uint32_t counts[] = {1, 2, 8, 9, 65, 1000, MOST};
-    const tahr_vec3 offsets[] = {{0, 0, 0}, {1e6, -2e6, 3e5}};
-    for (uint32_t n = 0; n < KINDS * 14; n++) {
-        make(&s, n % KINDS, counts[n / KINDS % 7], offsets[n / KINDS / 7], &r);
+    for (uint32_t n = 0; next_tree(&s, n, &r); n++) {
         for (int q = 0; q < 60; q++) {
             tahr_bounds box = random_box(&s, &r);
             double reach = q % 3 ? oracle_uniform(&r, 0, 1.5) : 0;
             check_walk(&s, &box, reach, q % 2 ? &box.min : NULL);
         }
-        discard(&s);
     }
 }
 
@@ -231,17 +239,13 @@ static void collecting_finds_every_item_within_reach_once(void **state)
     (void)state;
     static scene s;
     oracle_random r = {8};
-    const uint32_t counts[] = {1, 2, 8, 9, 65, 1000, MOST};
-    const tahr_vec3 offsets[] = {{0, 0, 0}, {1e6, -2e6, 3e5}};
-    for (uint32_t n = 0; n < KINDS * 14; n++) {
-        make(&s, n % KINDS, counts[n / KINDS % 7], offsets[n / KINDS / 7], &r);
+    for (uint32_t n = 0; next_tree(&s, n, &r); n++) {
         for (int q = 0; q < 60; q++) {
             tahr_bounds box = random_box(&s, &r);
             if (q % 20 == 0) box.max.x += 1e12; /* farther than is told apart */
             if (q % 30 == 0) box.min.y -= 1e12;
             check_collected(&s, &box, q % 10 == 5 ? 1e12 : q % 3 ? oracle_uniform(&r, 0, 1.5) : 0);
         }
-        discard(&s);
     }
 }
 
