@@ -198,6 +198,19 @@ static inline int is_clear(const tahr__cache *cache, const local_walk *w, const 
     return !f->fenced || (is_fenced_off(cache, first, w->most) && is_fenced_off(cache, last, w->most));
 }
 
+/* Onto another triangle of the same floor, of which all else that is known holds as well. */
+static int goes_over(const tahr__native *world, tahr_query_context *context, const local_walk *w, landing *end)
+{
+    const tahr__cache *cache = context->cache;
+    tahr__query query;
+    query.world = world;
+    query.context = context;
+    query.cache = context->cache;
+    query.frame = &cache->frame;
+    return tahr__ground_find(&query, end->point) && !cache->footing.steep && comes_down(&cache->footing, w, end) &&
+           ground_is_at_spot(cache, end->point);
+}
+
 uint32_t tahr__footing_walk(const tahr__native *world, tahr_query_context *context, const tahr_walk *walk,
                             tahr_hit *hit)
 {
@@ -206,7 +219,7 @@ uint32_t tahr__footing_walk(const tahr__native *world, tahr_query_context *conte
     local_walk w;
     landing end;
     if (!(f->clear > 0) || !read_walk(cache, walk, &w) || !stays_over(f, &w) || !comes_down(f, &w, &end) ||
-        !ground_is_at_spot(cache, end.point)) {
+        (!ground_is_at_spot(cache, end.point) && !goes_over(world, context, &w, &end))) {
         return TAHR__UNCLEAR;
     }
     const upright first = start_of(&w), last = end_of(&w, &end);

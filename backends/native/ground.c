@@ -269,17 +269,22 @@ static int tries_spot(tahr__vicinity *v)
     return 1;
 }
 
-int tahr__ground_knows(const tahr__query *query, int *finds)
+int tahr__ground_find(const tahr__query *query, tahr_vec3 place)
 {
     tahr__vicinity *v = &query->cache->vicinity;
-    const tahr_vec3 place = place_on(&v->floor, query);
-    *finds = 0;
-    if (ground_is_at_spot(query->cache, place)) return 1;
     if (!tries_spot(v)) return 0;
     find_spot(query, place);
     v->rests = v->alone >= NARROW ? FEWEST : v->rests < MOST ? 2 * v->rests : MOST;
     v->rest = v->alone >= NARROW ? 0 : v->rests;
-    *finds = ground_is_at_spot(query->cache, place);
+    return ground_is_at_spot(query->cache, place);
+}
+
+int tahr__ground_knows(const tahr__query *query, int *finds)
+{
+    const tahr_vec3 place = place_on(&query->cache->vicinity.floor, query);
+    *finds = 0;
+    if (ground_is_at_spot(query->cache, place)) return 1;
+    *finds = tahr__ground_find(query, place);
     return *finds;
 }
 

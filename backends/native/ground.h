@@ -60,6 +60,10 @@ void tahr__ground_know(const tahr__query *query);
  * when and where; 0: it is not known what is there. */
 int tahr__ground_meets(const tahr__query *query, tahr__found *found);
 
+/* Finds the triangle of the floor at a place on it, which is at no spot: 1: it is there alone, and the spot is there
+ * now. Of the query what it looks at: world, cache and frame. */
+int tahr__ground_find(const tahr__query *query, tahr_vec3 place);
+
 /* Is it known which triangle of the floor a foot that comes down may meet, one alone? finds: it has just been found. */
 int tahr__ground_knows(const tahr__query *query, int *finds);
 
