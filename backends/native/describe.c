@@ -206,8 +206,9 @@ static void describe_density(const tahr__native *world, uint32_t id, const tahr_
         snprintf(text + n, sizeof text - (size_t)n, "gathered there within %.3g m of it: %s", d.margin,
                  world->fixed_margin ? "cache_margin says so" : "the cheapest by their number");
     else
-        snprintf(text + n, sizeof text - (size_t)n, "too many for a cache of %u: queries walk the tree there",
-                 (unsigned)world->capacity);
+        snprintf(text + n, sizeof text - (size_t)n, "too many for a cache of %u: queries walk the tree there%s",
+                 (unsigned)world->capacity,
+                 world->bodies[id].type == TAHR_BODY_HEIGHTS ? ", but walks where it is level" : "");
     say(to, text);
 }
 

@@ -2,6 +2,7 @@
  * gather.c: one character's cache of nearby static primitives, and the search that uses it where it holds
  * everything. */
 #include "form.h"
+#include "level.h"
 
 #include <string.h>
 
@@ -276,6 +277,11 @@ static void gather_now(tahr__native *world, tahr_query_context *context, const t
     if (cache->overflow) cache->count = 0;
     find_stoppers(&g, &last);
     tahr__vicinity_forget(world, cache);
+    cache->level = TAHR_NO_BODY;
+    if (cache->overflow && !world->gather && !world->no_vicinity) {
+        query.cache = cache;
+        tahr__level_learn(&query);
+    }
     context->gathers++;
 }
 

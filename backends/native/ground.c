@@ -7,6 +7,7 @@
 #include "ground.h"
 
 #include "form.h"
+#include "level.h"
 #include "plane.h"
 
 /* Heights (m) that are rounding: of the product of two places within 8 m, eight units in the last place. A triangle
@@ -209,18 +210,15 @@ static double inside_of_edges(const tahr__vicinity *v, tahr_vec3 place)
     return least;
 }
 
-/* Takes another triangle of the floor for the one under the spot. */
-static int stand_on(const tahr__query *query, uint32_t index)
+int tahr__ground_stand_on(const tahr__query *query, const tahr__prim *prim)
 {
     tahr__vicinity *v = &query->cache->vicinity;
-    const tahr__prim *prim = tahr__formed(query, index);
     tahr_vec3 face = prim->kind & TAHR__FACELESS ? tahr__heights_face(query, prim) : prim->face;
     const int behind = v_dot(face, v->floor.normal) < 0;
     if (behind && !(prim->kind & TAHR__TWO_SIDED)) return 0;
     v->face = behind ? v_scale(face, -1) : face;
     know_edges(v, &prim->facet);
     know_triangle(query, prim);
-    query->cache->footing.under = index;
     return 1;
 }
 
@@ -248,7 +246,8 @@ static void find_spot(const tahr__query *query, tahr_vec3 place)
         }
         found[count++] = found[i];
     }
-    if (under == TAHR__NONE || (under != f->under && !stand_on(query, under))) return;
+    if (under == TAHR__NONE || (under != f->under && !tahr__ground_stand_on(query, tahr__formed(query, under)))) return;
+    f->under = under;
     for (uint32_t i = 0; i < count && alone > 0; i++) {
         const double far = d_max(found[i].time - TAHR__LANE_SLACK, 0);
         if (far < alone && !is_beside(query, found[i].index)) alone = far;
@@ -272,6 +271,7 @@ static int tries_spot(tahr__vicinity *v)
 int tahr__ground_find(const tahr__query *query, tahr_vec3 place)
 {
     tahr__vicinity *v = &query->cache->vicinity;
+    if (query->cache->level != TAHR_NO_BODY) return tahr__level_find(query, place);
     if (!tries_spot(v)) return 0;
     find_spot(query, place);
     v->rests = v->alone >= NARROW ? FEWEST : v->rests < MOST ? 2 * v->rests : MOST;

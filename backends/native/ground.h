@@ -60,6 +60,9 @@ void tahr__ground_know(const tahr__query *query);
  * when and where; 0: it is not known what is there. */
 int tahr__ground_meets(const tahr__query *query, tahr__found *found);
 
+/* Takes a triangle of the floor for the one under the spot. 0: it is met from behind. */
+int tahr__ground_stand_on(const tahr__query *query, const tahr__prim *prim);
+
 /* Finds the triangle of the floor at a place on it, which is at no spot: 1: it is there alone, and the spot is there
  * now. Of the query what it looks at: world, cache and frame. */
 int tahr__ground_find(const tahr__query *query, tahr_vec3 place);

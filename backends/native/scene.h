@@ -232,6 +232,7 @@ typedef struct tahr__cache {
     double volume;      /* m3, of what was announced */
     tahr_vec3 place;    /* world: where the character was then */
     uint32_t gathered, overflow, count;
+    uint32_t level; /* where that overflows: a field that is all there is, and level (level.h), or TAHR_NO_BODY */
     uint32_t plain; /* no sensors: what has been gathered concerns every query of the same mask */
     double margin;  /* to gather with the next time, 0: the most */
     tahr__vicinity vicinity;

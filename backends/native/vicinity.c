@@ -130,7 +130,7 @@ static int spans(const tahr__query *query)
 
 int tahr__vicinity_ends(const tahr__query *query)
 {
-    return serves(query) && !spans(query);
+    return (serves(query) || query->cache->level != TAHR_NO_BODY) && !spans(query);
 }
 
 uint32_t tahr__vicinity_way(const tahr__query *query)

@@ -294,6 +294,53 @@ static void who_walks_between_walls_is_told_from_who_meets_them(void **state)
     }
 }
 
+/* Corners 5 cm apart, of which a cache takes no more than those of half a metre: level (flaw 0), with one corner that is
+ * a hair higher (1), with a hole (2), in terraces with slopes between them (3). */
+enum { FINE = 401 };
+static void fill_fine(double heights[FINE * FINE], int flaw)
+{
+    for (int y = 0; y < FINE; y++) {
+        for (int x = 0; x < FINE; x++) {
+            const double terrace = 0.15 * (x / 60 + y / 90), slope = x % 60 < 12 ? 0.0125 * (12 - x % 60) : 0;
+            heights[y * FINE + x] = flaw == 3 ? terrace - (x >= 60 ? slope : 0) : 0.25;
+        }
+    }
+    if (flaw == 1) heights[200 * FINE + 200] += 1e-12;
+    if (flaw == 2) heights[180 * FINE + 210] = NAN;
+}
+
+static double on_fine_field(const double *heights, uint32_t flags, uint32_t others)
+{
+    const tahr_bounds spawn = {{-8, -8, -1}, {8, 8, 3}};
+    tahr_body_desc bodies[3];
+    tahr_body_desc_init(&bodies[0], sizeof bodies[0], TAHR_BODY_HEIGHTS);
+    bodies[0].heights = heights;
+    bodies[0].columns = bodies[0].rows = FINE;
+    bodies[0].half_extents = v_make(10, 10, 0);
+    bodies[0].flags = flags;
+    bodies[1] = native_box(v_make(1, 1, 0.5), v_make(0.3, 2, 0.5));
+    bodies[2] = bodies[0]; /* another one through it */
+    bodies[2].pose.position = v_make(0.0125, 9, 0);
+    const double part = compare(bodies, 1 + others, &spawn);
+    print_message("    a field of 5 cm, %u others: %.0f %% of the sweeps spared\n", others, 100 * part);
+    return part;
+}
+
+static void fine_level_ground_is_walked_the_short_way_too(void **state)
+{
+    static double heights[FINE * FINE];
+    (void)state;
+    for (int flaw = 0; flaw < 4; flaw++) {
+        fill_fine(heights, flaw);
+        const double part = on_fine_field(heights, flaw % 2 ? 0 : TAHR_BODY_TWO_SIDED, 0);
+        assert_true(part > (flaw == 3 ? 0.1 : 0.6));
+    }
+    fill_fine(heights, 0);
+    assert_true(on_fine_field(heights, 0, 1) > 0.3);
+    assert_true(on_fine_field(heights, 0, 2) > 0.1);
+    on_fine_field(heights, TAHR_BODY_ONE_WAY, 0);
+}
+
 static void levels_are_walked_alike(void **state)
 {
     const char *const names[] = {"playground", "dungeon", "nav_test"};
@@ -322,6 +369,7 @@ int main(void)
         cmocka_unit_test(the_floor_is_that_of_the_higher_sheet),
         cmocka_unit_test(who_stood_lower_is_told_from_who_stands_in_the_plane),
         cmocka_unit_test(who_walks_between_walls_is_told_from_who_meets_them),
+        cmocka_unit_test(fine_level_ground_is_walked_the_short_way_too),
         cmocka_unit_test(levels_are_walked_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
