@@ -217,8 +217,8 @@ static int lies_behind(const tahr_vec3 *v, tahr_vec3 p, tahr_vec3 n, uint32_t fi
 /* Why no other two points are as near, by more than rounding, and so all else would be passed over, bit for bit: n
  * leads from the edge or corner to the inside of the segment, across both. All else of the triangle lies behind the
  * plane across n (lies_behind); what lies along the edge, which is not parallel (SLANT), or along the segment, has left
- * n sideways, and has far to go before either ends (INSIDE, FAR of the distance too). Of a corner both of its edges are
- * asked, in their order, as they would be: their roundings differ. */
+ * n sideways, and has far to go before either ends (INSIDE), across the other, which goes along (FAR of the distance).
+ * Of a corner both of its edges are asked, in their order, as they would be: their roundings differ. */
 int tahr__segment_again(const tahr__core *core, tahr_vec3 centre, const tahr__facet *f, tahr__witness *out)
 {
     static const double INSIDE = 1e-3, SLANT2 = 1e-6, FAR2 = 1e-8, LEAST = 1e-5;
@@ -246,7 +246,7 @@ int tahr__segment_again(const tahr__core *core, tahr_vec3 centre, const tahr__fa
         const tahr_vec3 e = v_sub(f->v[(edge + 1) % 3], f->v[edge]), x = v_cross(d, e);
         const double x2 = v_dot(x, x), e2 = v_dot(e, e);
         if (!(least_t > INSIDE && x2 > SLANT2 * d2 * e2 && least_s * least_s * x2 > FAR2 * g2 * e2 &&
-              least_t * least_t * e2 > FAR2 * g2 &&
+              least_t * least_t * x2 > FAR2 * g2 * d2 &&
               lies_behind(f->v, w.point, v_scale(n, w.distance), edge + 2, edge + 3))) {
             return 0;
         }
