@@ -78,7 +78,7 @@ static void the_corners_of_a_mesh_are_met_alike_over_any_triangle(void **unused)
     compare(&mesh, corners, kept, 3);
 }
 
-/* Two bodies with up to two cones each, all with the same tip: cones of one body share no edge, those of two nothing. */
+/* Two bodies with up to two cones each, all with the same tip: cones of a body share no edge, those of two nothing. */
 enum { RING = 40, VERTICES = 2 * (RING + 1), TRIANGLES = 2 * RING };
 typedef struct spikes {
     tahr_body_desc bodies[2];
