@@ -267,6 +267,7 @@ static void describe_solids(const tahr__native *world, uint32_t pieces, uint32_t
 static const char *lanes_of(const tahr__native *world)
 {
     tahr__lanes_fn *cull = world->lanes->cull;
+    if (cull == tahr__lanes_cull_512) return "AVX-512";
     return cull == tahr__lanes_cull_1 ? "scalar" : cull == tahr__lanes_cull_8 ? "AVX2" : "four lanes";
 }
 

@@ -4,6 +4,8 @@
  * tahr__prim_triangle and tahr__lanes_put. */
 #include "form.h"
 
+#include "../common/processor.h"
+
 #include <string.h>
 
 #if defined(__clang__)
@@ -271,8 +273,5 @@ tahr__former tahr__former_of_two(void)
 tahr__former tahr__former_best(uint32_t simd)
 {
     if (!simd) return (tahr__former){NULL, 1, 0};
-#if defined(__GNUC__) && defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return (tahr__former){tahr__form_4, 4, 0};
-#endif
-    return tahr__former_of_two();
+    return tahr__has_avx2() ? (tahr__former){tahr__form_4, 4, 0} : tahr__former_of_two();
 }

@@ -3,6 +3,8 @@
  * operations in the same order, so they keep the same primitives. */
 #include "lanes.h"
 
+#include "../common/processor.h"
+
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #endif
@@ -170,6 +172,8 @@ uint32_t tahr__lanes_pick_1(const float *far, const float *lift, uint32_t count,
 
 #include "../common/lane_4.h"
 
+#include "lanes_which.h"
+
 #include "lanes_kernel.h"
 
 uint32_t tahr__lanes_cull_4(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
@@ -221,10 +225,8 @@ const tahr__lanes_way *tahr__lanes_best(uint32_t no_simd)
     static const tahr__lanes_way ways[] = {
         {tahr__lanes_cull_1, tahr__lanes_near_1, tahr__lanes_measure_1, tahr__lanes_pick_1},
         {tahr__lanes_cull_4, tahr__lanes_near_4, tahr__lanes_measure_4, tahr__lanes_pick_4},
-        {tahr__lanes_cull_8, tahr__lanes_near_8, tahr__lanes_measure_8, tahr__lanes_pick_8}};
+        {tahr__lanes_cull_8, tahr__lanes_near_8, tahr__lanes_measure_8, tahr__lanes_pick_8},
+        {tahr__lanes_cull_512, tahr__lanes_near_512, tahr__lanes_measure_512, tahr__lanes_pick_512}};
     if (no_simd) return &ways[0];
-#if defined(__GNUC__) && defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return &ways[2];
-#endif
-    return &ways[1];
+    return &ways[tahr__has_avx512() ? 3 : tahr__has_avx2() ? 2 : 1];
 }

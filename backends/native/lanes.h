@@ -74,7 +74,7 @@ typedef struct tahr__lanes_found {
     uint32_t index;
 } tahr__lanes_found;
 
-/* Writes all of them, in order, and returns how many. */
+/* Writes all of them, in order, and returns how many. found: room for whole blocks. */
 typedef uint32_t tahr__lanes_fn(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found);
 
 /* Distances (m), one a primitive, whole blocks of them. */
@@ -91,12 +91,12 @@ typedef struct tahr__lanes_way {
     tahr__lanes_pick_fn *pick;
 } tahr__lanes_way;
 
-/* The scalar twin; four lanes, which every machine has by its compiler's vectors; eight, where the processor has
- * AVX2. */
-tahr__lanes_fn tahr__lanes_cull_1, tahr__lanes_cull_4, tahr__lanes_cull_8;
-tahr__lanes_fn tahr__lanes_near_1, tahr__lanes_near_4, tahr__lanes_near_8;
-tahr__lanes_measure_fn tahr__lanes_measure_1, tahr__lanes_measure_4, tahr__lanes_measure_8;
-tahr__lanes_pick_fn tahr__lanes_pick_1, tahr__lanes_pick_4, tahr__lanes_pick_8;
+/* The scalar twin; four lanes, which every machine has by its compiler's vectors; eight, where the processor has AVX2;
+ * 512: eight by AVX-512. */
+tahr__lanes_fn tahr__lanes_cull_1, tahr__lanes_cull_4, tahr__lanes_cull_8, tahr__lanes_cull_512;
+tahr__lanes_fn tahr__lanes_near_1, tahr__lanes_near_4, tahr__lanes_near_8, tahr__lanes_near_512;
+tahr__lanes_measure_fn tahr__lanes_measure_1, tahr__lanes_measure_4, tahr__lanes_measure_8, tahr__lanes_measure_512;
+tahr__lanes_pick_fn tahr__lanes_pick_1, tahr__lanes_pick_4, tahr__lanes_pick_8, tahr__lanes_pick_512;
 
 /* The fastest that this machine can run; or the scalar twin. */
 const tahr__lanes_way *tahr__lanes_best(uint32_t no_simd);

@@ -9,6 +9,8 @@
 
 #include "../common/lane_8.h"
 
+#include "lanes_which.h"
+
 #include "lanes_kernel.h"
 
 uint32_t tahr__lanes_cull_8(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found)
