@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * avx2_end.h: see avx2_begin.h. */
+ * avx2_end.h: see avx2_begin.h and avx512_begin.h. */
 #if defined(__clang__)
 #pragma clang attribute pop
 #else

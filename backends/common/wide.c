@@ -185,7 +185,7 @@ tahr_status tahr__wide_build(const tahr_host *host, tahr__bvh_box *boxes, uint32
         collapse b = {tree, two.nodes, boxes};
         tree->centre = centre;
         tree->test = tahr__wide_best();
-        tree->items = tree->test == tahr__wide_test_8 ? tahr__wide_items_8 : tahr__wide_items_1;
+        tree->items = tahr__wide_items_best();
         set_lattice(tree, two.nodes);
         make_nodes(&b);
     }

@@ -48,8 +48,11 @@ struct tahr__wide;
  * there may be others. */
 typedef uint32_t tahr__wide_items_fn(const struct tahr__wide *tree, const tahr__wide_box *box, uint32_t *items,
                                      uint32_t capacity);
-/* One child at a time; eight, where the processor has AVX2. All the same items in the same order. */
-tahr__wide_items_fn tahr__wide_items_1, tahr__wide_items_8;
+/* One child at a time; eight, where the processor has AVX2; 512: eight by AVX-512. All the same items in the same
+ * order. */
+tahr__wide_items_fn tahr__wide_items_1, tahr__wide_items_8, tahr__wide_items_512;
+/* The fastest that this machine can run. */
+tahr__wide_items_fn *tahr__wide_items_best(void);
 
 typedef struct tahr__wide {
     tahr__wide_node *nodes;

@@ -26,21 +26,13 @@ uint32_t tahr__wide_test_8(const tahr__wide_node *node, const tahr__wide_box *bo
     return wide_test(node, box, point, away);
 }
 
-/* As that of the scalar twin. All six ends in steps of the node become bytes, which packing clamps, and each is
- * compared with those of all children at once. */
+#include "wide_ends.h"
+
+/* As that of the scalar twin: each end is compared with those of all children at once. */
 static inline uint32_t meets(const tahr__wide_node *n, const tahr__wide_box *box)
 {
-    const __m128i head = _mm_loadu_si128((const __m128i *)(const void *)n->base);
-    const __m128i low = _mm_and_si128(head, _mm_set1_epi32(0xFFFFFF));
-    const __m128i shift = _mm_and_si128(_mm_srli_epi32(head, 24), _mm_set1_epi32(31));
-    const __m128i less = _mm_sub_epi32(_mm_sllv_epi32(_mm_set1_epi32(1), shift), _mm_set1_epi32(1));
-    const __m128i lo = _mm_loadu_si128((const __m128i *)(const void *)box->lo);
-    const __m128i hi = _mm_loadu_si128((const __m128i *)(const void *)box->hi);
-    const __m128i to = _mm_srav_epi32(_mm_sub_epi32(hi, low), shift);
-    const __m128i from = _mm_srav_epi32(_mm_add_epi32(_mm_sub_epi32(lo, low), less), shift);
-    const __m128i out = _mm_or_si128(to, _mm_sub_epi32(_mm_set1_epi32(255), from));
-    if (_mm_movemask_ps(_mm_castsi128_ps(out)) & 7) return 0;
-    const __m128i ends = _mm_packus_epi16(_mm_packs_epi32(to, from), to);
+    __m128i ends;
+    if (!ends_of(n, box, &ends)) return 0;
     /* The children's bounds are low x, y, z, high x, y, z, eight bytes each; ends 0, 1, 2 and 4, 5, 6 bound them. */
     const __m128i low_xy = _mm_loadu_si128((const __m128i *)(const void *)n->lo[0]);
     const __m128i low_z_high_x = _mm_loadu_si128((const __m128i *)(const void *)n->lo[2]);

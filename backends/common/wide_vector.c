@@ -3,6 +3,8 @@
  * which one to take. */
 #include "wide.h"
 
+#include "processor.h"
+
 #include <string.h>
 
 #if defined(__clang__)
@@ -45,8 +47,11 @@ uint32_t tahr__wide_test_4(const tahr__wide_node *node, const tahr__wide_box *bo
 
 tahr__wide_fn *tahr__wide_best(void)
 {
-#if defined(__GNUC__) && defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return tahr__wide_test_8;
-#endif
-    return tahr__wide_test_4;
+    return tahr__has_avx2() ? tahr__wide_test_8 : tahr__wide_test_4;
+}
+
+tahr__wide_items_fn *tahr__wide_items_best(void)
+{
+    if (tahr__has_avx512()) return tahr__wide_items_512;
+    return tahr__has_avx2() ? tahr__wide_items_8 : tahr__wide_items_1;
 }

@@ -265,12 +265,6 @@ static void describe_solids(const tahr__native *world, uint32_t pieces, uint32_t
     say(to, text);
 }
 
-static const char *lanes_of(const tahr__native *world)
-{
-    const uint32_t width = world->lanes->width;
-    return width == 1 ? "scalar" : width == 8 ? "AVX2" : "four lanes";
-}
-
 tahr_status tahr__native_describe(void *self, const tahr_log *to)
 {
     static const char *const names[] = {"meshes", "boxes", "spheres", "capsules", "hulls", "fields of heights"};
@@ -280,7 +274,7 @@ tahr_status tahr__native_describe(void *self, const tahr_log *to)
     const tahr__native *world = self;
     char text[256];
     uint32_t counts[TYPES] = {0};
-    int n = snprintf(text, sizeof text, "native, 3D, %s: %u movable and %u static bodies,", lanes_of(world),
+    int n = snprintf(text, sizeof text, "native, 3D, %s: %u movable and %u static bodies,", world->lanes->name,
                      (unsigned)world->movable.count, (unsigned)world->fixed.count);
     for (int t = 0; t < TYPES; t++) {
         for (uint32_t i = 0; i < world->body_count; i++)

@@ -4,6 +4,8 @@
  * tahr__prim_triangle and tahr__lanes_put. */
 #include "form.h"
 
+#include "../common/processor.h"
+
 #include <string.h>
 
 #if defined(__clang__)
@@ -85,12 +87,13 @@ static void put_cell(run *r, uint32_t cell, tahr_vec3 corners[4])
     tahr__heights_cell(h, cell - r->row_cell, r->row, corners);
 }
 
-/* count of them; the last stands for those that there are not. Two of one cell share its corners. */
-static void load_field(run *r, uint32_t at, uint32_t count, tahr__raw *raw)
+/* width of them, of which there are count; the last stands for those that there are not. Two of one cell share its
+ * corners. */
+static void load_field(run *r, uint32_t at, uint32_t count, uint32_t width, tahr__raw *raw)
 {
     uint32_t last = TAHR__NONE;
     const tahr_vec3 *c = NULL;
-    for (uint32_t i = 0; i < TAHR__FORMED; i++) {
+    for (uint32_t i = 0; i < width; i++) {
         const uint32_t item = r->prims[at + (i < count ? i : count - 1)].item, k = item & 1;
         if (item / 2 != last) {
             c = r->corners[i];
@@ -104,11 +107,11 @@ static void load_field(run *r, uint32_t at, uint32_t count, tahr__raw *raw)
 }
 
 /* The same of a mesh. Returns which are thin, one bit each. */
-static uint32_t load_mesh(const run *r, uint32_t at, uint32_t count, tahr__raw *raw)
+static uint32_t load_mesh(const run *r, uint32_t at, uint32_t count, uint32_t width, tahr__raw *raw)
 {
     const tahr__mesh *mesh = &r->body->mesh;
     uint32_t thin = 0;
-    for (uint32_t i = 0; i < TAHR__FORMED; i++) {
+    for (uint32_t i = 0; i < width; i++) {
         const tahr__triangle *t = &mesh->triangles[r->prims[at + (i < count ? i : count - 1)].item];
         for (int k = 0; k < 3; k++)
             raw->corner[k][i] = &mesh->vertices[t->vertex[k]];
@@ -156,9 +159,9 @@ static uint32_t form_group(const tahr__former *former, run *r, float *blocks, ui
     tahr__raw raw;
     uint32_t thin = 0;
     if (r->body->mesh.triangles)
-        thin = load_mesh(r, at, count, &raw);
+        thin = load_mesh(r, at, count, former->width, &raw);
     else
-        load_field(r, at, count, &raw);
+        load_field(r, at, count, former->width, &raw);
     if (left == former->width && (count == left || last)) {
         former->form(&r->map, &raw, lanes);
     } else {
@@ -259,20 +262,13 @@ static void form_2(const tahr__map *map, const tahr__raw *raw, float *lanes)
 
 #endif
 
-tahr__former tahr__former_of_two(void)
+tahr__former tahr__former_of(uint32_t most)
 {
+    if (most >= 8 && tahr__has_avx512()) return (tahr__former){tahr__form_8, 8, 0};
+    if (most >= 4 && tahr__has_avx2()) return (tahr__former){tahr__form_4, 4, 0};
 #if defined(__GNUC__)
-    return (tahr__former){form_2, 2, 0};
-#else
+    /* Two at a time, which every machine has by its compiler's vectors. */
+    if (most >= 2) return (tahr__former){form_2, 2, 0};
+#endif
     return (tahr__former){NULL, 1, 0};
-#endif
-}
-
-tahr__former tahr__former_best(uint32_t simd)
-{
-    if (!simd) return (tahr__former){NULL, 1, 0};
-#if defined(__GNUC__) && defined(__x86_64__)
-    if (__builtin_cpu_supports("avx2")) return (tahr__former){tahr__form_4, 4, 0};
-#endif
-    return tahr__former_of_two();
 }

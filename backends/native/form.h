@@ -21,10 +21,8 @@ static inline tahr__prim *tahr__formed(const tahr__query *query, uint32_t index)
     return prim;
 }
 
-/* Two at a time, which every machine has by its compiler's vectors. */
-tahr__former tahr__former_of_two(void);
-
-/* Lanes of raw triangles; lanes: their first place in its block. */
+/* Lanes of raw triangles; lanes: their first place in its block. Where the processor has AVX2, and AVX-512. */
 void tahr__form_4(const tahr__map *map, const tahr__raw *raw, float *lanes);
+void tahr__form_8(const tahr__map *map, const tahr__raw *raw, float *lanes);
 
 #endif

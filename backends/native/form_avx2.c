@@ -63,7 +63,7 @@ void tahr__form_4(const tahr__map *map, const tahr__raw *raw, float *lanes)
 
 #else
 
-/* Nobody takes it: see tahr__former_best. */
+/* Nobody takes it: see tahr__former_of. */
 void tahr__form_4(const tahr__map *map, const tahr__raw *raw, float *lanes)
 {
     (void)map;

@@ -3,6 +3,7 @@
  * operations in the same order, so they keep the same primitives. */
 #include "lanes.h"
 
+
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #endif
@@ -170,25 +171,29 @@ static uint32_t pick_1(const float *far, const float *lift, uint32_t count, floa
 
 #include "../common/lane_4.h"
 
+#include "lanes_which.h"
+
 #include "lanes_kernel.h"
 
 #endif
 
-const tahr__lanes_way *tahr__lanes_of(uint32_t width)
+const tahr__lanes_way *tahr__lanes_of(uint32_t way)
 {
-    static const tahr__lanes_way one = {cull_1, near_1, measure_1, pick_1, 1, 0};
+    static const tahr__lanes_way one = {cull_1, near_1, measure_1, pick_1, "scalar"};
 #if defined(__GNUC__)
-    static const tahr__lanes_way four = {lanes_cull, lanes_near, lanes_measure, lanes_pick, 4, 0};
-    if (width == 4) return &four;
+    static const tahr__lanes_way four = {lanes_cull, lanes_near, lanes_measure, lanes_pick, "four lanes"};
+    if (way == TAHR__LANES_FOUR) return &four;
 #endif
-    return width == 1 ? &one : width == 8 ? tahr__lanes_of_eight() : NULL;
+    if (way == TAHR__LANES_AVX512) return tahr__lanes_of_avx512();
+    if (way == TAHR__LANES_AVX2) return tahr__lanes_of_avx2();
+    return way == TAHR__LANES_SCALAR ? &one : NULL;
 }
 
 const tahr__lanes_way *tahr__lanes_best(uint32_t no_simd)
 {
-    for (uint32_t width = no_simd ? 1 : 8; width > 1; width /= 2) {
-        const tahr__lanes_way *way = tahr__lanes_of(width);
+    for (uint32_t i = no_simd ? 0 : TAHR__LANES_WAYS - 1; i > TAHR__LANES_SCALAR; i--) {
+        const tahr__lanes_way *way = tahr__lanes_of(i);
         if (way) return way;
     }
-    return tahr__lanes_of(1);
+    return tahr__lanes_of(TAHR__LANES_SCALAR);
 }

@@ -74,7 +74,7 @@ typedef struct tahr__lanes_found {
     uint32_t index;
 } tahr__lanes_found;
 
-/* Writes all of them, in order, and returns how many. */
+/* Writes all of them, in order, and returns how many. found: room for whole blocks. */
 typedef uint32_t tahr__lanes_fn(const tahr__lanes *lanes, const tahr__lanes_query *query, tahr__lanes_found *found);
 
 /* Distances (m), one a primitive, whole blocks of them. */
@@ -89,15 +89,18 @@ typedef struct tahr__lanes_way {
     tahr__lanes_fn *cull, *near;
     tahr__lanes_measure_fn *measure;
     tahr__lanes_pick_fn *pick;
-    uint32_t width, reserved; /* primitives at a time */
+    const char *name;
 } tahr__lanes_way;
 
-/* That wide: 1, the scalar twin; 4, by the vectors of the compiler; 8, with AVX2. NULL: not here. */
-const tahr__lanes_way *tahr__lanes_of(uint32_t width);
-/* lanes_avx2.c */
-const tahr__lanes_way *tahr__lanes_of_eight(void);
+/* The scalar twin; four lanes by the vectors of the compiler; eight with AVX2; eight with AVX-512. */
+enum { TAHR__LANES_SCALAR, TAHR__LANES_FOUR, TAHR__LANES_AVX2, TAHR__LANES_AVX512, TAHR__LANES_WAYS };
+/* NULL: not here. */
+const tahr__lanes_way *tahr__lanes_of(uint32_t way);
+/* lanes_avx2.c, lanes_avx512.c */
+const tahr__lanes_way *tahr__lanes_of_avx2(void);
+const tahr__lanes_way *tahr__lanes_of_avx512(void);
 
-/* The widest that this machine can run; or the scalar twin. */
+/* The fastest that this machine can run; or the scalar twin. */
 const tahr__lanes_way *tahr__lanes_best(uint32_t no_simd);
 
 #endif

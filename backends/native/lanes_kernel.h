@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * lanes_kernel.h: the cull in GCC vector types, for a file that has said how wide they are: WIDTH, lane, mask, splat,
- * bits, larger, root. */
+ * lanes_kernel.h: the cull in GCC vector types, for a file that has said how wide they are (WIDTH, lane, splat, larger,
+ * root) and how it is told which lanes (lanes_which.h: which, no_more, more, any, choose, only, keep). */
 #include <string.h>
 
 static inline lane at(const float *p)
@@ -16,12 +16,6 @@ static inline lane square_gap(const float *block, int axis, lane box_lo, lane bo
          hi = at(block + (TAHR__LANE_HIGH + axis) * TAHR__LANES);
     lane gap = larger(larger(lo - box_hi, box_lo - hi), splat(0));
     return gap * gap;
-}
-
-/* m ? a : b */
-static inline lane choose(mask m, lane a, lane b)
-{
-    return (lane)(((mask)a & m) | ((mask)b & ~m));
 }
 
 static inline lane along(const float *row, const float v[3])
@@ -40,18 +34,18 @@ static inline besides over_of(const float *block, const tahr__lanes_query *q)
     lane zero = splat(0), z = at(n + 2 * TAHR__LANES);
     lane height = along(n, q->start) - at(n + 3 * TAHR__LANES), h_rate = along(n, q->motion);
     lane h = larger(larger(-height, height) - larger(-z, z) * splat(q->half), zero);
-    return (besides){h, zero, choose(height < zero, -h_rate, h_rate), zero};
+    return (besides){h, zero, choose(more(zero, height), -h_rate, h_rate), zero};
 }
 
 static inline void add_beside(const float *block, const tahr__lanes_query *q, besides *b)
 {
     const float *e = block + TAHR__LANE_EDGE * TAHR__LANES;
     lane half = splat(q->half);
-    mask below = at(block + (TAHR__LANE_HIGH + 2) * TAHR__LANES) <= splat(q->lowest);
+    which below = no_more(at(block + (TAHR__LANE_HIGH + 2) * TAHR__LANES), splat(q->lowest));
     for (int k = 0; k < 3; k++, e += 4 * TAHR__LANES) {
         lane z = at(e + 2 * TAHR__LANES), out = along(e, q->start) - at(e + 3 * TAHR__LANES);
         out = out - choose(below, z, larger(-z, z)) * half;
-        b->o_rate = choose(out > b->o, along(e, q->motion), b->o_rate);
+        b->o_rate = choose(more(out, b->o), along(e, q->motion), b->o_rate);
         b->o = larger(out, b->o);
     }
 }
@@ -64,23 +58,13 @@ static inline besides besides_of(const float *block, const tahr__lanes_query *q)
 }
 
 /* As time_within of the scalar twin; near loses what stays out of reach. */
-static inline lane times_within(const besides *b, float reach, mask *near)
+static inline lane times_within(const besides *b, float reach, which *near)
 {
     lane away2 = b->h * b->h + b->o * b->o, gap = away2 - splat(reach) * root(away2);
     lane closing = -(b->h * b->h_rate + b->o * b->o_rate);
-    mask later = gap > splat(0);
-    *near &= ~later | (gap <= closing);
-    return (lane)((mask)(gap / closing) & later);
-}
-
-static inline uint32_t keep(mask near, lane value, uint32_t first, tahr__lanes_found *found)
-{
-    uint32_t kept = 0;
-    for (unsigned left = bits(near); left; left &= left - 1) {
-        unsigned k = (unsigned)__builtin_ctz(left);
-        found[kept++] = (tahr__lanes_found){value[k], first + k};
-    }
-    return kept;
+    which later = more(gap, splat(0));
+    *near = (which)(*near & (~later | no_more(gap, closing)));
+    return only(later, gap / closing);
 }
 
 /* The query's box in every lane. */
@@ -110,11 +94,11 @@ static uint32_t lanes_cull(const tahr__lanes *lanes, const tahr__lanes_query *qu
     uint32_t kept = 0;
     for (uint32_t i = 0; i < lanes->count; i += WIDTH) {
         const float *block = lanes->blocks + tahr__lane(i, 0);
-        mask near = square_gaps(block, &box) <= box.most;
-        if (!bits(near)) continue;
+        which near = no_more(square_gaps(block, &box), box.most);
+        if (!any(near)) continue;
         besides b = over_of(block, query);
-        near &= (b.h <= splat(query->reach)) | (b.h + b.h_rate <= splat(query->reach));
-        if (!bits(near)) continue;
+        near &= no_more(b.h, splat(query->reach)) | no_more(b.h + b.h_rate, splat(query->reach));
+        if (!any(near)) continue;
         add_beside(block, query, &b);
         lane time = times_within(&b, query->reach, &near);
         kept += keep(near, time, i, found + kept);
@@ -129,8 +113,8 @@ static void lanes_measure(const tahr__lanes *lanes, const tahr__lanes_query *que
     for (uint32_t i = 0; i < whole; i += WIDTH) {
         const float *block = lanes->blocks + tahr__lane(i, 0);
         lane away2 = square_gaps(block, &box);
-        mask near = away2 <= box.most;
-        if (bits(near)) {
+        which near = no_more(away2, box.most);
+        if (any(near)) {
             const besides b = besides_of(block, query);
             away2 = choose(near, larger(b.h * b.h + b.o * b.o, away2), away2);
         }
@@ -144,7 +128,7 @@ static uint32_t lanes_pick(const float *far, const float *lift, uint32_t count, 
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i += WIDTH) {
         const lane away = lift ? at(far + i) + at(lift + i) : at(far + i);
-        kept += keep(away <= splat(most), away, i, found + kept);
+        kept += keep(no_more(away, splat(most)), away, i, found + kept);
     }
     return kept;
 }
@@ -156,11 +140,11 @@ static uint32_t lanes_near(const tahr__lanes *lanes, const tahr__lanes_query *qu
     for (uint32_t i = 0; i < lanes->count; i += WIDTH) {
         const float *block = lanes->blocks + tahr__lane(i, 0);
         lane box2 = square_gaps(block, &box);
-        mask near = box2 <= box.most;
-        if (!bits(near)) continue;
+        which near = no_more(box2, box.most);
+        if (!any(near)) continue;
         const besides b = besides_of(block, query);
         lane away = root(larger(b.h * b.h + b.o * b.o, box2));
-        kept += keep(near & (away <= splat(query->reach)), away, i, found + kept);
+        kept += keep(near & no_more(away, splat(query->reach)), away, i, found + kept);
     }
     return kept;
 }

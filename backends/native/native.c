@@ -48,7 +48,7 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
     world->no_fields = d.no_fields;
     world->no_vicinity = d.no_vicinity;
     world->lanes = tahr__lanes_best(d.no_simd);
-    world->former = tahr__former_best(!d.no_simd);
+    world->former = tahr__former_of(d.no_simd ? 1 : TAHR__FORMED);
     world->gather = d.gather;
     world->gather_user = d.gather_user;
     /* Of the user's triangles nothing is known before they are handed over. */

@@ -36,7 +36,7 @@ typedef struct tahr__body {
 } tahr__body;
 
 /* Exact corners of some triangles. */
-enum { TAHR__FORMED = 4 };
+enum { TAHR__FORMED = 8 };
 typedef struct tahr__raw {
     const tahr_vec3 *corner[3][TAHR__FORMED];
 } tahr__raw;
@@ -48,8 +48,8 @@ typedef struct tahr__former {
     uint32_t width, reserved;
 } tahr__former;
 
-/* The fastest that this machine can run, all of the same bits; simd 0: one by one. */
-tahr__former tahr__former_best(uint32_t simd);
+/* The fastest that this machine can run of those that form at most so many at a time, all of the same bits. */
+tahr__former tahr__former_of(uint32_t most);
 
 /* A tree over some of the bodies. */
 typedef struct tahr__group {
