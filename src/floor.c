@@ -162,6 +162,7 @@ static int takes_cached_floor(tahr__step *step)
         return 0;
     }
     step->report.flags |= TAHR_REPORT_CACHED_FLOOR;
+    step->report.saved[TAHR_SHORTCUT_CACHED_FLOOR]++;
     return tahr__decide(step, TAHR_RULE_CACHED_FLOOR, 1, NULL, 0, 0, "neither the character nor the world moved");
 }
 

@@ -173,7 +173,7 @@ static inline int plummet(tahr_mover *mover, const tahr_input *input, double dt,
     if (!ready) {
         write_flight(mover, state, input->jump, dt);
     }
-    tahr__report_short_way(report, f.chords, &context);
+    tahr__report_short_way(report, f.chords, TAHR_SHORTCUT_CLEAR_AIR, &context);
     return 1;
 }
 

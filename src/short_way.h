@@ -81,8 +81,9 @@ static inline int goes_astray(const tahr_mover *mover, vec3 position)
     return mover->company && company_strays(mover->company, position);
 }
 
-/* Of a step that asked for so many sweeps, and nothing came of them. */
-static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, const tahr_query_context *context)
+/* Of a step that asked for so many sweeps, and nothing came of them. shortcut: what spares them. */
+static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, uint32_t shortcut,
+                                          const tahr_query_context *context)
 {
     if (!r) {
         return;
@@ -93,7 +94,11 @@ static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, const
     r->triangle_tests = context->narrow_tests;
     r->narrow_iterations = context->narrow_iterations;
     r->gathers = context->gathers;
-    r->spared = context->spared;
+    r->saved[shortcut] = (uint32_t)context->spared;
+    if (shortcut == TAHR_SHORTCUT_KNOWN_FLOOR) { /* else no foot was asked for */
+        r->saved[TAHR_SHORTCUT_CACHE] = (uint32_t)context->cached;
+        r->saved[TAHR_SHORTCUT_CAPSULE_END] = (uint32_t)context->ends;
+    }
 }
 
 #endif

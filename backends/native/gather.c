@@ -392,7 +392,10 @@ int tahr__cache_holds(const tahr__search *s)
     const tahr__cache *cache = query->cache;
     if (!cache || !cache->gathered || cache->overflow || (query->mask & ~cache->mask)) return 0;
     if (cache->revision != query->world->revision) return 0;
-    if (tahr__cache_spans(cache, &s->box, s->reach)) return 1;
+    if (tahr__cache_spans(cache, &s->box, s->reach)) {
+        query->context->cached++;
+        return 1;
+    }
     query->context->escapes++;
     return 0;
 }
