@@ -61,8 +61,8 @@ static inline int tahr__is_quick(const tahr_mover *mover)
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report)
 {
-    const int traced = report && (report->decisions || report->queries);
-    if (!mover->may_go_short_way || mover->long_way || traced || (mover->company && mover->company->neighbours) ||
+    const int watched = mover->world->recording || (report && (report->decisions || report->queries));
+    if (!mover->may_go_short_way || mover->long_way || watched || (mover->company && mover->company->neighbours) ||
         (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) || !backoff_tries(&mover->short_way)) {
         return 0;
     }
