@@ -16,7 +16,8 @@ typedef struct flight {
     uint32_t chords, apexes;
 } flight;
 
-/* Does all of a motion lie where nothing is, as far as a backend has told? */
+/* Does all of a motion lie where nothing is, as far as a backend has told? A ball holds the way between two places that
+ * it holds. */
 static inline int is_in_clear(const tahr_mover *mover, vec3 from, vec3 to)
 {
     const tahr__clear *clear = &mover->dive.clear;

@@ -72,7 +72,8 @@ static void settle(tahr__step *step)
     }
 }
 
-/* Nothing moves: look at the floor only if something may have changed. looked: this slice did so already. */
+/* Nothing moves: look at the floor only if something may have changed (takes_cached_floor of floor.c). looked: this
+ * slice did so already. */
 static tahr__next stand(tahr__step *step, double time, int looked)
 {
     tahr__next next = {TAHR_MODE_WALKING, 0};
