@@ -156,15 +156,15 @@ enum {
  * CACHE         queries that were answered from what was gathered, without a search of the scene (native and fcl:
  *               no_cache)
  * CAPSULE_END   distances of a capsule that were measured from one of its ends alone (native: no_capsule_ends) */
-#define TAHR_SHORTCUT_TABLE(X)                         \
-    X(TAHR_SHORTCUT_SLEEP, 0, "sleep")                 \
-    X(TAHR_SHORTCUT_DEFERRED, 1, "deferred")           \
-    X(TAHR_SHORTCUT_CALM, 2, "calm")                   \
-    X(TAHR_SHORTCUT_CACHED_FLOOR, 3, "cached_floor")   \
-    X(TAHR_SHORTCUT_BARRED_STEP, 4, "barred_step")     \
-    X(TAHR_SHORTCUT_CLEAR_AIR, 5, "clear_air")         \
-    X(TAHR_SHORTCUT_KNOWN_FLOOR, 6, "known_floor")     \
-    X(TAHR_SHORTCUT_CACHE, 7, "cache")                 \
+#define TAHR_SHORTCUT_TABLE(X)                       \
+    X(TAHR_SHORTCUT_SLEEP, 0, "sleep")               \
+    X(TAHR_SHORTCUT_DEFERRED, 1, "deferred")         \
+    X(TAHR_SHORTCUT_CALM, 2, "calm")                 \
+    X(TAHR_SHORTCUT_CACHED_FLOOR, 3, "cached_floor") \
+    X(TAHR_SHORTCUT_BARRED_STEP, 4, "barred_step")   \
+    X(TAHR_SHORTCUT_CLEAR_AIR, 5, "clear_air")       \
+    X(TAHR_SHORTCUT_KNOWN_FLOOR, 6, "known_floor")   \
+    X(TAHR_SHORTCUT_CACHE, 7, "cache")               \
     X(TAHR_SHORTCUT_CAPSULE_END, 8, "capsule_end")
 
 enum {

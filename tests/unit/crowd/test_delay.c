@@ -80,7 +80,7 @@ static void on_open_ground_the_budget_holds(void **unused)
         assert_true(worst <= budgets[k] + SAME);
         assert_int_equal(deferred, counts_of(&shown).deferred);
         assert_true(deferred > COUNT * TICKS / 4); /* it was not for nothing, */
-        assert_true(k == 0 || worst > 1e-4);                         /* nor because nothing was shown */
+        assert_true(k == 0 || worst > 1e-4);       /* nor because nothing was shown */
         /* Left alone for longer than one step ahead takes, all come to where the exact ones are. */
         for (int tick = 0; tick < 60; tick++) {
             memset(exact.inputs, 0, sizeof *exact.inputs); /* the first one changes its mind once more */

@@ -52,10 +52,10 @@ static void moved_bodies_are_found_where_they_are(void **state)
 
 static void broken_bodies_and_options_are_refused(void **state)
 {
-    const char *const named[] = {"radius is -1", "half_height",         "pose.position",     "pose.orientation",
-                                 "type is 7",    "options.no_vicinity", "options.cache_tri", "options.cache_m",
-                                 "flags is 256", "options.no_cache",    "options.no_simd",   "options.no_fields",
-                                 "options.no_capsule_ends"};
+    const char *const named[] = {
+        "radius is -1",        "half_height",       "pose.position",          "pose.orientation", "type is 7",
+        "options.no_vicinity", "options.cache_tri", "options.cache_m",        "flags is 256",     "options.no_cache",
+        "options.no_simd",     "options.no_fields", "options.no_capsule_ends"};
     (void)state;
     fixture f;
     for (int n = 0; n < 13; n++) {

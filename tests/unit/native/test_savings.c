@@ -123,8 +123,8 @@ static uint64_t compare(uint32_t shortcut, const tahr_body_desc *bodies, uint32_
     return saved;
 }
 
-static const uint32_t SHORTCUTS[] = {TAHR_SHORTCUT_SLEEP,     TAHR_SHORTCUT_CACHED_FLOOR, TAHR_SHORTCUT_BARRED_STEP,
-                                     TAHR_SHORTCUT_CLEAR_AIR, TAHR_SHORTCUT_KNOWN_FLOOR,  TAHR_SHORTCUT_CACHE,
+static const uint32_t SHORTCUTS[] = {TAHR_SHORTCUT_SLEEP,      TAHR_SHORTCUT_CACHED_FLOOR, TAHR_SHORTCUT_BARRED_STEP,
+                                     TAHR_SHORTCUT_CLEAR_AIR,  TAHR_SHORTCUT_KNOWN_FLOOR,  TAHR_SHORTCUT_CACHE,
                                      TAHR_SHORTCUT_CAPSULE_END};
 
 static void compare_all(const tahr_body_desc *bodies, uint32_t count, const tahr_bounds *spawn)
