@@ -194,6 +194,38 @@ static void what_a_box_only_touches_is_met_by_what_keeps_them_apart(void **state
     assert_int_equal(tahr__box_touches(&box, v_make(0.1, 0, -0.2), &f, &w), 0);
 }
 
+/* Upright triangles whose plane holds an upright segment, but for rounding: on which side of it the ends are says
+ * nothing. */
+static void a_segment_in_the_plane_of_a_triangle_is_as_far_as_it_is(void **state)
+{
+    static const double still[3] = {0, 0, 0};
+    (void)state;
+    oracle_random r = {8};
+    int apart = 0;
+    for (int n = 0; n < 20000; n++) {
+        const double turn = oracle_uniform(&r, 0, 6.3), x = cos(turn), y = sin(turn);
+        oracle_core o = {.axis_count = 1};
+        double tri[3][3];
+        for (int k = 0; k < 3; k++)
+            o.centre[k] = oracle_uniform(&r, -2, 2);
+        o.axis[0][2] = oracle_uniform(&r, 0.1, 1);
+        for (int i = 0; i < 3; i++) {
+            const double along = oracle_uniform(&r, -2, 2);
+            tri[i][0] = o.centre[0] + along * x;
+            tri[i][1] = o.centre[1] + along * y;
+            tri[i][2] = oracle_uniform(&r, -4, 4);
+        }
+        tahr__core core = to_core(&o);
+        tahr_vec3 v[3] = {to_vec(tri[0]), to_vec(tri[1]), to_vec(tri[2])};
+        tahr__witness w;
+        tahr__core_distance(&core, to_vec(o.centre), v, &w);
+        const double truth = (double)oracle_distance(&o, still, 0, tri);
+        assert_true(fabs(w.distance - truth) <= 1e-12);
+        apart += truth > 0.01;
+    }
+    assert_true(apart > 5000);
+}
+
 /* Quarters, most of them exact, some off by rounding. */
 static double nearly_quarter(oracle_random *r)
 {
@@ -254,6 +286,7 @@ int main(void)
         cmocka_unit_test(distance_to_slivers_is_exact),
         cmocka_unit_test(way_out_of_a_triangle_is_out_and_shortest),
         cmocka_unit_test(way_out_of_a_box_is_its_nearest_face),
+        cmocka_unit_test(a_segment_in_the_plane_of_a_triangle_is_as_far_as_it_is),
         cmocka_unit_test(the_end_of_an_upright_segment_is_all_of_it_over_and_under_a_triangle),
         cmocka_unit_test(what_a_box_only_touches_is_met_by_what_keeps_them_apart),
     };
