@@ -144,8 +144,8 @@ enum {
 
 /* The shortcuts whose savings a report counts: X(constant, value, name). All are on unless they are switched off, and
  * none changes a bit of a state, but DEFERRED, which a budget of error buys. What each of them counts in a step:
- * SLEEP         1: not computed at all, and nothing else is counted (off: config.sleep)
- * DEFERRED      1: in a crowd, only shown on its way, and nothing else is counted (tahr_member.budget)
+ * SLEEP         1: not computed at all, like the last one, which changed nothing (off: config.sleep)
+ * DEFERRED      1: not computed but shown, on the way of one that was, in a crowd (tahr_member.budget)
  * CALM          1: taken as in a world without bodies that move, carry or are only felt, for none is near: it asks for
  *               no fluid, looks at no body that moves, and sweeps for no sensor (config.short_ways)
  * CACHED_FLOOR  looks for the floor that were not taken, each of them one sweep or more (config.cached_floor)
