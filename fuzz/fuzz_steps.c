@@ -16,7 +16,7 @@ enum { MOST_STEPS = 200, EVENTS = 64, RECORDS = TAHR_MAX_QUERIES_PER_STEP + TAHR
 enum { JUDGED_STEPS = 8, JUDGED_SWEEPS = 8, PLACES = 3 };
 
 static const tahr_native_desc fast = {.struct_size = sizeof fast};
-static const tahr_native_desc plain = {.struct_size = sizeof plain, .no_cache = 1, .no_simd = 1};
+static const tahr_native_desc plain = {.struct_size = sizeof plain, .no_cache = 1, .no_simd = 1, .no_capsule_ends = 1};
 
 /* The same step, in a world with and one without shortcuts. */
 typedef struct twin {
@@ -102,7 +102,7 @@ static int open_twin(twin *t, const scene *s, const tahr_config *config, const t
     for (int i = 0; i < 2; i++) {
         tahr_config c = *config;
         c.sleep = i == 0 ? config->sleep : 0;
-        c.short_ways = i == 0;
+        c.short_ways = c.barred_steps = i == 0;
         t->world[i] = scene_open(s, tahr_backend_v1_native(), i ? &plain : &fast);
         if (!t->world[i] || tahr_mover_create(t->world[i], &c, &t->mover[i]) < 0 ||
             tahr_state_init(&t->state[i], &c, position) < 0)

@@ -211,6 +211,9 @@ tahr_status tahr__step_calmly(tahr_mover *mover, const tahr_input *input, double
         tahr__calm_quit(mover, state);
     } else if (mover->calm.on) {
         end(mover);
+        if (report) {
+            report->saved[TAHR_SHORTCUT_CALM] = 1;
+        }
     }
     return status;
 }

@@ -38,6 +38,7 @@ static void precise(tahr_config *c)
     c->perch_extra = 0.4;
     c->edge_tolerance = 1e-4;
     c->cached_floor = 1;
+    c->barred_steps = 1;
     c->walk_off_ledges = 1;
     c->walk_off_ledges_crouched = 1;
     c->max_speed = 6;
@@ -304,7 +305,7 @@ static const char *bad_contact_field(const tahr_config *c)
                             {"cached_floor", c->cached_floor, 0, 1},
                             {"walk_off_ledges", c->walk_off_ledges, 0, 1},
                             {"walk_off_ledges_crouched", c->walk_off_ledges_crouched, 0, 1},
-                            {"reserved_floor", c->reserved_floor, 0, 0}};
+                            {"barred_steps", c->barred_steps, 0, 1}};
     return bad_range(ranges, sizeof ranges / sizeof ranges[0]);
 }
 

@@ -132,6 +132,9 @@ static int go_on(const tahr__turn *t, const tahr_member *member, tahr_delay *d)
     d->length = ends ? 0 : d->length;
     d->revision = t->mover->world->revision;
     tahr__turn_report(t->report, TAHR_REPORT_DEFERRED);
+    if (t->report) {
+        t->report->saved[TAHR_SHORTCUT_DEFERRED] = 1;
+    }
     t->counts->deferred++;
     return 1;
 }
@@ -250,6 +253,7 @@ static int go_ahead(const tahr__turn *t, const tahr_member *member, tahr_delay *
         t->report->sweeps = report.sweeps + 1;
         t->report->slices = report.slices;
         t->report->triangle_tests = report.triangle_tests;
+        memcpy(t->report->saved, report.saved, sizeof report.saved);
     }
     t->counts->ahead++;
     return 1;

@@ -152,7 +152,8 @@ static int may_move(const tahr_world *world, uint32_t body)
 }
 
 /* bAlwaysCheckFloor and bForceNextFloorCheck: nothing moved since the floor was looked for, nor was the height put
- * right. */
+ * right. What a look answers depends on the place, the world and what the floor was alone; so it would find the same
+ * floor again, which as one that was walkable has only become easier to stay on. */
 static int takes_cached_floor(tahr__step *step)
 {
     const tahr_state *s = &step->state;
@@ -162,6 +163,7 @@ static int takes_cached_floor(tahr__step *step)
         return 0;
     }
     step->report.flags |= TAHR_REPORT_CACHED_FLOOR;
+    step->report.saved[TAHR_SHORTCUT_CACHED_FLOOR]++;
     return tahr__decide(step, TAHR_RULE_CACHED_FLOOR, 1, NULL, 0, 0, "neither the character nor the world moved");
 }
 

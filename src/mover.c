@@ -257,7 +257,9 @@ static void finish_report(tahr__step *step)
     r->narrow_iterations = step->context.narrow_iterations;
     r->gathers = step->context.gathers;
     r->escapes = step->context.escapes;
-    r->spared = step->context.spared;
+    r->saved[TAHR_SHORTCUT_KNOWN_FLOOR] = (uint32_t)step->context.spared;
+    r->saved[TAHR_SHORTCUT_CACHE] = (uint32_t)step->context.cached;
+    r->saved[TAHR_SHORTCUT_CAPSULE_END] = (uint32_t)step->context.ends;
 }
 
 /* Asked to move, nothing in the way that it could have slid along, and yet not moved: held by an overlap. */

@@ -16,7 +16,8 @@ typedef struct flight {
     uint32_t chords, apexes;
 } flight;
 
-/* Does all of a motion lie where nothing is, as far as a backend has told? */
+/* Does all of a motion lie where nothing is, as far as a backend has told? A ball holds the way between two places that
+ * it holds. */
 static inline int is_in_clear(const tahr_mover *mover, vec3 from, vec3 to)
 {
     const tahr__clear *clear = &mover->dive.clear;
@@ -174,7 +175,7 @@ static inline int plummet(tahr_mover *mover, const tahr_input *input, double dt,
     if (!ready) {
         write_flight(mover, state, input->jump, dt);
     }
-    tahr__report_short_way(report, f.chords, &context);
+    tahr__report_short_way(report, f.chords, TAHR_SHORTCUT_CLEAR_AIR, &context);
     return 1;
 }
 

@@ -122,6 +122,11 @@ void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 moti
     }
 }
 
+void tahr__sweep_barred(tahr__step *step)
+{
+    step->report.saved[TAHR_SHORTCUT_BARRED_STEP] += (uint32_t)may_ask(step);
+}
+
 uint32_t tahr__sensors(tahr__step *step, vec3 from, vec3 motion, uint32_t ignore_body, tahr_hit *hits,
                        uint32_t capacity)
 {

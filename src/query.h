@@ -10,6 +10,10 @@
 void tahr__sweep(tahr__step *step, const tahr_shape *shape, vec3 from, vec3 motion, double margin, uint32_t flags,
                  tahr_hit *hit);
 
+/* Of a sweep that is not asked, because it is known that it blocks at once: counts as one of those that a step may ask,
+ * so that the cap is reached where it is with config.barred_steps 0, and as saved by that shortcut. */
+void tahr__sweep_barred(tahr__step *step);
+
 /* The sensors that the character's shape passes on a motion or is inside of, the first contact with each, ordered by
  * (start_overlap, fraction, body): what start_overlap says it was inside of at the start. Returns the count. One sweep,
  * on top of those that a step may ask. */

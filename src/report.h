@@ -30,7 +30,7 @@ static inline void tahr__report_begin(tahr_report *r, const tahr_report *user)
 static inline void tahr__report_clear(tahr_report *r)
 {
     char *from = (char *)&r->events_lost;
-    enum { SIZE = sizeof *r - offsetof(tahr_report, events_lost), PIECE = 64 };
+    enum { SIZE = sizeof *r - offsetof(tahr_report, events_lost), PIECE = 80 };
     _Static_assert(SIZE == 2 * PIECE, "two pieces");
     r->flags = 0;
     r->event_capacity = r->events ? r->event_capacity : 0;

@@ -62,8 +62,8 @@ static inline int tahr__is_quick(const tahr_mover *mover)
 static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,
                                      tahr_report *report)
 {
-    const int traced = report && (report->decisions || report->queries);
-    if (!mover->may_go_short_way || mover->long_way || traced || (mover->company && mover->company->neighbours) ||
+    const int watched = mover->world->recording || (report && (report->decisions || report->queries));
+    if (!mover->may_go_short_way || mover->long_way || watched || (mover->company && mover->company->neighbours) ||
         (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) || !backoff_tries(&mover->short_way)) {
         return 0;
     }
@@ -82,8 +82,9 @@ static inline int goes_astray(const tahr_mover *mover, vec3 position)
     return mover->company && company_strays(mover->company, position);
 }
 
-/* Of a step that asked for so many sweeps, and nothing came of them. */
-static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, const tahr_query_context *context)
+/* Of a step that asked for so many sweeps, and nothing came of them. shortcut: what spares them. */
+static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, uint32_t shortcut,
+                                          const tahr_query_context *context)
 {
     if (!r) {
         return;
@@ -94,7 +95,11 @@ static inline void tahr__report_short_way(tahr_report *r, uint32_t sweeps, const
     r->triangle_tests = context->narrow_tests;
     r->narrow_iterations = context->narrow_iterations;
     r->gathers = context->gathers;
-    r->spared = context->spared;
+    r->saved[shortcut] = (uint32_t)context->spared;
+    if (shortcut == TAHR_SHORTCUT_KNOWN_FLOOR) { /* else no foot was asked for */
+        r->saved[TAHR_SHORTCUT_CACHE] = (uint32_t)context->cached;
+        r->saved[TAHR_SHORTCUT_CAPSULE_END] = (uint32_t)context->ends;
+    }
 }
 
 #endif

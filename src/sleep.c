@@ -26,13 +26,11 @@ static void tell(const tahr__sleep *s, tahr_report *report)
     if (!report) {
         return;
     }
-    const uint32_t size = report->struct_size;
-    tahr_event *events = report->events;
-    *report = s->report;
-    report->struct_size = size;
-    report->events = events;
+    const size_t counts = offsetof(tahr_report, event_capacity); /* the arrays before it are the caller's */
+    report->flags = s->report.flags;
+    memcpy((char *)report + counts, (const char *)&s->report + counts, sizeof *report - counts);
     for (uint32_t i = 0; i < s->report.event_count; i++) {
-        events[i] = s->events[i];
+        report->events[i] = s->events[i];
     }
 }
 
@@ -109,7 +107,8 @@ void tahr__sleep_note(tahr_mover *mover, const tahr__step *step, double dt, cons
                               .slices = r->slices,
                               .step_offset = r->step_offset,
                               .residual = r->residual,
-                              .time_lost = r->time_lost};
+                              .time_lost = r->time_lost,
+                              .saved[TAHR_SHORTCUT_SLEEP] = 1};
     if (r->event_count > 0) {
         memcpy(s->events, r->events, r->event_count * sizeof s->events[0]);
     }

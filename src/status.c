@@ -59,3 +59,14 @@ const char *tahr_rule_name(uint32_t rule)
     default: return "?";
     }
 }
+
+const char *tahr_shortcut_name(uint32_t shortcut)
+{
+    switch (shortcut) {
+#define NAME(constant, value, name) \
+    case constant: return name;
+        TAHR_SHORTCUT_TABLE(NAME)
+#undef NAME
+    default: return "?";
+    }
+}

@@ -60,7 +60,7 @@ static int blocks_raised(const tahr__step *step, vec3 motion, const tahr_hit *ob
     double into = -dot(motion, obstacle->normal) / size, over = max_of(at - l->axis, 0);
     int straight = l->shape.type == TAHR_SHAPE_SPHERE || l->shape.type == TAHR_SHAPE_CAPSULE;
     int side = lean < nearly && lean > -nearly && at - lift >= -l->axis && into > against;
-    if (!side || !straight || step->config->separation != TAHR_SEPARATION_MARGIN) {
+    if (!side || !straight || !step->config->barred_steps || step->config->separation != TAHR_SEPARATION_MARGIN) {
         return 0;
     }
     if (lean < upright && lean > -upright) {
@@ -99,6 +99,7 @@ static int forward(tahr__step *step, vec3 motion, const tahr_hit *obstacle, atte
 {
     tahr_hit ahead;
     if (blocks_raised(step, motion, obstacle, a->lift)) {
+        tahr__sweep_barred(step);
         return refuse(step, obstacle, 0, 0, "blocked at step height too");
     }
     a->covered = free_ahead(step, motion, a->lift, &ahead);

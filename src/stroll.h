@@ -187,7 +187,7 @@ static inline int stroll(tahr_mover *mover, const tahr_input *input, double dt, 
     if (context.gathers) {
         mover->gathers = 0;
     }
-    tahr__report_short_way(report, 2, &context);
+    tahr__report_short_way(report, 2, TAHR_SHORTCUT_KNOWN_FLOOR, &context);
     return 1;
 }
 

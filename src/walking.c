@@ -72,7 +72,8 @@ static void settle(tahr__step *step)
     }
 }
 
-/* Nothing moves: look at the floor only if something may have changed. looked: this slice did so already. */
+/* Nothing moves: look at the floor only if something may have changed (takes_cached_floor of floor.c). looked: this
+ * slice did so already. */
 static tahr__next stand(tahr__step *step, double time, int looked)
 {
     tahr__next next = {TAHR_MODE_WALKING, 0};
@@ -85,6 +86,7 @@ static tahr__next stand(tahr__step *step, double time, int looked)
     int moved = (step->state.flags & TAHR_STATE_FLOOR_MOVED) != 0;
     if (step->config->cached_floor && !moved && floor_is_current(step)) {
         step->report.flags |= TAHR_REPORT_CACHED_FLOOR;
+        step->report.saved[TAHR_SHORTCUT_CACHED_FLOOR]++;
         tahr__decide(step, TAHR_RULE_CACHED_FLOOR, 1, NULL, 0, 0, "neither the character nor the world moved");
         step->time += time;
         return next;

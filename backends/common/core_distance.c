@@ -109,14 +109,19 @@ double tahr__segment_segment(tahr_vec3 p0, tahr_vec3 p1, tahr_vec3 q0, tahr_vec3
     return v_dot(d, d);
 }
 
-/* Does the line a b pass through the triangle? The ends are known to be on opposite sides of its plane. */
-static int pierces(tahr_vec3 a, tahr_vec3 b, const tahr_vec3 v[3])
+/* Does the segment a b, whose ends are on opposite sides of the triangle's plane, pass through the triangle, and at p?
+ * Of one that lies in that plane the sides are rounding, and p may be far from it. */
+static int pierces(tahr_vec3 a, tahr_vec3 b, tahr_vec3 p, const tahr__facet *f)
 {
+    const tahr_vec3 *v = f->v;
     tahr_vec3 d = v_sub(b, a);
     double side[3];
     for (int i = 0; i < 3; i++)
         side[i] = v_dot(d, v_cross(v_sub(v[i], a), v_sub(v[(i + 1) % 3], a)));
-    return (side[0] >= 0 && side[1] >= 0 && side[2] >= 0) || (side[0] <= 0 && side[1] <= 0 && side[2] <= 0);
+    if (!((side[0] >= 0 && side[1] >= 0 && side[2] >= 0) || (side[0] <= 0 && side[1] <= 0 && side[2] <= 0))) return 0;
+    tahr__witness w;
+    tahr__point_facet(p, f, &w);
+    return w.distance <= CLEAR;
 }
 
 static void keep_nearer(tahr__witness *out, const tahr__witness *w)
@@ -185,11 +190,14 @@ static void segment_facet(tahr_vec3 a, tahr_vec3 b, const tahr__facet *f, tahr__
     const tahr_vec3 *v = f->v;
     tahr_vec3 n = f->cross;
     double ha = v_dot(n, v_sub(a, v[0])), hb = v_dot(n, v_sub(b, v[0]));
-    if (((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) && pierces(a, b, v)) {
-        out->distance = 0;
-        out->feature = TAHR__FACE;
-        out->point = v_mad(a, v_sub(b, a), ha / (ha - hb));
-        return;
+    if ((ha > 0 && hb < 0) || (ha < 0 && hb > 0)) {
+        const tahr_vec3 p = v_mad(a, v_sub(b, a), ha / (ha - hb));
+        if (pierces(a, b, p, f)) {
+            out->distance = 0;
+            out->feature = TAHR__FACE;
+            out->point = p;
+            return;
+        }
     }
     /* The end nearer to the plane first: most often it is the nearest point, and the rest is not looked at. */
     tahr_vec3 near = fabs(hb) < fabs(ha) ? b : a, far = fabs(hb) < fabs(ha) ? a : b;

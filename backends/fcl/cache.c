@@ -73,6 +73,7 @@ int tahr__fcl_cache_find(const tahr__fcl_query *query, const tahr_bounds *box, c
         query->query.context->escapes++;
         return 0;
     }
+    query->query.context->cached++;
     *parts = c->parts;
     *count = c->count;
     return 1;

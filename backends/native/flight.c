@@ -16,7 +16,9 @@ enum { ITERATIONS = 64 };
 #define ACROSS 1e-12
 
 /* To a triangle wholly below the lower end of an upright segment that end is the nearest, to one wholly above it the
- * upper one: exact, and a third of the work. */
+ * upper one, and a third of the work: of two points over each other that are both above a point of the triangle the
+ * lower one is nearer, and tahr__facet_distance comes to that end by the same operations (no_capsule_ends). Of what
+ * touches it rounding decides which part is nearest: there the whole is measured. */
 void tahr__flight_measure(const tahr__query *query, const tahr__prim *prim, tahr_vec3 centre, tahr__witness *out)
 {
     const tahr_vec3 *v = prim->facet.v;
@@ -26,9 +28,13 @@ void tahr__flight_measure(const tahr__query *query, const tahr__prim *prim, tahr
         double half = query->core.axis[0].z;
         tahr_vec3 low = v_make(centre.x, centre.y, centre.z - half), high = v_make(centre.x, centre.y, centre.z + half);
         int below = v[0].z <= low.z && v[1].z <= low.z && v[2].z <= low.z;
-        if (below || (v[0].z >= high.z && v[1].z >= high.z && v[2].z >= high.z)) {
+        int above = v[0].z >= high.z && v[1].z >= high.z && v[2].z >= high.z;
+        if ((below | above) && !query->world->no_capsule_ends) {
             tahr__point_facet(below ? low : high, &prim->facet, out);
-            return;
+            if (out->distance > TAHR__BLURRED) {
+                query->context->ends++;
+                return;
+            }
         }
     }
     tahr__facet_distance(&query->core, centre, &prim->facet, out);

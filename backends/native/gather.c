@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: MIT
  * gather.c: one character's cache of nearby static primitives, and the search that uses it where it holds
- * everything. */
+ * everything.
+ *
+ * What a query meets is within its reach of its box. All that overlaps the gathered box was gathered, so where that box
+ * spans the other and its reach nothing is missing; each query looks whether it does, whatever was announced, and else
+ * asks the trees. What is too much decides nothing, for each primitive is decided alone and ties go by names; and what
+ * is kept is what would be gathered again: it holds for one revision of the world and one frame, which alone decide its
+ * bits (no_cache). */
 #include "form.h"
 #include "level.h"
 
@@ -398,7 +404,10 @@ int tahr__cache_holds(const tahr__search *s)
     const tahr__cache *cache = query->cache;
     if (!cache || !cache->gathered || cache->overflow || (query->mask & ~cache->mask)) return 0;
     if (cache->revision != query->world->revision) return 0;
-    if (tahr__cache_spans(cache, &s->box, s->reach)) return 1;
+    if (tahr__cache_spans(cache, &s->box, s->reach)) {
+        query->context->cached++;
+        return 1;
+    }
     query->context->escapes++;
     return 0;
 }

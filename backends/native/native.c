@@ -28,6 +28,12 @@ static const char *bad_option(const tahr_native_desc *d)
     if (d->no_vicinity > 1) {
         return "options.no_vicinity is neither 0 nor 1";
     }
+    if (d->no_capsule_ends > 1) {
+        return "options.no_capsule_ends is neither 0 nor 1";
+    }
+    if (d->reserved) {
+        return "options.reserved is not 0";
+    }
     return d->cache_margin >= 0 && d->cache_margin <= 1e3 ? NULL : "options.cache_margin is not within 0 and 1000 m";
 }
 
@@ -47,6 +53,7 @@ static tahr_status read_options(const tahr_host *host, const void *options, tahr
     world->no_cache = d.no_cache;
     world->no_fields = d.no_fields;
     world->no_vicinity = d.no_vicinity;
+    world->no_capsule_ends = d.no_capsule_ends;
     world->lanes = tahr__lanes_best(d.no_simd);
     world->former = tahr__former_of(d.no_simd ? 1 : TAHR__FORMED);
     world->gather = d.gather;

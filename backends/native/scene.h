@@ -67,7 +67,8 @@ typedef struct tahr__native {
     uint32_t no_cache;
     uint32_t fixed_margin; /* 1: cache_margin is the margin, 0: the most it may be */
     uint32_t no_fields;    /* 1: meshes stay meshes */
-    uint32_t no_vicinity;
+    uint32_t no_vicinity, no_capsule_ends;
+    uint32_t reserved;
     const tahr__lanes_way *lanes;
     tahr__former former;
     double cache_margin;

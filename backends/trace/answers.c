@@ -70,6 +70,8 @@ static void charge(const tahr_trace_reader *r, tahr_query_context *context)
     context->gathers += cost->gathers;
     context->escapes += cost->escapes;
     context->spared += cost->spared;
+    context->cached += cost->cached;
+    context->ends += cost->ends;
 }
 
 /* Of a file that lies no more than there is room for. */

@@ -95,6 +95,8 @@ static void get_cost(tahr_trace_reader *r)
     cost->gathers = tahr__trace_get(&r->in, "a number of gathers");
     cost->escapes = tahr__trace_get(&r->in, "a number of escapes");
     cost->spared = tahr__trace_get(&r->in, "a number of spared sweeps");
+    cost->cached = tahr__trace_get(&r->in, "a number of cached queries");
+    cost->ends = tahr__trace_get(&r->in, "a number of ends");
 }
 
 /* How the answer was; how many follow is checked. */

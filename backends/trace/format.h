@@ -7,7 +7,7 @@
 
 #define TAHR__TRACE_MAGIC "TAHRTRC"
 enum {
-    TAHR__TRACE_VERSION = 3,
+    TAHR__TRACE_VERSION = 4,
     TAHR__TRACE_BLOCK = 1 << 16,  /* bytes after which a block is written */
     TAHR__TRACE_RECORD = 1 << 15, /* bytes that no record is longer than: 128 hits are 18 kB */
     TAHR__TRACE_BUFFER = TAHR__TRACE_BLOCK + TAHR__TRACE_RECORD,

@@ -19,6 +19,8 @@ static void put_cost(tahr_trace *trace, const tahr_query_context *before, const 
     tahr__trace_put(&trace->out, after->gathers - before->gathers);
     tahr__trace_put(&trace->out, after->escapes - before->escapes);
     tahr__trace_put(&trace->out, after->spared - before->spared);
+    tahr__trace_put(&trace->out, after->cached - before->cached);
+    tahr__trace_put(&trace->out, after->ends - before->ends);
 }
 
 static int is_work(const tahr_query_context *before, const tahr_query_context *after)

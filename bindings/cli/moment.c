@@ -60,7 +60,9 @@ static void count_report(struct run *run, const struct moment *m, const tahr_sta
     r->triangle_tests += report->triangle_tests;
     r->gathers += report->gathers;
     r->escapes += report->escapes;
-    r->spared += report->spared;
+    for (uint32_t i = 0; i < TAHR_SHORTCUT_COUNT; i++) {
+        r->saved[i] += report->saved[i];
+    }
     r->most_queries = queries > r->most_queries ? queries : r->most_queries;
     r->modes[state->mode < MODES ? state->mode : TAHR_MODE_NONE]++;
     r->unknown += (report->flags & TAHR_REPORT_UNKNOWN) != 0;

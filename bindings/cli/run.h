@@ -24,9 +24,10 @@ struct result {
     uint64_t steps; /* of all characters */
     struct times times;
     double clock_cost; /* ns, taken off every step's time */
-    uint64_t sweeps, contact_queries, rays, triangle_tests, gathers, escapes, spared;
-    uint32_t most_queries; /* in one step */
-    uint64_t modes[MODES]; /* steps that ended in each mode */
+    uint64_t sweeps, contact_queries, rays, triangle_tests, gathers, escapes;
+    uint64_t saved[TAHR_SHORTCUT_COUNT]; /* as tahr_report.saved */
+    uint32_t most_queries;               /* in one step */
+    uint64_t modes[MODES];               /* steps that ended in each mode */
     uint64_t events[EVENT_TYPES];
     uint64_t fell_out, stuck, hung, bad_states, unknown, query_caps;
     double time_lost; /* s */

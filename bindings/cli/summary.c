@@ -14,6 +14,19 @@ static double per_step(const struct result *r, uint64_t count)
     return r->steps ? (double)count / (double)r->steps : 0;
 }
 
+/* By every shortcut that was of use, per step. */
+static void words_saved(const struct result *r)
+{
+    const char *between = "  saved      ";
+    for (uint32_t i = 0; i < TAHR_SHORTCUT_COUNT; i++) {
+        if (r->saved[i] > 0) {
+            printf("%s%s %.3g", between, tahr_shortcut_name(i), per_step(r, r->saved[i]));
+            between = ", ";
+        }
+    }
+    puts(*between == ',' ? " per step" : "  saved      nothing");
+}
+
 static void words_check(const struct options *o, const struct result *r)
 {
     if (o->check == CHECK_OFF) {
@@ -101,10 +114,9 @@ void summary_words(const struct options *o, const struct level *level, const str
            " steps, %.3g us median, %.3g us p99, %.3g us worst (net of the clock's own %.0f ns)\n",
            r->steps, times_quantile(&r->times, 0.5) / 1e3, times_quantile(&r->times, 0.99) / 1e3,
            (double)r->times.greatest / 1e3, r->clock_cost);
-    printf("  queries    %.2f sweeps (%.2f spared), %.2f contact queries, %.1f triangle tests per step; at most %u "
-           "queries in one\n",
-           per_step(r, r->sweeps), per_step(r, r->spared), per_step(r, r->contact_queries),
-           per_step(r, r->triangle_tests), r->most_queries);
+    printf("  queries    %.2f sweeps, %.2f contact queries, %.1f triangle tests per step; at most %u queries in one\n",
+           per_step(r, r->sweeps), per_step(r, r->contact_queries), per_step(r, r->triangle_tests), r->most_queries);
+    words_saved(r);
     printf("  movement   %.1f %% on the ground, %" PRIu64 " steps climbed, %" PRIu64 " descended, %" PRIu64
            " jumps, %" PRIu64 " landings\n",
            100 * per_step(r, r->modes[TAHR_MODE_WALKING]), r->events[TAHR_EVENT_STEPPED_UP],
@@ -182,7 +194,11 @@ static void put_cost(json_t *object, const struct result *r)
     put_real(object, "triangle_tests_per_step", per_step(r, r->triangle_tests));
     put_real(object, "gathers_per_step", per_step(r, r->gathers));
     put_real(object, "escapes_per_step", per_step(r, r->escapes));
-    put_real(object, "spared_sweeps_per_step", per_step(r, r->spared));
+    json_t *saved = json_object();
+    for (uint32_t i = 0; i < TAHR_SHORTCUT_COUNT; i++) {
+        put_real(saved, tahr_shortcut_name(i), per_step(r, r->saved[i]));
+    }
+    json_object_set_new(object, "saved_per_step", saved);
     put_count(object, "most_queries", r->most_queries);
     put_count(object, "world_bytes", r->world_bytes);
     put_real(object, "load_seconds", r->load_seconds);

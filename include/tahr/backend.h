@@ -61,6 +61,8 @@ typedef struct tahr_query_context {
     uint64_t gathers;           /* times local geometry was gathered */
     uint64_t escapes;           /* queries whose box left the gathered one */
     uint64_t spared;            /* sweeps answered from what was known of the place, without a look at the scene */
+    uint64_t cached;            /* queries answered from what was gathered, without a search of the scene */
+    uint64_t ends;              /* distances of a capsule measured from one end of it alone */
 } tahr_query_context;
 
 /* What a walk slot knows: it is not known, or not so, what *hit holds then means nothing; nothing blocks the motion,

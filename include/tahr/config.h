@@ -118,7 +118,9 @@ typedef struct tahr_config {
     uint32_t cached_floor;
     uint32_t walk_off_ledges;          /* [1] 0: stop at ledges instead of falling */
     uint32_t walk_off_ledges_crouched; /* [1 | 0] */
-    uint32_t reserved_floor;           /* 0 */
+    /* [1] 0: with TREAD and MARGIN, asks what is ahead at step height also where the side of the wall that was met is
+     * seen to be in the way up there too. The same step, as far as the backend's answers agree with each other */
+    uint32_t barred_steps;
 
     /* Walking */
     double max_speed;            /* m/s [6] */

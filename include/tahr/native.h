@@ -50,6 +50,8 @@ typedef struct tahr_native_desc {
     uint32_t no_cache;        /* 1: every query walks the tree; same bits */
     uint32_t no_simd;         /* 1: the scalar twin; same bits */
     uint32_t no_fields;       /* 1: a mesh that is a field of heights stays a mesh (tahr_world_describe); same bits */
+    uint32_t no_capsule_ends; /* 1: a capsule is measured as a whole, also where an end of it is nearest; same bits */
+    uint32_t reserved;        /* 0 */
     double cache_margin;      /* m around the announced box, 0..1000; 0: by how dense the scene is there, at most 1 */
     /* NULL: the described bodies are all there is. Else these triangles besides them (which may be none): they answer
      * bit for bit as a mesh of them would. They carry nobody and are no sensors: describe what moves, and sensors, as

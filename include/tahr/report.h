@@ -142,6 +142,38 @@ enum {
     TAHR_REPORT_TIME_LOST = 1 << 13     /* a part of the step was not simulated: time_lost is not 0 */
 };
 
+/* The shortcuts whose savings a report counts: X(constant, value, name). All are on unless they are switched off, and
+ * none changes a bit of a state, but DEFERRED, which a budget of error buys. What each of them counts in a step:
+ * SLEEP         1: not computed at all, like the last one, which changed nothing (off: config.sleep)
+ * DEFERRED      1: not computed but shown, on the way of one that was, in a crowd (tahr_member.budget)
+ * CALM          1: taken as in a world without bodies that move, carry or are only felt, for none is near: it asks for
+ *               no fluid, looks at no body that moves, and sweeps for no sensor (config.short_ways)
+ * CACHED_FLOOR  looks for the floor that were not taken, each of them one sweep or more (config.cached_floor)
+ * BARRED_STEP   sweeps at step height that were not asked, at least (config.barred_steps)
+ * CLEAR_AIR     sweeps of rises and falls that were answered by how far all is (config.short_ways)
+ * KNOWN_FLOOR   sweeps of walks and feet that were answered by the plane of the floor and what is known around it,
+ *               without a look at anything else (native: no_vicinity; of whole walks config.short_ways)
+ * CACHE         queries that were answered from what was gathered, without a search of the scene (native and fcl:
+ *               no_cache)
+ * CAPSULE_END   distances of a capsule that were measured from one of its ends alone (native: no_capsule_ends) */
+#define TAHR_SHORTCUT_TABLE(X)                       \
+    X(TAHR_SHORTCUT_SLEEP, 0, "sleep")               \
+    X(TAHR_SHORTCUT_DEFERRED, 1, "deferred")         \
+    X(TAHR_SHORTCUT_CALM, 2, "calm")                 \
+    X(TAHR_SHORTCUT_CACHED_FLOOR, 3, "cached_floor") \
+    X(TAHR_SHORTCUT_BARRED_STEP, 4, "barred_step")   \
+    X(TAHR_SHORTCUT_CLEAR_AIR, 5, "clear_air")       \
+    X(TAHR_SHORTCUT_KNOWN_FLOOR, 6, "known_floor")   \
+    X(TAHR_SHORTCUT_CACHE, 7, "cache")               \
+    X(TAHR_SHORTCUT_CAPSULE_END, 8, "capsule_end")
+
+enum {
+#define TAHR_SHORTCUT_ENUM(constant, value, name) constant = (value),
+    TAHR_SHORTCUT_TABLE(TAHR_SHORTCUT_ENUM)
+#undef TAHR_SHORTCUT_ENUM
+        TAHR_SHORTCUT_COUNT = 9
+};
+
 /* The most queries one step may ask, whatever the world answers; then it stops where it is and says so. */
 #define TAHR_MAX_QUERIES_PER_STEP 256u
 
@@ -159,6 +191,8 @@ typedef struct tahr_report {
     uint32_t decision_capacity, decision_count, decisions_lost;
     tahr_query_record *queries;
     uint32_t query_capacity, query_count, queries_lost;
+    /* Queries of the movement, whoever answers them: those of CLEAR_AIR, KNOWN_FLOOR and CACHE are among them, those
+     * that were not asked are not. */
     uint32_t sweeps;
     uint32_t contact_queries;
     uint32_t rays;
@@ -170,8 +204,8 @@ typedef struct tahr_report {
     uint64_t narrow_iterations;
     uint64_t gathers;
     uint64_t escapes;
-    uint64_t spared;    /* of the sweeps, those answered by what was known of the place; a cached floor and sleep, which
-                      * ask nothing at all, are flags */
+    uint32_t saved[TAHR_SHORTCUT_COUNT]; /* by each of TAHR_SHORTCUT_* */
+    uint32_t reserved;                   /* 0 */
     double step_offset; /* m along up: sudden rise or drop by steps and snaps, for smoothing what is shown */
     double residual;    /* m, deepest overlap that is left */
     double time_lost; /* s, not simulated because a cap was reached or nothing could be moved; then TIME_LOST is set */
@@ -180,6 +214,7 @@ typedef struct tahr_report {
 /* "landed", "step_up"; "?" for a number that is none. Static memory. May run on several threads. Since 0.1. */
 TAHR_API const char *tahr_event_name(uint32_t type);
 TAHR_API const char *tahr_rule_name(uint32_t rule);
+TAHR_API const char *tahr_shortcut_name(uint32_t shortcut);
 
 #ifdef __cplusplus
 }

@@ -247,6 +247,7 @@ static void caches_and_simd_change_nothing(void **state)
         {"no cache", {.no_cache = 1}},
         {"no simd", {.no_simd = 1}},
         {"no vicinity", {.no_vicinity = 1}},
+        {"no capsule ends", {.no_capsule_ends = 1}},
         {"neither", {.no_cache = 1, .no_simd = 1}},
         {"a cache of 8 triangles", {.cache_triangles = 8}},
         {"a margin of 3 m", {.cache_margin = 3}},

@@ -202,6 +202,7 @@ static tahr_status open_world(const subject_request *r, opened *o)
                                      .no_cache = (r->without & WITHOUT_CACHE) != 0,
                                      .no_simd = (r->without & WITHOUT_LANES) != 0,
                                      .no_vicinity = (r->without & WITHOUT_SHORT_WAYS) != 0,
+                                     .no_capsule_ends = (r->without & WITHOUT_SHORT_WAYS) != 0,
                                      .gather = r->without & GATHERED ? gather : NULL,
                                      .gather_user = &o->gathered};
     const liar_desc liar = {sizeof liar, s->lie, r->seed};
@@ -259,7 +260,7 @@ tahr_status subject_open(const subject_request *r, opened *o)
     tahr_status status = open_world(r, o);
     if (r->without & WITHOUT_CACHED_FLOOR) config.cached_floor = 0;
     if (r->without & WITHOUT_SLEEP) config.sleep = 0;
-    if (r->without & WITHOUT_SHORT_WAYS) config.short_ways = 0;
+    if (r->without & WITHOUT_SHORT_WAYS) config.short_ways = config.barred_steps = 0;
     if (status >= 0) {
         tahr_world *inside = engine_inside(o->world);
         o->bodies = inside ? inside : o->world;

@@ -85,9 +85,11 @@ tahr_status recording_end(tahr_trace *trace, tahr_world *world)
 
 void recording_count(recording_counts *counts, const tahr_report *r)
 {
-    const uint64_t step[RECORDING_COUNTS] = {r->sweeps,        r->contact_queries, r->rays,
-                                             r->fluid_queries, r->triangle_tests,  r->narrow_iterations,
-                                             r->gathers,       r->escapes,         r->spared};
+    uint64_t step[RECORDING_COUNTS] = {r->sweeps,         r->contact_queries,   r->rays,    r->fluid_queries,
+                                       r->triangle_tests, r->narrow_iterations, r->gathers, r->escapes};
+    for (int i = 0; i < TAHR_SHORTCUT_COUNT; i++) {
+        step[8 + i] = r->saved[i];
+    }
     for (int i = 0; i < RECORDING_COUNTS; i++) {
         counts->sum[i] += step[i];
         counts->hash = (counts->hash ^ step[i]) * 0x100000001B3u;

@@ -24,8 +24,8 @@ tahr_trace *recording_begin(recording *r, tahr_world *world, uint32_t flags);
 tahr_status recording_end(tahr_trace *trace, tahr_world *world);
 
 /* Sums of what reports count: sweeps, contact queries, rays, fluid queries, triangle tests, narrow iterations, gathers,
- * escapes, spared sweeps; and a hash of each step's, in order. */
-enum { RECORDING_COUNTS = 9 };
+ * escapes, and what each shortcut saved; and a hash of each step's, in order. */
+enum { RECORDING_COUNTS = 8 + TAHR_SHORTCUT_COUNT };
 typedef struct recording_counts {
     uint64_t sum[RECORDING_COUNTS];
     uint64_t hash;

@@ -56,6 +56,7 @@ COLUMNS = [
     ("queries", "queries"),
     ("tests", "tests"),
     ("iterations", "iterations"),
+    ("saved", "saved"),
     ("bytes", "bytes / triangle"),
     ("build_s", "open, s"),
     ("threads", "threads"),

@@ -283,7 +283,8 @@ def shortcut_charts(rows: Sequence[Row]) -> list[Chart]:
         caption = (
             f"What each shortcut buys, {describe_walk(scene)}: the time of a step, and what it asks and tests, with "
             "the shortcut switched off over that with it on, measured in turns. Right of 1 it pays; no dot: with "
-            "it there is nothing left to ask. The table says whether the characters ended at the same bits"
+            "it there is nothing left to ask. The table says whether the characters ended at the same bits, and what "
+            "the shortcut counted of its savings in a step (report.h says of each what it counts)"
             + (", and what it buys in memory and in opening the world." if any(r.bytes > 0 for r in on.values()) else ".")
         )
         charts.append(

@@ -8,10 +8,10 @@
 void chart_row_clear(chart_row *row)
 {
     *row = (chart_row){.scene = "", .curve = "", .setting = "", .role = CHART_KNOB, .reference = ""};
-    double *const empty[] = {&row->value,      &row->rate,        &row->error_p50,     &row->error_p99,
-                             &row->error_max,  &row->penetration, &row->ns_p50,        &row->ns_p99,
-                             &row->ns_mean,    &row->ns_second,   &row->queries,       &row->tests,
-                             &row->iterations, &row->bytes,       &row->build_seconds, &row->threads};
+    double *const empty[] = {&row->value,         &row->rate,   &row->error_p50,  &row->error_p99, &row->error_max,
+                             &row->penetration,   &row->ns_p50, &row->ns_p99,     &row->ns_mean,   &row->ns_second,
+                             &row->queries,       &row->tests,  &row->iterations, &row->saved,     &row->bytes,
+                             &row->build_seconds, &row->threads};
     for (size_t i = 0; i < sizeof empty / sizeof empty[0]; i++) {
         *empty[i] = NAN;
     }
@@ -20,8 +20,8 @@ void chart_row_clear(chart_row *row)
 void chart_row_head(FILE *csv)
 {
     fprintf(csv, "family,scene,curve,setting,value,rate_hz,role,reference,samples,failed,why,error_p50_m,error_p99_m,"
-                 "error_max_m,penetration_m,ns_p50,ns_p99,ns_mean,ns_per_second,queries,tests,iterations,bytes,build_s,"
-                 "threads\n");
+                 "error_max_m,penetration_m,ns_p50,ns_p99,ns_mean,ns_per_second,queries,tests,iterations,saved,bytes,"
+                 "build_s,threads\n");
 }
 
 static void number(FILE *csv, double value)
@@ -35,9 +35,9 @@ static void number(FILE *csv, double value)
 
 void chart_row_write(FILE *csv, const char *family, const chart_row *r)
 {
-    const double measured[] = {r->error_p50,  r->error_p99, r->error_max,     r->penetration, r->ns_p50,
-                               r->ns_p99,     r->ns_mean,   r->ns_second,     r->queries,     r->tests,
-                               r->iterations, r->bytes,     r->build_seconds, r->threads};
+    const double measured[] = {r->error_p50,  r->error_p99, r->error_max, r->penetration,   r->ns_p50,
+                               r->ns_p99,     r->ns_mean,   r->ns_second, r->queries,       r->tests,
+                               r->iterations, r->saved,     r->bytes,     r->build_seconds, r->threads};
     fprintf(csv, "%s,%s,%s,%s", family, r->scene, r->curve, r->setting);
     number(csv, r->value);
     number(csv, r->rate);

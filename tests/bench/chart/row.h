@@ -33,6 +33,7 @@ typedef struct chart_row {
     double ns_p50, ns_p99, ns_mean;         /* per call: a sweep or a step */
     double ns_second;                       /* per simulated second */
     double queries, tests, iterations;      /* per call */
+    double saved;                           /* per call, by the shortcut of the row: see TAHR_SHORTCUT_TABLE */
     double bytes;                           /* of the world, per triangle */
     double build_seconds;
     double threads;

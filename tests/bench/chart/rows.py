@@ -38,6 +38,7 @@ class Row:
     queries: float
     tests: float
     iterations: float
+    saved: float
     bytes: float
     build_s: float
     threads: float

@@ -61,6 +61,18 @@ static void no_vicinity(chart_setting *s, tahr_native_desc *native)
     native->no_vicinity = 1;
 }
 
+static void no_barred_steps(chart_setting *s, tahr_native_desc *native)
+{
+    (void)native;
+    s->config.barred_steps = 0;
+}
+
+static void no_capsule_ends(chart_setting *s, tahr_native_desc *native)
+{
+    (void)s;
+    native->no_capsule_ends = 1;
+}
+
 static void no_fields(chart_setting *s, tahr_native_desc *native)
 {
     (void)s;
@@ -68,25 +80,38 @@ static void no_fields(chart_setting *s, tahr_native_desc *native)
 }
 
 /* with: what is set on both sides, NULL: the defaults. exact: promises the same bits. buys_memory: in the world, and a
- * shorter opening. */
+ * shorter opening. counts: bits, of the TAHR_SHORTCUT_* whose savings it makes. */
 typedef struct shortcut {
     const char *name;
     void (*with)(chart_setting *setting, tahr_native_desc *native);
     void (*without)(chart_setting *setting, tahr_native_desc *native);
     int idle, exact, buys_memory;
+    uint32_t counts;
 } shortcut;
 
+enum {
+    SLEEP = 1 << TAHR_SHORTCUT_SLEEP,
+    CACHED_FLOOR = 1 << TAHR_SHORTCUT_CACHED_FLOOR,
+    BARRED_STEP = 1 << TAHR_SHORTCUT_BARRED_STEP,
+    CLEAR_AIR = 1 << TAHR_SHORTCUT_CLEAR_AIR,
+    KNOWN_FLOOR = 1 << TAHR_SHORTCUT_KNOWN_FLOOR,
+    CACHE = 1 << TAHR_SHORTCUT_CACHE,
+    CAPSULE_END = 1 << TAHR_SHORTCUT_CAPSULE_END
+};
+
 static const shortcut SHORTCUTS[] = {
-    {"cache (no_cache)", NULL, no_cache, 0, 1, 0},
-    {"margin of the cache (cache_margin)", NULL, no_margin, 0, 1, 0},
-    {"SIMD (no_simd)", NULL, no_simd, 0, 1, 0},
-    {"short ways (short_ways)", NULL, no_short_ways, 0, 1, 0},
-    {"what is near (no_vicinity)", NULL, no_vicinity, 0, 1, 0},
-    {"sleep", NULL, no_sleep, 0, 1, 0},
-    {"cached_floor", awake, no_cached_floor, 0, 1, 0},
-    {"sleep", NULL, no_sleep, 1, 1, 0},
-    {"cached_floor (awake)", awake, no_cached_floor, 1, 1, 0},
-    {"cache (no_cache; awake)", awake, no_cache, 1, 1, 0},
+    {"cache (no_cache)", NULL, no_cache, 0, 1, 0, CACHE},
+    {"margin of the cache (cache_margin)", NULL, no_margin, 0, 1, 0, CACHE},
+    {"SIMD (no_simd)", NULL, no_simd, 0, 1, 0, 0},
+    {"short ways (short_ways)", NULL, no_short_ways, 0, 1, 0, CLEAR_AIR | KNOWN_FLOOR},
+    {"what is near (no_vicinity)", NULL, no_vicinity, 0, 1, 0, CLEAR_AIR | KNOWN_FLOOR},
+    {"ends of the capsule (no_capsule_ends)", NULL, no_capsule_ends, 0, 1, 0, CAPSULE_END},
+    {"steps that are barred (barred_steps)", NULL, no_barred_steps, 0, 1, 0, BARRED_STEP},
+    {"sleep", NULL, no_sleep, 0, 1, 0, SLEEP},
+    {"cached_floor", awake, no_cached_floor, 0, 1, 0, CACHED_FLOOR},
+    {"sleep", NULL, no_sleep, 1, 1, 0, SLEEP},
+    {"cached_floor (awake)", awake, no_cached_floor, 1, 1, 0, CACHED_FLOOR},
+    {"cache (no_cache; awake)", awake, no_cache, 1, 1, 0, CACHE},
 };
 enum { SHORTCUT_COUNT = sizeof SHORTCUTS / sizeof SHORTCUTS[0] };
 
@@ -94,7 +119,7 @@ static const char *const LEVELS[] = {"playground", "dungeon"};
 enum { LEVEL_COUNT = sizeof LEVELS / sizeof LEVELS[0] };
 
 /* Buys nothing but on ground that is one. */
-static const shortcut FIELDS = {"field of heights (no_fields)", NULL, no_fields, 0, 1, 1};
+static const shortcut FIELDS = {"field of heights (no_fields)", NULL, no_fields, 0, 1, 1, 0};
 enum { HILLS = 100000 };
 
 /* side 0: with the shortcut, 1: without. */
@@ -114,6 +139,15 @@ static void keep_best(chart_pace *best, const chart_pace *pace)
     best->ns_mean = fmin(best->ns_mean, pace->ns_mean);
 }
 
+static double saved_by(const shortcut *s, const chart_pace *pace)
+{
+    double saved = 0;
+    for (uint32_t i = 0; i < TAHR_SHORTCUT_COUNT; i++) {
+        saved += s->counts >> i & 1 ? pace->saved[i] : 0;
+    }
+    return s->counts ? saved : NAN;
+}
+
 static void write_sides(chart_run *run, const bench_world *level, const shortcut *s, const char *scene,
                         const chart_pace pace[2])
 {
@@ -126,6 +160,7 @@ static void write_sides(chart_run *run, const bench_world *level, const shortcut
             row.bytes = (double)pace[side].bytes / level->mesh.triangle_count;
             row.build_seconds = pace[side].build_seconds;
         }
+        row.saved = saved_by(s, &pace[side]);
         row.curve = s->name;
         row.setting = side ? "off" : "on";
         row.role = side ? CHART_OFF : CHART_DEFAULT;

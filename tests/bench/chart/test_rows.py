@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rows import COLUMNS, ChartError, budget_gains, read_machine, read_rows, thread_gains
 
-GOOD = "sweeps,meshes,native,native,,,default,truth,126,0,,1e-9,2e-9,3e-9,,100,200,120,,1,4.5,2,,,"
+GOOD = "sweeps,meshes,native,native,,,default,truth,126,0,,1e-9,2e-9,3e-9,,100,200,120,,1,4.5,2,,,,"
 
 
 class Rows(unittest.TestCase):
@@ -37,7 +37,7 @@ class Rows(unittest.TestCase):
 
     def test_what_threads_gain_stands_beside_what_the_machine_gives(self):
         def crowd(curve: str, count: int, ns: float) -> str:
-            return f"crowds,plane,{curve},{curve},{count},60,default,,100,0,,,,,,{ns},{ns},{ns},,,,,,,2"
+            return f"crowds,plane,{curve},{curve},{count},60,default,,100,0,,,,,,{ns},{ns},{ns},,,,,,,,2"
 
         self.write(
             crowd("crowd; 1 thread", 10, 900),
@@ -52,7 +52,7 @@ class Rows(unittest.TestCase):
 
     def test_budgets_are_weighed_against_none(self):
         def budget(mm: int, ns: int) -> str:
-            return f"sweeps,budgets,budget,budget,{mm},60,knob,,1,0,,0,0,0,,{ns},,,,,,,,,"
+            return f"sweeps,budgets,budget,budget,{mm},60,knob,,1,0,,0,0,0,,{ns},,,,,,,,,,"
 
         self.write(budget(0, 400), budget(5, 408), budget(200, 300))
         self.assertIn("102 % with 5 mm, 75 % with 200 mm.", budget_gains(read_rows(self.path)))

@@ -102,6 +102,9 @@ static void note(chart_pace *pace, const tahr_report *r)
     pace->queries += r->sweeps + r->contact_queries + r->rays;
     pace->tests += (double)r->triangle_tests;
     pace->iterations += (double)r->narrow_iterations;
+    for (int i = 0; i < TAHR_SHORTCUT_COUNT; i++) {
+        pace->saved[i] += r->saved[i];
+    }
     pace->unknown += (r->flags & TAHR_REPORT_UNKNOWN) != 0;
     pace->stuck += (r->flags & TAHR_REPORT_STUCK) != 0;
     pace->crushed += (r->flags & TAHR_REPORT_CRUSHED) != 0;
@@ -152,6 +155,9 @@ static void summarize(herd *h, double cpu)
     p->queries /= n;
     p->tests /= n;
     p->iterations /= n;
+    for (int i = 0; i < TAHR_SHORTCUT_COUNT; i++) {
+        p->saved[i] /= n;
+    }
     p->hash = 14695981039346656037u;
     for (uint32_t i = 0; i < h->count; i++) {
         p->hash = (p->hash ^ tahr_state_hash(&h->states[i])) * 1099511628211u;

@@ -21,6 +21,7 @@ typedef struct chart_pace {
     uint64_t steps, judged;
     double ns_p50, ns_p99, ns_mean;    /* per step: single ones by the monotonic clock, the mean by processor time */
     double queries, tests, iterations; /* per step */
+    double saved[TAHR_SHORTCUT_COUNT]; /* per step, by every shortcut */
     double penetration;                /* m, deepest that was seen; NAN if nobody looked */
     uint32_t crossed, embedded;        /* went through a triangle; deeper than 1 mm */
     uint32_t unknown, stuck, crushed, capped;

@@ -45,6 +45,11 @@ static void modes_events_and_rules_have_names(void **unused)
     TAHR_RULE_TABLE(CHECK)
 #undef CHECK
     assert_string_equal(tahr_rule_name(0), "?");
+#define CHECK(constant, value, name) assert_string_equal(tahr_shortcut_name(constant), name);
+    TAHR_SHORTCUT_TABLE(CHECK)
+#undef CHECK
+    assert_string_equal(tahr_shortcut_name(TAHR_SHORTCUT_COUNT), "?");
+    assert_string_not_equal(tahr_shortcut_name(TAHR_SHORTCUT_COUNT - 1), "?");
 }
 
 static void the_abi_of_another_range_is_refused(void **unused)

@@ -66,15 +66,15 @@ static const place numbers[] = {NUMBER(pull_back, 0.89e-6, 0.091),
     {                                                   \
 #field, offsetof(tahr_config, field), low, high \
     }
-static const place switches[] = {SWITCH(integrator, 0, 3),      SWITCH(slide_solver, 0, 3),
-                                 SWITCH(separation, 0, 3),      SWITCH(floor_probe, 0, 3),
-                                 SWITCH(depenetration, 0, 3),   SWITCH(step_rule, 0, 3),
-                                 SWITCH(flat_base, 2, 99),      SWITCH(keep_level_speed, 2, 99),
-                                 SWITCH(reserved_floor, 1, 99), SWITCH(walk_off_ledges_crouched, 2, 99),
-                                 SWITCH(apex_substep, 2, 99),   SWITCH(jump_hold_gravity, 2, 99),
-                                 SWITCH(impart, 8, 99),         SWITCH(turn_with_base, 2, 99),
-                                 SWITCH(air_jumps, 1001, 4e9),  SWITCH(reserved_feel, 1, 99),
-                                 SWITCH(max_substeps, 0, 65),   SWITCH(sleep, 2, 99)};
+static const place switches[] = {SWITCH(integrator, 0, 3),     SWITCH(slide_solver, 0, 3),
+                                 SWITCH(separation, 0, 3),     SWITCH(floor_probe, 0, 3),
+                                 SWITCH(depenetration, 0, 3),  SWITCH(step_rule, 0, 3),
+                                 SWITCH(flat_base, 2, 99),     SWITCH(keep_level_speed, 2, 99),
+                                 SWITCH(barred_steps, 2, 99),  SWITCH(walk_off_ledges_crouched, 2, 99),
+                                 SWITCH(apex_substep, 2, 99),  SWITCH(jump_hold_gravity, 2, 99),
+                                 SWITCH(impart, 8, 99),        SWITCH(turn_with_base, 2, 99),
+                                 SWITCH(air_jumps, 1001, 4e9), SWITCH(reserved_feel, 1, 99),
+                                 SWITCH(max_substeps, 0, 65),  SWITCH(sleep, 2, 99)};
 
 static void expect_named(const tahr_config *c, const char *name)
 {

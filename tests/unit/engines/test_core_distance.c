@@ -194,6 +194,91 @@ static void what_a_box_only_touches_is_met_by_what_keeps_them_apart(void **state
     assert_int_equal(tahr__box_touches(&box, v_make(0.1, 0, -0.2), &f, &w), 0);
 }
 
+/* Upright triangles whose plane holds an upright segment, but for rounding: on which side of it the ends are says
+ * nothing. */
+static void a_segment_in_the_plane_of_a_triangle_is_as_far_as_it_is(void **state)
+{
+    static const double still[3] = {0, 0, 0};
+    (void)state;
+    oracle_random r = {8};
+    int apart = 0;
+    for (int n = 0; n < 20000; n++) {
+        const double turn = oracle_uniform(&r, 0, 6.3), x = cos(turn), y = sin(turn);
+        oracle_core o = {.axis_count = 1};
+        double tri[3][3];
+        for (int k = 0; k < 3; k++)
+            o.centre[k] = oracle_uniform(&r, -2, 2);
+        o.axis[0][2] = oracle_uniform(&r, 0.1, 1);
+        for (int i = 0; i < 3; i++) {
+            const double along = oracle_uniform(&r, -2, 2);
+            tri[i][0] = o.centre[0] + along * x;
+            tri[i][1] = o.centre[1] + along * y;
+            tri[i][2] = oracle_uniform(&r, -4, 4);
+        }
+        tahr__core core = to_core(&o);
+        tahr_vec3 v[3] = {to_vec(tri[0]), to_vec(tri[1]), to_vec(tri[2])};
+        tahr__witness w;
+        tahr__core_distance(&core, to_vec(o.centre), v, &w);
+        const double truth = (double)oracle_distance(&o, still, 0, tri);
+        assert_true(fabs(w.distance - truth) <= 1e-12);
+        apart += truth > 0.01;
+    }
+    assert_true(apart > 5000);
+}
+
+/* Quarters, most of them exact, some off by rounding. */
+static double nearly_quarter(oracle_random *r)
+{
+    const double x = floor(oracle_uniform(r, -4, 5)) / 4;
+    return oracle_below(r, 3) ? x : x * (1 + oracle_uniform(r, -1e-15, 1e-15));
+}
+
+/* An upright segment and a triangle wholly below or above it, often in one plane, over each other, level, flat. Returns
+ * 0 if it is neither. */
+static int over_or_under(oracle_random *r, tahr__core *core, tahr_vec3 *centre, tahr__facet *f, tahr_vec3 *end)
+{
+    const double half = 0.25 * (1 + (double)oracle_below(r, 4));
+    int below = 1, above = 1;
+    core->axis_count = 1;
+    core->axis[0] = v_make(0, 0, half);
+    *centre = v_make(nearly_quarter(r), nearly_quarter(r), nearly_quarter(r));
+    const double shift = oracle_below(r, 2) ? half : -half;
+    for (int i = 0; i < 3; i++) {
+        f->v[i] = v_make(nearly_quarter(r), nearly_quarter(r), nearly_quarter(r) + shift);
+        below &= f->v[i].z <= centre->z - half;
+        above &= f->v[i].z >= centre->z + half;
+    }
+    tahr__facet_finish(f);
+    *end = v_make(centre->x, centre->y, centre->z + (below ? -half : half));
+    return below | above;
+}
+
+static void the_end_of_an_upright_segment_is_all_of_it_over_and_under_a_triangle(void **state)
+{
+    (void)state;
+    oracle_random r = {5};
+    int met = 0;
+    for (int n = 0; n < 2000000; n++) {
+        tahr__core core;
+        tahr_vec3 centre, end;
+        tahr__facet f;
+        tahr__witness whole, one = {0};
+        if (!over_or_under(&r, &core, &centre, &f, &end)) continue;
+        tahr__point_facet(end, &f, &one);
+        tahr__facet_distance(&core, centre, &f, &whole);
+        if (one.distance <= 1e-9) { /* which part of them touches is rounding */
+            assert_true(whole.distance <= 2e-9);
+            continue;
+        }
+        assert_memory_equal(&one.distance, &whole.distance, sizeof one.distance);
+        assert_memory_equal(&one.point, &whole.point, sizeof one.point);
+        assert_memory_equal(&one.normal, &whole.normal, sizeof one.normal);
+        assert_true(one.feature == whole.feature && one.beside == whole.beside);
+        met++;
+    }
+    assert_true(met > 200000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -201,6 +286,8 @@ int main(void)
         cmocka_unit_test(distance_to_slivers_is_exact),
         cmocka_unit_test(way_out_of_a_triangle_is_out_and_shortest),
         cmocka_unit_test(way_out_of_a_box_is_its_nearest_face),
+        cmocka_unit_test(a_segment_in_the_plane_of_a_triangle_is_as_far_as_it_is),
+        cmocka_unit_test(the_end_of_an_upright_segment_is_all_of_it_over_and_under_a_triangle),
         cmocka_unit_test(what_a_box_only_touches_is_met_by_what_keeps_them_apart),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -141,7 +141,8 @@ static tahr_report step(walkers *w, int i, int traced)
     }
     r.queries = NULL;
     r.query_capacity = r.query_count = 0;
-    r.spared = r.triangle_tests = r.narrow_iterations = r.gathers = r.escapes = 0;
+    memset(r.saved, 0, sizeof r.saved);
+    r.triangle_tests = r.narrow_iterations = r.gathers = r.escapes = 0;
     return r;
 }
 

@@ -38,6 +38,9 @@ static void assert_same_report(const rig *on, const rig *off)
         b.sweeps = b.contact_queries = b.rays = 0;
         b.triangle_tests = b.narrow_iterations = b.gathers = b.escapes = 0;
         b.flags |= TAHR_REPORT_ASLEEP;
+        assert_int_equal(a.saved[TAHR_SHORTCUT_SLEEP], 1);
+        memset(b.saved, 0, sizeof b.saved);
+        b.saved[TAHR_SHORTCUT_SLEEP] = 1;
     }
     assert_true((a.events == NULL) == (b.events == NULL));
     a.events = b.events = NULL;

@@ -52,12 +52,13 @@ static void moved_bodies_are_found_where_they_are(void **state)
 
 static void broken_bodies_and_options_are_refused(void **state)
 {
-    const char *const named[] = {"radius is -1", "half_height",         "pose.position",     "pose.orientation",
-                                 "type is 7",    "options.no_vicinity", "options.cache_tri", "options.cache_m",
-                                 "flags is 256", "options.no_cache",    "options.no_simd",   "options.no_fields"};
+    const char *const named[] = {
+        "radius is -1",        "half_height",       "pose.position",          "pose.orientation", "type is 7",
+        "options.no_vicinity", "options.cache_tri", "options.cache_m",        "flags is 256",     "options.no_cache",
+        "options.no_simd",     "options.no_fields", "options.no_capsule_ends"};
     (void)state;
     fixture f;
-    for (int n = 0; n < 12; n++) {
+    for (int n = 0; n < 13; n++) {
         tahr_body_desc body = fixture_body(TAHR_BODY_CAPSULE);
         tahr_native_desc options = fixture_options();
         body.radius = 0.5;
@@ -74,6 +75,7 @@ static void broken_bodies_and_options_are_refused(void **state)
         if (n == 9) options.no_cache = 2;
         if (n == 10) options.no_simd = 2;
         if (n == 11) options.no_fields = 2;
+        if (n == 12) options.no_capsule_ends = 2;
         fixture_init(&f);
         assert_int_equal(fixture_open(&f, &body, 1, &options, 0), TAHR_E_ARGUMENT);
         if (!strstr(f.message, named[n])) fail_msg("message %d was '%s'", n, f.message);

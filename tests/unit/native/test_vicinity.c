@@ -86,9 +86,10 @@ static tahr_report step(walkers *w, int i, double dt)
     tahr_report r = {.struct_size = sizeof r};
     const tahr_input *input = scene_wander_next(&w->wanderers[i], dt);
     assert_true(tahr_mover_step(w->movers[i], input, dt, &w->states[i], &r) >= 0);
-    w->spared += r.spared;
+    w->spared += r.saved[TAHR_SHORTCUT_KNOWN_FLOOR] + r.saved[TAHR_SHORTCUT_CLEAR_AIR];
     w->sweeps += r.sweeps;
-    r.spared = r.triangle_tests = r.narrow_iterations = r.gathers = r.escapes = 0;
+    memset(r.saved, 0, sizeof r.saved);
+    r.triangle_tests = r.narrow_iterations = r.gathers = r.escapes = 0;
     return r;
 }
 

@@ -9,6 +9,7 @@
 
 #include <cmocka.h>
 
+#include "native_world.h"
 #include "recording.h"
 #include "room.h"
 
@@ -149,12 +150,46 @@ static void a_replay_reports_what_the_backend_did(void **unused)
     rig_close(&r);
 }
 
+/* Movers that went the short way before somebody watched, over open ground and in free air, go on query by query. */
+static void who_went_the_short_way_is_recorded_query_by_query(void **unused)
+{
+    (void)unused;
+    const tahr_body_desc floor = native_box(fake_vec(0, 0, -1), fake_vec(100, 100, 1));
+    recording file = {0};
+    recording_counts run = {0};
+    uint64_t queries, asked = 0;
+    uint32_t saved = 0;
+    rig r;
+    rig_open_bodies(&r, &floor, 1, NULL, fake_vec(0, 0, 3));
+    r.input.move = fake_vec(1, 0, 0);
+    for (int i = 0; i < 120; i++) { /* without a look at its decisions */
+        tahr_report report = {.struct_size = sizeof report};
+        assert_int_equal(tahr_mover_step(r.mover, &r.input, 1.0 / 60, &r.state, &report), TAHR_OK);
+        saved += report.saved[TAHR_SHORTCUT_CLEAR_AIR] + report.saved[TAHR_SHORTCUT_KNOWN_FLOOR];
+    }
+    assert_true(saved > 100);
+    tahr_trace *trace = recording_begin(&file, r.world, 0);
+    for (int i = 0; i < 200; i++) {
+        tahr_report report = {.struct_size = sizeof report};
+        r.input.jump = i % 100 == 20;
+        assert_int_equal(tahr_mover_step(r.mover, &r.input, 1.0 / 60, &r.state, &report), TAHR_OK);
+        recording_count(&run, &report);
+        asked += report.sweeps + report.contact_queries + report.rays;
+    }
+    tahr_trace_size(trace, NULL, &queries, NULL);
+    assert_int_equal(recording_end(trace, r.world), TAHR_OK);
+    assert_true(queries == asked);
+    expect_same(&run, &file, 200);
+    rig_close(&r);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_replay_counts_the_sweeps_that_contacts_are_derived_from),
         cmocka_unit_test(a_replay_reaches_the_cap_of_queries_where_the_run_did),
         cmocka_unit_test(a_replay_reports_what_the_backend_did),
+        cmocka_unit_test(who_went_the_short_way_is_recorded_query_by_query),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

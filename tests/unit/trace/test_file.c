@@ -163,12 +163,12 @@ static void another_version_or_no_trace_is_told_apart(void **unused)
     replay_run(&p, &file);
     assert_int_equal(p.opened, TAHR_E_ABI);
     assert_non_null(
-        strstr(file.message, "byte 8: recorded as version 1 of the format with ABI 0.1, expected 3 with 0.1"));
-    file.bytes[8] = 3, file.bytes[12] = 7;
+        strstr(file.message, "byte 8: recorded as version 1 of the format with ABI 0.1, expected 4 with 0.1"));
+    file.bytes[8] = 4, file.bytes[12] = 7;
     sign_head(&file);
     replay_run(&p, &file);
     assert_int_equal(p.opened, TAHR_E_ABI);
-    assert_non_null(strstr(file.message, "with ABI 0.7, expected 3 with 0.1"));
+    assert_non_null(strstr(file.message, "with ABI 0.7, expected 4 with 0.1"));
     file.bytes[12] = 1, file.bytes[16] ^= 8;
     sign_head(&file);
     replay_run(&p, &file);
