@@ -283,16 +283,67 @@ static void ask_recent(sweep_state *s, uint32_t index)
     if (s->limit < 1) s->search.box = tahr__query_box(query, s->limit);
 }
 
-/* A foot that comes down far where so many are around: it is worth a look which is met first, for few are as early. */
+/* A foot that comes down where so many are around: it is worth a look which is met first, for few are as early. */
 enum { MANY = 48 };
 
-static uint32_t ask_guess(sweep_state *s, uint32_t asked)
+/* So many edges are crossed on the way to the triangle under a foot; and neighbours are looked for so far before and
+ * behind a triangle in the cache, where what lies together was found together. */
+enum { HOPS = 3, NEXT = 40 };
+
+/* Where a cached triangle is; TAHR__NONE: not near `index`. */
+static uint32_t find_beside(const tahr__prim *prims, uint32_t count, uint32_t index, uint32_t item)
+{
+    for (uint32_t i = 1; i <= NEXT; i++) {
+        const uint32_t before = index >= i ? index - i : index, behind = index + i < count ? index + i : index;
+        if (prims[before].item == item && prims[before].body == prims[index].body) return before;
+        if (prims[behind].item == item && prims[behind].body == prims[index].body) return behind;
+    }
+    return TAHR__NONE;
+}
+
+/* The one on the other side of an edge. */
+static uint32_t across(const tahr__query *query, uint32_t index, uint32_t edge)
+{
+    const tahr__prim *prims = tahr__cache_prims(query->world, query->cache), *prim = &prims[index];
+    const tahr__body *body = &query->world->bodies[prim->body];
+    const uint32_t item = body->type == TAHR_BODY_HEIGHTS ? tahr__heights_across(&body->heights, prim->item, edge)
+                                                          : body->mesh.triangles[prim->item].ring[edge];
+    return item == prim->item ? TAHR__NONE : find_beside(prims, query->cache->count, index, item);
+}
+
+/* Which edge of a triangle a point is beyond where it comes to its plane; 3: none, NEVER_THERE: it does not come. */
+enum { NEVER_THERE = 4 };
+static uint32_t edge_to(const tahr__query *query, const tahr__prim *prim)
+{
+    const tahr__facet *f = &prim->facet;
+    const tahr_vec3 e[3] = {v_sub(f->v[1], f->v[0]), v_sub(f->v[2], f->v[1]), v_sub(f->v[0], f->v[2])};
+    if (prim->kind & (TAHR__PLANELESS | TAHR__GATHERED)) return NEVER_THERE;
+    const double t = plane_earliest(query, prim, 1);
+    double far;
+    return t > 1 ? NEVER_THERE : edge_beyond(query, f, v_sub(v_mad(query->start, query->motion, t), f->v[0]), e, &far);
+}
+
+/* From the triangle that stopped the last foot over the edges to the one that this foot comes down on. Over another one
+ * it would meet an edge, where a neighbour is nearer, and all that was measured would be in vain. TAHR__NONE: there is
+ * none that is plainly under it. */
+static uint32_t find_under(const tahr__query *query, uint32_t index)
+{
+    for (int hop = 0; hop <= HOPS && index < query->cache->count; hop++) {
+        const uint32_t edge = edge_to(query, tahr__formed(query, index));
+        if (edge == 3) return index;
+        if (edge == NEVER_THERE) return TAHR__NONE;
+        index = across(query, index, edge);
+    }
+    return TAHR__NONE;
+}
+
+/* What is likely to stop the motion. */
+static uint32_t guess(const sweep_state *s, uint32_t recent)
 {
     const tahr__query *query = s->search.query;
-    if (s->limit < 1 || query->core.axis_count != 0 || query->cache->count < MANY) return TAHR__NONE;
-    const uint32_t guess = tahr__cache_guess(&s->search);
-    if (guess != asked) ask_recent(s, guess);
-    return guess;
+    if (query->core.axis_count != 0 || query->cache->count < MANY) return recent;
+    const uint32_t under = find_under(query, recent);
+    return under != TAHR__NONE ? under : tahr__cache_guess(&s->search);
 }
 
 static void search_cache(sweep_state *s)
@@ -301,11 +352,12 @@ static void search_cache(sweep_state *s)
     const tahr__prim *prims;
     tahr__lanes_found found[TAHR__CACHE_MOST];
     uint32_t *recent = tahr__cache_recent(query->cache, kind_of(query)), kept = 0;
-    ask_recent(s, *recent);
-    const uint32_t guess = ask_guess(s, *recent), count = tahr__cache_cull(&s->search, s->limit, &prims, found);
+    const uint32_t first = guess(s, *recent);
+    ask_recent(s, first);
+    const uint32_t count = tahr__cache_cull(&s->search, s->limit, &prims, found);
     for (uint32_t i = 0; i < count; i++) {
         found[kept] = found[i];
-        kept += (found[i].index != *recent) & (found[i].index != guess);
+        kept += found[i].index != first;
     }
     line_up_found(s, prims, found, kept);
     if (s->stopper) *recent = (uint32_t)(s->stopper - prims);

@@ -66,15 +66,6 @@ static void search_mesh(tahr__search *s, uint32_t id, const tahr__map *map)
     }
 }
 
-/* Is a cell wholly below or above a box? With a hole at a corner the triangles themselves are asked. */
-static int cell_beside(const double *low, const double *high, const tahr_bounds *box)
-{
-    double sum = low[0] + low[1] + high[0] + high[1];
-    if (!(sum == sum)) return 0;
-    return d_max(d_max(low[0], low[1]), d_max(high[0], high[1])) < box->min.z ||
-           d_min(d_min(low[0], low[1]), d_min(high[0], high[1])) > box->max.z;
-}
-
 static uint32_t clamp(uint32_t x, uint32_t low, uint32_t high)
 {
     return x < low ? low : x > high ? high : x;
@@ -123,12 +114,30 @@ static void set_field_box(field_search *f)
     trim(&f->body->heights, &f->around, &f->range);
 }
 
+/* m2: what a row of cells leaves of the reach. */
+static double rest2_of_row(const field_search *f, uint32_t row)
+{
+    const double *y = f->body->heights.y, side = gap(y[row], y[row + 1], f->box.min.y, f->box.max.y);
+    return f->reach * f->reach - side * side;
+}
+
+/* Is a cell of it farther off? With a hole at a corner the triangles themselves are asked. */
+static int is_cell_off(const field_search *f, uint32_t row, uint32_t column, double rest2)
+{
+    const tahr__heights *h = &f->body->heights;
+    const double *low = h->z + (size_t)row * h->columns + column, *high = low + h->columns;
+    const double least = d_min(d_min(low[0], high[0]), d_min(low[1], high[1]));
+    const double most = d_max(d_max(low[0], high[0]), d_max(low[1], high[1]));
+    const double z = gap(least, most, f->box.min.z, f->box.max.z);
+    const double x = gap(h->x[column], h->x[column + 1], f->box.min.x, f->box.max.x);
+    const double sum = (low[0] + high[0]) + (low[1] + high[1]);
+    return (x * x + z * z > rest2) & (sum == sum);
+}
+
 static void search_cell(field_search *f, uint32_t column, uint32_t row)
 {
     const tahr__heights *h = &f->body->heights;
-    const double *low = h->z + (size_t)row * h->columns + column;
     tahr_vec3 corners[4], v[3];
-    if (cell_beside(low, low + h->columns, &f->around)) return;
     tahr__heights_cell(h, column, row, corners);
     for (uint32_t k = 0; k < 2; k++) {
         v[0] = corners[0];
@@ -143,21 +152,40 @@ static void search_cell(field_search *f, uint32_t column, uint32_t row)
     }
 }
 
-/* How far from a cell the range goes on. */
-static int64_t farthest(const tahr__heights_range *r, int64_t column, int64_t row)
+static tahr_vec3 to_field(const tahr__map *map, tahr_vec3 v)
 {
-    int64_t left = column - r->column, right = (int64_t)r->column_end - 1 - column;
-    int64_t before = row - r->row, behind = (int64_t)r->row_end - 1 - row;
-    int64_t across = left > right ? left : right, along = before > behind ? before : behind;
-    return across > along ? across : along;
+    return map->turned ? m_unapply(&map->turn, v) : v;
 }
 
-/* The same straight from the grid of a field of heights: the cell of the query's start, then ring after ring around it.
- * Cells that a narrower box leaves out are passed over. */
+/* The cell where the motion is likely to be stopped: where its lower end touches the slope under it, and once more with
+ * the slope there. */
+static void find_cell(const field_search *f, uint32_t *column, uint32_t *row)
+{
+    const tahr__query *query = f->search->query;
+    const tahr__heights_range *r = &f->range;
+    const tahr_vec3 low = v_sub(query->start, v_make(0, 0, query->half));
+    const tahr_vec3 start = to_field(f->map, v_sub(low, f->map->offset)), motion = to_field(f->map, query->motion);
+    tahr_vec3 place = start, c[4];
+    for (int i = 0; i < 3; i++) {
+        tahr__heights_at(&f->body->heights, place.x, place.y, column, row);
+        *column = clamp(*column, r->column, r->column_end - 1);
+        *row = clamp(*row, r->row, r->row_end - 1);
+        if (i == 2) return;
+        tahr__heights_cell(&f->body->heights, *column, *row, c);
+        const tahr_vec3 n = v_unit(v_cross(v_sub(c[2], c[0]), v_sub(c[3], c[1])));
+        const double height = v_dot(n, v_sub(start, c[0])), rate = -v_dot(n, motion);
+        const double t = rate > 0 ? d_max(0, d_min(height - f->search->reach, rate)) / rate : 0;
+        place = v_sub(v_mad(start, motion, t), v_scale(n, height - t * rate));
+        if (!(place.x == place.x && place.y == place.y)) return; /* a hole */
+    }
+}
+
+/* The same straight from the grid of a field of heights: a likely cell, and then the others, of which what was met there
+ * leaves few. */
 static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
 {
     field_search f;
-    uint32_t column, row;
+    uint32_t first_column, first_row;
     f.search = s;
     f.body = &s->query->world->bodies[id];
     f.map = map;
@@ -165,21 +193,14 @@ static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
     set_field_box(&f);
     const tahr__heights_range *r = &f.range;
     if (r->column >= r->column_end || r->row >= r->row_end) return;
-    tahr_vec3 near = v_sub(s->query->start, map->offset);
-    if (map->turned) near = m_unapply(&map->turn, near);
-    tahr__heights_at(&f.body->heights, near.x, near.y, &column, &row);
-    column = clamp(column, r->column, r->column_end - 1);
-    row = clamp(row, r->row, r->row_end - 1);
+    find_cell(&f, &first_column, &first_row);
     tahr__prim_begin(f.body, id, &f.prim);
-    for (int64_t ring = 0; ring <= farthest(r, column, row); ring++) {
-        for (int64_t i = -ring; i <= ring; i++) {
-            int64_t at = row + i, step = i == -ring || i == ring ? 1 : 2 * ring;
-            if (at < r->row || at >= r->row_end) continue;
-            for (int64_t k = -ring; k <= ring; k += step) {
-                int64_t across = column + k;
-                if (across >= r->column && across < r->column_end) search_cell(&f, (uint32_t)across, (uint32_t)at);
-                if (step == 0) break;
-            }
+    search_cell(&f, first_column, first_row);
+    for (uint32_t row = r->row; row < r->row_end; row++) {
+        const double rest2 = rest2_of_row(&f, row);
+        for (uint32_t column = r->column; column < r->column_end && rest2 >= 0; column++) {
+            if (is_cell_off(&f, row, column, rest2) || (row == first_row && column == first_column)) continue;
+            search_cell(&f, column, row);
         }
     }
 }
@@ -201,10 +222,10 @@ static void take_heights(tahr__search *s, uint32_t id, const tahr__map *map)
         return;
     }
     for (uint32_t row = f.range.row; row < f.range.row_end; row++) {
+        const double rest2 = rest2_of_row(&f, row);
         for (uint32_t column = f.range.column; column < f.range.column_end; column++) {
-            const double *low = h->z + (size_t)row * h->columns + column;
-            uint32_t first = 2 * (row * (h->columns - 1) + column);
-            if (cell_beside(low, low + h->columns, &f.around)) continue;
+            const uint32_t first = 2 * (row * (h->columns - 1) + column);
+            if (is_cell_off(&f, row, column, rest2)) continue;
             for (uint32_t k = 0; k < 2; k++) {
                 tahr_vec3 v[3];
                 if ((h->has_holes || h->may_be_thin) && !tahr__heights_triangle(h, first + k, v)) continue;

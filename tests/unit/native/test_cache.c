@@ -265,9 +265,46 @@ static void what_stopped_the_last_foot_is_known_after_a_gather(void **state)
     }
 }
 
+static double small_hills(double x, double y)
+{
+    return 0.1 * sin(x * 1.3) * cos(y * 0.9);
+}
+
+/* Over triangles of 0.2 m, a third of a step or more away from the last: what stopped the last foot is seldom under this
+ * one, and is not measured then. */
+static void a_foot_measures_hardly_more_than_what_it_comes_down_on(void **state)
+{
+    (void)state;
+    static native_grid grid;
+    enum { FEET = 200 };
+    tahr_body_desc body = native_grid_body(&grid, NATIVE_CELLS, 0.2, small_hills);
+    tahr_native_desc o = fixture_options();
+    o.cache_triangles = 4096;
+    o.no_vicinity = 1;
+    for (uint32_t fields = 0; fields < 2; fields++) {
+        fixture f;
+        o.no_fields = fields;
+        fixture_init(&f);
+        assert_int_equal(fixture_open(&f, &body, 1, &o, 1), TAHR_OK);
+        const tahr_vec3 middle = v_make(0.1 * NATIVE_CELLS, 0.1 * NATIVE_CELLS, 0.6);
+        announce(&f, middle, v_make(0, 0, 1), 0xFFFFFFFFu);
+        const uint64_t before = f.context.narrow_tests;
+        for (int n = 0; n < FEET; n++) {
+            const tahr_vec3 at = v_add(middle, v_make(0.8 * sin(0.1 * n), 0.8 * cos(0.1 * n), 0));
+            const tahr_sweep down =
+                fixture_sweep(fixture_shape(TAHR_SHAPE_SPHERE, 0.35, 0.35), at, v_make(0, 0, -0.6), 0.01);
+            assert_int_equal(fixture_hit(&f, &down).blocking, 1);
+        }
+        assert_int_equal(f.context.escapes, 0);
+        assert_true(f.context.narrow_tests - before < 1.2 * FEET);
+        fixture_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_foot_measures_hardly_more_than_what_it_comes_down_on),
         cmocka_unit_test(what_stopped_the_last_foot_is_known_after_a_gather),
         cmocka_unit_test(caches_and_lanes_change_no_bit),
         cmocka_unit_test(without_a_cache_a_query_is_its_own_announcement),
