@@ -38,6 +38,7 @@ typedef struct search {
     looks seen;
     double least;         /* of the parts of the way beside a prediction, the smallest */
     double predicted;     /* by what was known before the last look */
+    double proven[2];     /* the predictions that the nearest outside and inside came out by; NOWHERE: by none */
     double told, told_at; /* what the last look but one told, and where it was */
     double rate;          /* at which that changed with the place */
     double latest;        /* part of the way of the last look */
@@ -93,6 +94,7 @@ static int look_at(tahr__step *step, search *s, double at, tahr_floor *floor)
     step->inner = NULL;
     s->latest = at;
     s->surprised = s->predicted != NOWHERE && inside != (at < s->predicted);
+    s->proven[inside] = s->proves && !s->surprised ? s->predicted : NOWHERE;
     return inside;
 }
 
@@ -135,6 +137,8 @@ static void predict_again(const tahr__step *step, search *s)
         s->seen.beside = s->least;
         part = NOWHERE;
     }
+    /* Where nothing else is known, it may be where it was predicted before, if that was proven from one side. */
+    part = part == NOWHERE ? max_of(s->proven[0], s->proven[1]) : part;
     s->predicted = part;
 }
 
@@ -143,6 +147,7 @@ void tahr__floor_end(tahr__step *step, const tahr__path *w, const tahr_floor *be
     enum { LOOKS = ROUNDS + LOST + PROOFS, MOST = TAHR_MAX_QUERIES_PER_STEP * 5 / 8 };
     search s = {.seen = {.from = w->from, .way = sub(step->state.position, w->from)},
                 .predicted = NOWHERE,
+                .proven = {NOWHERE, NOWHERE},
                 .told = NOWHERE,
                 .rate = INFINITY,
                 .lost = LOST};
