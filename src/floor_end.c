@@ -46,6 +46,7 @@ typedef struct search {
     int proves;           /* 1: it is beside that */
     int tried;            /* 1: right behind the begin was looked at */
     int doubts;           /* 1: what straight edges tell was wrong */
+    int measured;         /* 1: by what changes evenly instead */
     uint32_t steady;      /* looks that changed nothing about the prediction */
     uint32_t lost;        /* looks that may still be lost */
 } search;
@@ -78,6 +79,13 @@ static double next_look(search *s, uint32_t taken)
     return at > a && at < b ? at : middle;
 }
 
+/* Does a look see something else than the last one on its side, by kind? What was wrong of that may be right of this. */
+static int sees_another(const look *now, const look *before)
+{
+    return now->perching != before->perching || now->has_inner != before->has_inner ||
+           now->outer.kind != before->outer.kind || (now->has_inner && now->inner.kind != before->inner.kind);
+}
+
 /* Returns 1 if the floor holds there. */
 static int look_at(tahr__step *step, search *s, double at, tahr_floor *floor)
 {
@@ -90,6 +98,7 @@ static int look_at(tahr__step *step, search *s, double at, tahr_floor *floor)
     s->seen.further[inside] = *side;
     tahr__look_note(step, floor, at, side);
     tahr__looks_compare(side, &s->seen.further[inside]);
+    s->doubts = s->doubts && !sees_another(side, &s->seen.further[inside]);
     tahr__looks_compare(side, inside ? &s->seen.outside : &s->seen.inside);
     step->inner = NULL;
     s->latest = at;
@@ -122,8 +131,10 @@ static double refine(search *s, double told)
 static void predict_again(const tahr__step *step, search *s)
 {
     double part = refine(s, tahr__looks_predict(step, &s->seen));
+    s->doubts = s->doubts && !(s->measured && s->surprised);
     double seen = part == NOWHERE || s->doubts ? tahr__looks_measure(step, &s->seen) : NOWHERE;
-    part = seen != NOWHERE ? seen : part;
+    s->measured = seen != NOWHERE;
+    part = s->measured ? seen : part;
     double change = part - s->predicted, gap = s->seen.outside.at - s->seen.inside.at, little = STEADILY * gap;
     s->steady = change <= little && change >= -little && part != NOWHERE ? s->steady + 1 : 0;
     if (!s->surprised) {

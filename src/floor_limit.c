@@ -182,19 +182,16 @@ static double turns_round(const tahr__step *step, const looks *s, const contact 
     return is_on(a, b) ? passes_face(step, s, &p) : NOWHERE;
 }
 
-/* By what the same foot met on either side. */
-static double between(const tahr__step *step, const looks *s, const contact *a, const contact *b, int whole)
+/* Where the same foot meets at once what it met on either side. */
+static double meets_both(const tahr__step *step, const looks *s, const contact *a, const contact *b, int whole)
 {
     if (a->kind != FREE && b->kind != FREE && !shape_is_round(&step->limits->shape)) {
         /* Flat sides and straight edges alike go down evenly; how far an edge sticks out of its face does not. */
         return same_direction(a->face, b->face) ? NOWHERE : same_depth(step, s, a, b);
     }
-    if (a->kind == EDGE && b->kind == FREE) { /* by the rim, or out of reach */
+    if (a->kind == EDGE && b->kind == FREE) { /* out of reach */
         passing p = {.look = &s->inside, .edge = a, .face = b};
-        double sinks = meets_edge(step, s, &p, &s->outside);
-        double passes = passes_edge(step, s, &s->inside, a, whole ? LEAVES_RIM : PASSES_INNER);
-        passes = whole && passes < s->inside.at ? passes_edge(step, s, &s->inside, a, PASSES_RIM) : passes;
-        return sinks > s->inside.at && sinks < passes ? sinks : passes;
+        return meets_edge(step, s, &p, &s->outside);
     }
     if (a->kind == EDGE && b->kind == EDGE && dot(a->normal, a->face) * dot(b->normal, a->face) <= 0) {
         return turns_round(step, s, a, b);
@@ -214,6 +211,21 @@ static double between(const tahr__step *step, const looks *s, const contact *a, 
         return meets_edge(step, s, &p, a->kind == FACE ? &s->inside : &s->outside);
     }
     return same_depth(step, s, a, b);
+}
+
+/* By what the same foot met on either side: where it meets both at once, or has passed the edge before. */
+static double between(const tahr__step *step, const looks *s, const contact *a, const contact *b, int whole)
+{
+    const double inside = s->inside.at, both = meets_both(step, s, a, b, whole);
+    if (a->kind != EDGE || (b->kind != FREE && !shape_is_round(&step->limits->shape))) {
+        return both;
+    }
+    double passes = passes_edge(step, s, &s->inside, a, whole ? LEAVES_RIM : PASSES_INNER);
+    passes = whole && passes < inside ? passes_edge(step, s, &s->inside, a, PASSES_RIM) : passes;
+    if (b->kind != FREE && !is_between(s, passes)) {
+        return both;
+    }
+    return both > inside && both < passes ? both : passes;
 }
 
 /* Where an edge comes so far out that it needs a perch. Or later, where the thinner foot passes from the edge to the
