@@ -8,8 +8,9 @@
 
 enum { ITERATIONS = 64 };
 
-/* Every so many steps a leap is tried. */
+/* Every so many steps a leap is tried, and before the first one where the sine to the surface is no more than that. */
 #define LEAPS 4
+#define FLAT 0.03
 /* The square of the sine between a surface and a motion that meets it, from which on Newton arrives soon. */
 #define STEEP 1e-4
 /* The square of the sine up to which an edge of the core is across a normal. */
@@ -114,7 +115,7 @@ static int advance(tahr__flight *f, double limit)
         if (rest <= TAHR__ARRIVED) return 1;
         double next = f->t + rest / -rate;
         if (next > limit) return 0;
-        if (i % LEAPS == 1 && f->leaps) {
+        if (f->leaps && (i % LEAPS == 1 || (i == 0 && rate > -FLAT * query->motion_length))) {
             const int leaped = leap(f, next, limit);
             if (leaped > 0 && f->leaps == 1) f->before.steps = i;
             if (leaped != 0) f->leaps = 2;
