@@ -443,6 +443,27 @@ static int meets_movable(const tahr__query *query)
     return tahr__movable_meets(query->world, &world);
 }
 
+/* A sweep for what blocks, which may have been asked before. */
+static tahr_status sweep_once(tahr__query *query, const tahr_sweep *sweep, tahr_hit *hit, uint32_t *count)
+{
+    tahr_query_context *context = query->context;
+    const tahr__native *world = query->world;
+    tahr__asked *asked = query->cache && !world->no_vicinity ? &query->cache->asked : NULL;
+    const tahr__asked_sweep *before = asked && asked->count ? tahr__asked_find(asked, world->placed, sweep) : NULL;
+    const uint64_t measured = context->narrow_iterations;
+    if (before) {
+        context->spared++;
+        *count = before->count;
+        if (before->count) *hit = before->hit;
+        return TAHR_OK;
+    }
+    tahr_status status = tahr__sweep_rest(query, hit, 1, count);
+    if (asked && status == TAHR_OK && context->narrow_iterations - measured >= TAHR__DEAR) {
+        tahr__asked_keep(asked, world->placed, sweep, hit, *count);
+    }
+    return status;
+}
+
 tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const tahr_sweep *sweep, tahr_hit *hits,
                                uint32_t capacity, uint32_t *count)
 {
@@ -464,5 +485,5 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
         *count = 1;
         return TAHR_OK;
     }
-    return tahr__sweep_rest(&query, hits, capacity, count);
+    return capacity == 1 ? sweep_once(&query, sweep, hits, count) : tahr__sweep_rest(&query, hits, capacity, count);
 }
