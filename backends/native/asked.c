@@ -16,8 +16,7 @@ const tahr__asked_sweep *tahr__asked_find(const tahr__asked *asked, uint64_t pla
     return NULL;
 }
 
-void tahr__asked_keep(tahr__asked *asked, uint64_t placed, const tahr_sweep *sweep, const tahr_hit *hit,
-                      uint32_t count)
+void tahr__asked_keep(tahr__asked *asked, uint64_t placed, const tahr_sweep *sweep, const tahr_hit *hit, uint32_t count)
 {
     if (asked->placed != placed || asked->count == 0) asked->count = asked->next = 0;
     tahr__asked_sweep *s = &asked->sweeps[asked->next];
