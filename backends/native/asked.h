@@ -7,7 +7,7 @@
 #include <tahr/backend.h>
 
 /* The last of them, and measured distances from which on a sweep is dear: to keep one costs less than to measure one. */
-enum { TAHR__ASKED = 4, TAHR__DEAR = 8 };
+enum { TAHR__ASKED = 4, TAHR__DEAR = 16 };
 
 typedef struct tahr__asked_sweep {
     tahr_sweep sweep;

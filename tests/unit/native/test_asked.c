@@ -120,7 +120,7 @@ static void a_body_that_is_placed_and_another_frame_make_it_forget(void **unused
     uint32_t blocked = 0;
     (void)unused;
     open_worlds(&w);
-    for (int i = 0; i < 200; i++) {
+    for (int i = 0; i < 1000; i++) {
         const tahr_sweep sweep = any_sweep(&random);
         tahr_body_pose move = {.body = 1, .pose = {.orientation = {0, 0, 0, 1}}};
         announce(&w, (tahr_vec3){3, 3, 2});
