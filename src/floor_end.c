@@ -79,7 +79,7 @@ static double next_look(search *s, uint32_t taken)
     return at > a && at < b ? at : middle;
 }
 
-/* Does a look see something else than the last one on its side, by kind? What was wrong of that may be right of this. */
+/* Does a look see another kind of thing than the last one on its side? What was wrong of that may be right of this. */
 static int sees_another(const look *now, const look *before)
 {
     return now->perching != before->perching || now->has_inner != before->has_inner ||

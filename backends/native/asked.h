@@ -6,7 +6,7 @@
 
 #include <tahr/backend.h>
 
-/* The last of them, and measured distances from which on a sweep is dear: to keep one costs less than to measure one. */
+/* So many are kept; and so many measured distances make a sweep dear: to keep it costs less than one of them. */
 enum { TAHR__ASKED = 4, TAHR__DEAR = 16 };
 
 typedef struct tahr__asked_sweep {

@@ -60,8 +60,8 @@ static double foresee(const tahr__flight *f)
     return f->t + (rest > 0 ? c / (b + sqrt(rest)) : b / m2);
 }
 
-/* The lowest that a distance may come, less the target, of what is passed: at the margin a graze is no contact (graze.h),
- * and at a target of so much what is not passed is met at a slope that counts as one. */
+/* The lowest that a distance may come, less the target, of what is passed: at the margin a graze is no contact
+ * (graze.h), and at a target of so much what is not passed is met at a slope that counts as one. */
 static double least_beside(const tahr__flight *f)
 {
     static const double ROUND = 2e-5;

@@ -269,8 +269,8 @@ static void a_perch_over_a_lower_floor_ends_at_the_rim(void **unused)
     rig_close(&r);
 }
 
-/* Over the edge of a top that climbs the rim of the foot leaves the edge for good only where a foot thinner by twice the
- * edge_tolerance passes it: seen from above it is then 0.36 - 2e-4 m away. */
+/* Over the edge of a top that climbs the rim of the foot leaves the edge for good only where a foot thinner by twice
+ * the edge_tolerance passes it: seen from above it is then 0.36 - 2e-4 m away. */
 static void a_perch_over_an_edge_that_slopes_ends_where_the_foot_without_its_rim_passes(void **unused)
 {
     roof f;

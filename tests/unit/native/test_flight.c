@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * test_flight.c: who passes an edge within what the narrow phase promises is free, after a few looks and not the fifteen
- * in which Newton's method comes down to a graze. */
+ * test_flight.c: who passes an edge within what the narrow phase promises is free, after a few looks and not the
+ * fifteen in which Newton's method comes down to a graze. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,8 +10,8 @@
 
 #include "native_fixture.h"
 
-/* Past the upright edge of a box at (1, 1) along a straight way that comes `lowest` nearer than the margin to it. Returns
- * whether it is stopped. */
+/* Past the upright edge of a box at (1, 1) along a straight way that comes `lowest` nearer than the margin to it.
+ * Returns whether it is stopped. */
 static int is_stopped(fixture *f, double half_way, double lowest)
 {
     const double s = sqrt(0.5), off = 1 + s * (0.36 - lowest);
