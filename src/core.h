@@ -297,6 +297,7 @@ struct tahr__step {
     tahr_input own_input;     /* what input points to while it is held in a plane, */
     const tahr_input *given;  /* instead of the caller's, */
     vec3 began;               /* and where the character was before */
+    vec3 announced;           /* where the character was when the step was */
     uint32_t ignore_body;     /* not there for this step's queries now, or TAHR_NO_BODY */
     uint32_t passes;          /* 1: no one-way body is there for this step's sweeps now */
     uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */

@@ -38,6 +38,7 @@ typedef struct search {
     looks seen;
     double least;         /* of the parts of the way beside a prediction, the smallest */
     double predicted;     /* by what was known before the last look */
+    double proven[2];     /* the predictions that the nearest outside and inside came out by; NOWHERE: by none */
     double told, told_at; /* what the last look but one told, and where it was */
     double rate;          /* at which that changed with the place */
     double latest;        /* part of the way of the last look */
@@ -45,6 +46,7 @@ typedef struct search {
     int proves;           /* 1: it is beside that */
     int tried;            /* 1: right behind the begin was looked at */
     int doubts;           /* 1: what straight edges tell was wrong */
+    int measured;         /* 1: by what changes evenly instead */
     uint32_t steady;      /* looks that changed nothing about the prediction */
     uint32_t lost;        /* looks that may still be lost */
 } search;
@@ -77,6 +79,13 @@ static double next_look(search *s, uint32_t taken)
     return at > a && at < b ? at : middle;
 }
 
+/* Does a look see another kind of thing than the last one on its side? What was wrong of that may be right of this. */
+static int sees_another(const look *now, const look *before)
+{
+    return now->perching != before->perching || now->has_inner != before->has_inner ||
+           now->outer.kind != before->outer.kind || (now->has_inner && now->inner.kind != before->inner.kind);
+}
+
 /* Returns 1 if the floor holds there. */
 static int look_at(tahr__step *step, search *s, double at, tahr_floor *floor)
 {
@@ -89,10 +98,12 @@ static int look_at(tahr__step *step, search *s, double at, tahr_floor *floor)
     s->seen.further[inside] = *side;
     tahr__look_note(step, floor, at, side);
     tahr__looks_compare(side, &s->seen.further[inside]);
+    s->doubts = s->doubts && !sees_another(side, &s->seen.further[inside]);
     tahr__looks_compare(side, inside ? &s->seen.outside : &s->seen.inside);
     step->inner = NULL;
     s->latest = at;
     s->surprised = s->predicted != NOWHERE && inside != (at < s->predicted);
+    s->proven[inside] = s->proves && !s->surprised ? s->predicted : NOWHERE;
     return inside;
 }
 
@@ -120,8 +131,10 @@ static double refine(search *s, double told)
 static void predict_again(const tahr__step *step, search *s)
 {
     double part = refine(s, tahr__looks_predict(step, &s->seen));
+    s->doubts = s->doubts && !(s->measured && s->surprised);
     double seen = part == NOWHERE || s->doubts ? tahr__looks_measure(step, &s->seen) : NOWHERE;
-    part = seen != NOWHERE ? seen : part;
+    s->measured = seen != NOWHERE;
+    part = s->measured ? seen : part;
     double change = part - s->predicted, gap = s->seen.outside.at - s->seen.inside.at, little = STEADILY * gap;
     s->steady = change <= little && change >= -little && part != NOWHERE ? s->steady + 1 : 0;
     if (!s->surprised) {
@@ -135,6 +148,8 @@ static void predict_again(const tahr__step *step, search *s)
         s->seen.beside = s->least;
         part = NOWHERE;
     }
+    /* Where nothing else is known, it may be where it was predicted before, if that was proven from one side. */
+    part = part == NOWHERE ? max_of(s->proven[0], s->proven[1]) : part;
     s->predicted = part;
 }
 
@@ -143,6 +158,7 @@ void tahr__floor_end(tahr__step *step, const tahr__path *w, const tahr_floor *be
     enum { LOOKS = ROUNDS + LOST + PROOFS, MOST = TAHR_MAX_QUERIES_PER_STEP * 5 / 8 };
     search s = {.seen = {.from = w->from, .way = sub(step->state.position, w->from)},
                 .predicted = NOWHERE,
+                .proven = {NOWHERE, NOWHERE},
                 .told = NOWHERE,
                 .rate = INFINITY,
                 .lost = LOST};

@@ -37,8 +37,8 @@ static edge_seen edge_of(const tahr__step *step, const look *l, const contact *c
 }
 
 /* What becomes of a contact with an edge: a thinner foot passes by it, it begins to need a perch, it is too near the
- * rim of the foot. */
-typedef enum limit { PASSES_INNER, NEEDS_PERCH, LEAVES_RIM } limit;
+ * rim of the foot, a foot without its rim passes by it (of an edge that slopes, after that). */
+typedef enum limit { PASSES_INNER, NEEDS_PERCH, LEAVES_RIM, PASSES_RIM } limit;
 
 /* m, level, how far away the edge is then. The rules measure how far the contact is: of an edge that slopes it is
  * before or behind where the edge is nearest, and its normal, across the edge, says how far. */
@@ -49,12 +49,12 @@ static double distance_at(const tahr__step *step, const edge_seen *e, limit what
     double y = dot(e->away, rotate(step->state.orientation, vec(0, 1, 0)));
     double reach = shape_reach(&step->limits->shape, x, y), perch = max_of(c->perch_threshold, c->edge_tolerance);
     if (c->floor_probe == TAHR_FLOOR_PROBE_SHRUNK) {
-        int perches = c->perch_threshold > c->edge_tolerance && what != LEAVES_RIM;
+        int perches = c->perch_threshold > c->edge_tolerance && what < LEAVES_RIM;
         return reach - c->edge_tolerance - (perches ? step->limits->width - tahr__valid_perch_radius(step) : 0);
     }
     double whole = reach + c->skin, holds = what == NEEDS_PERCH ? reach - perch : whole - c->edge_tolerance;
-    if (what == PASSES_INNER) {
-        return whole - perch;
+    if (what == PASSES_INNER || what == PASSES_RIM) {
+        return whole - (what == PASSES_RIM ? 2 * c->edge_tolerance : perch);
     }
     double part2 = holds * holds / (whole * whole), level = max_of(e->level, SMALL);
     return whole * sqrt(max_of(1 - (1 - part2) / level, 0));
@@ -182,18 +182,16 @@ static double turns_round(const tahr__step *step, const looks *s, const contact 
     return is_on(a, b) ? passes_face(step, s, &p) : NOWHERE;
 }
 
-/* By what the same foot met on either side. */
-static double between(const tahr__step *step, const looks *s, const contact *a, const contact *b, int whole)
+/* Where the same foot meets at once what it met on either side. */
+static double meets_both(const tahr__step *step, const looks *s, const contact *a, const contact *b, int whole)
 {
     if (a->kind != FREE && b->kind != FREE && !shape_is_round(&step->limits->shape)) {
         /* Flat sides and straight edges alike go down evenly; how far an edge sticks out of its face does not. */
         return same_direction(a->face, b->face) ? NOWHERE : same_depth(step, s, a, b);
     }
-    if (a->kind == EDGE && b->kind == FREE) { /* by the rim, or out of reach */
+    if (a->kind == EDGE && b->kind == FREE) { /* out of reach */
         passing p = {.look = &s->inside, .edge = a, .face = b};
-        double sinks = meets_edge(step, s, &p, &s->outside);
-        double passes = passes_edge(step, s, &s->inside, a, whole ? LEAVES_RIM : PASSES_INNER);
-        return sinks > s->inside.at && sinks < passes ? sinks : passes;
+        return meets_edge(step, s, &p, &s->outside);
     }
     if (a->kind == EDGE && b->kind == EDGE && dot(a->normal, a->face) * dot(b->normal, a->face) <= 0) {
         return turns_round(step, s, a, b);
@@ -213,6 +211,21 @@ static double between(const tahr__step *step, const looks *s, const contact *a, 
         return meets_edge(step, s, &p, a->kind == FACE ? &s->inside : &s->outside);
     }
     return same_depth(step, s, a, b);
+}
+
+/* By what the same foot met on either side: where it meets both at once, or has passed the edge before. */
+static double between(const tahr__step *step, const looks *s, const contact *a, const contact *b, int whole)
+{
+    const double inside = s->inside.at, both = meets_both(step, s, a, b, whole);
+    if (a->kind != EDGE || (b->kind != FREE && !shape_is_round(&step->limits->shape))) {
+        return both;
+    }
+    double passes = passes_edge(step, s, &s->inside, a, whole ? LEAVES_RIM : PASSES_INNER);
+    passes = whole && passes < inside ? passes_edge(step, s, &s->inside, a, PASSES_RIM) : passes;
+    if (b->kind != FREE && !is_between(s, passes)) {
+        return both;
+    }
+    return both > inside && both < passes ? both : passes;
 }
 
 /* Where an edge comes so far out that it needs a perch. Or later, where the thinner foot passes from the edge to the

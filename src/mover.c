@@ -111,6 +111,7 @@ static void announce(tahr__step *step, double dt, int stance)
     if (stance) {
         tahr__announce_stance(step, &a.bounds);
     }
+    step->announced = a.position;
     tahr__announce(step, &a);
 }
 

@@ -18,7 +18,8 @@ void tahr__announce_near(tahr__step *step, vec3 from, vec3 way)
     vec3 a = add_scaled(from, up, 0.5 * (rise - l->below)), b = add(a, way);
     vec3 low = vec(min_of(a.x, b.x), min_of(a.y, b.y), min_of(a.z, b.z));
     vec3 high = vec(max_of(a.x, b.x), max_of(a.y, b.y), max_of(a.z, b.z));
+    /* Of one step all is asked from one place: what is asked again is answered again, bit for bit. */
     tahr_prepare p = {
-        .bounds = {sub(low, half), add(high, half)}, .position = from, .up = up, .mask = step->config->mask};
+        .bounds = {sub(low, half), add(high, half)}, .position = step->announced, .up = up, .mask = step->config->mask};
     tahr__announce(step, &p);
 }

@@ -234,6 +234,7 @@ tahr_status tahr__bodies_place(tahr__native *world, const tahr_body_pose *poses,
             return TAHR_E_ARGUMENT;
         }
     }
+    world->placed++;
     for (uint32_t i = 0; i < count; i++)
         put_pose(&world->bodies[poses[i].body], &poses[i].pose);
     tahr__fluids_place(&world->fluids, poses, count);

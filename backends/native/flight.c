@@ -8,8 +8,9 @@
 
 enum { ITERATIONS = 64 };
 
-/* Every so many steps a leap is tried. */
+/* Every so many steps a leap is tried, and before the first one where the sine to the surface is no more than that. */
 #define LEAPS 4
+#define FLAT 0.03
 /* The square of the sine between a surface and a motion that meets it, from which on Newton arrives soon. */
 #define STEEP 1e-4
 /* The square of the sine up to which an edge of the core is across a normal. */
@@ -65,6 +66,15 @@ static double foresee(const tahr__flight *f)
     return f->t + (rest > 0 ? c / (b + sqrt(rest)) : b / m2);
 }
 
+/* The lowest that a distance may come, less the target, of what is passed: at the margin a graze is no contact
+ * (graze.h), and at a target of so much what is not passed is met at a slope that counts as one. */
+static double least_beside(const tahr__flight *f)
+{
+    static const double ROUND = 2e-5;
+    const int may_graze = f->targets == 0 && f->target > ROUND && !(f->prim->kind & TAHR__ONE_WAY);
+    return may_graze ? -TAHR__GRAZE : TAHR__ARRIVED;
+}
+
 /* Newton halves what is left where the way only grazes: instead to where those points tell, if that is farther than
  * next, Newton's step. The distance is convex, so tangents prove what is between: 1: the flight is farther on; 0: it is
  * not; -1: it never arrives. */
@@ -92,9 +102,10 @@ static int leap(tahr__flight *f, double next, double limit)
         f->probe.witness = w;
         return 1;
     }
-    if (rest_there <= 0) return 0;
+    const double least = least_beside(f);
+    if (rest_there <= d_min(least, 0) || rate_there < 0) return 0;
     const double meet = (rest_there - rate_there * (to - f->t) - rest) / (rate - rate_there);
-    return rest + rate * meet > TAHR__ARRIVED ? -1 : 0;
+    return rest + rate * meet > least ? -1 : 0;
 }
 
 /* Newton from the left until the distance is target. 1: arrived; 0: never; -1: not decided within the cap. */
@@ -110,7 +121,7 @@ static int advance(tahr__flight *f, double limit)
         if (rest <= TAHR__ARRIVED) return 1;
         double next = f->t + rest / -rate;
         if (next > limit) return 0;
-        if (i % LEAPS == 1 && f->leaps) {
+        if (f->leaps && (i % LEAPS == 1 || (i == 0 && rate > -FLAT * query->motion_length))) {
             const int leaped = leap(f, next, limit);
             if (leaped > 0 && f->leaps == 1) f->before.steps = i;
             if (leaped != 0) f->leaps = 2;

@@ -8,6 +8,9 @@
 /* Below this distance (m) the direction between two points is rounding; the last one that was clear is used instead. */
 #define TAHR__BLURRED 1e-9
 
+/* How much nearer than the margin (m) a motion may pass an edge: what the narrow phase promises. */
+#define TAHR__GRAZE 1e-9
+
 /* One primitive under way: where, and the distance it must come down to. */
 typedef struct tahr__flight {
     const tahr__query *query;

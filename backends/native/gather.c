@@ -299,6 +299,7 @@ tahr_status tahr__cache_prepare(tahr__native *world, tahr_query_context *context
     if (!keep) {
         cache->frame = tahr__frame_make(p->position, p->up);
         cache->vicinity.floor.length = cache->vicinity.floor.normal.z = 0; /* it was of that frame */
+        cache->asked.count = 0;                                            /* so were they */
     }
     cache->announced = 1;
     if (world->no_cache) return TAHR_OK;

@@ -8,9 +8,6 @@
 
 enum { TARGETS = 5 };
 
-/* How much nearer than the margin (m) a motion may pass an edge: what the narrow phase promises. */
-#define GRAZE 1e-9
-
 int tahr__named_before(const tahr__found *a, const tahr__found *b)
 {
     if (a->body != b->body) return a->body < b->body;
@@ -91,14 +88,14 @@ static int passes(const tahr__flight *f)
     const tahr__witness *w = &f->probe.witness;
     double touch = query->radius + f->prim->radius;
     tahr__descent here = {f->probe.gap - query->margin, -v_dot(query->motion, w->normal), f->t}, there = here;
-    if (f->probe.gap < 0 || here.gap < -GRAZE) return 0;
+    if (f->probe.gap < 0 || here.gap < -TAHR__GRAZE) return 0;
     tahr__witness next = *w;
     there.fraction = tahr__beyond(&here, touch + query->margin, query->motion_length);
     tahr__flight_measure(query, f->prim, v_mad(query->start, query->motion, there.fraction), &next);
     query->context->narrow_iterations++;
     there.gap = next.distance - touch - query->margin;
     there.speed = -v_dot(query->motion, next.normal);
-    return tahr__grazes(&here, &there, query->motion_length, GRAZE);
+    return tahr__grazes(&here, &there, query->motion_length, TAHR__GRAZE);
 }
 
 /* A contact at the start that is the surface's: does it block? */

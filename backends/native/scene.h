@@ -6,6 +6,7 @@
 #include "../common/core.h"
 #include "../common/fluid.h"
 #include "../common/mesh.h"
+#include "asked.h"
 #include "heights.h"
 #include "lanes.h"
 
@@ -77,6 +78,7 @@ typedef struct tahr__native {
     tahr_gather_fn gather; /* the user's triangles, or NULL */
     void *gather_user;
     uint64_t revision; /* of them */
+    uint64_t placed;   /* how often bodies have been */
 } tahr__native;
 
 /* Side of a cell (m). All is relative to its corner, so that what is moved by whole cells keeps its bits, that the
@@ -238,6 +240,7 @@ typedef struct tahr__cache {
     double margin;  /* to gather with the next time, 0: the most */
     tahr__vicinity vicinity;
     tahr__stopped stopped;
+    tahr__asked asked; /* of this frame */
 } tahr__cache;
 
 /* Index of what stopped the last motion of a kind (TAHR__OF_*). */

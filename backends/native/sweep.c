@@ -20,6 +20,8 @@ enum { TIES = 8 };
 
 /* Cached primitives that wait for their turn, the earliest first; one more is probed at once. */
 enum { WAITING = 32 };
+/* Primitives that are asked a second time; if there are more, all are. */
+enum { PUT_OFF = 8 };
 
 typedef struct waiter {
     double turn;     /* it does not stop the motion before this time: by its plane, later by its edges too */
@@ -28,6 +30,12 @@ typedef struct waiter {
     uint32_t sure; /* there is no use in asking its edges */
     uint32_t reserved;
 } waiter;
+
+/* What is undecided until all that is beside the start is known. */
+typedef struct put_off {
+    double earliest;
+    tahr__prim prim;
+} put_off;
 
 typedef struct sweep_state {
     tahr__search search;
@@ -42,8 +50,10 @@ typedef struct sweep_state {
     uint32_t sinks; /* and the foot has sunk into one */
     double beside;  /* the smallest gap of what is within the margin at the start and does not block */
     double later;   /* the earliest time at which something undecided may block; > 1: nothing */
+    uint32_t put_off_count, reserved; /* PUT_OFF + 1: more than there is room for */
     waiter waiters[WAITING];
     tahr__found sensors[SENSORS];
+    put_off put_off[PUT_OFF];
 } sweep_state;
 
 /* Leaves to the slot: motion, margin, flags. Only what is read is set: a query is 500 bytes. */
@@ -155,6 +165,16 @@ static int tie(sweep_state *s, const tahr__found *f)
     return 1;
 }
 
+/* The user's triangles that are on their way are more than a primitive: they are looked for again. */
+static void put_off_until_all_is_known(sweep_state *s, const tahr__prim *prim, double earliest)
+{
+    if (s->put_off_count < PUT_OFF && !(prim->kind & TAHR__FRESH)) {
+        s->put_off[s->put_off_count++] = (put_off){earliest, *prim};
+    } else {
+        s->put_off_count = PUT_OFF + 1;
+    }
+}
+
 static void probe(sweep_state *s, const tahr__prim *prim, double earliest)
 {
     const tahr__query *query = s->search.query;
@@ -165,7 +185,10 @@ static void probe(sweep_state *s, const tahr__prim *prim, double earliest)
     tahr__ask ask = {earliest, s->limit, beside};
     int answer = tahr__probe_sweep(query, prim, &ask, &f);
     if (answer == TAHR__BESIDE && !sensor) s->beside = d_min(s->beside, f.gap);
-    if (answer == TAHR__LATER) s->later = d_min(s->later, f.t);
+    if (answer == TAHR__LATER) {
+        s->later = d_min(s->later, f.t);
+        put_off_until_all_is_known(s, prim, earliest);
+    }
     if (answer == TAHR__SINKS) s->sinks = 1;
     if (answer != TAHR__BLOCKED) return;
     if (sensor) {
@@ -238,7 +261,7 @@ static void begin(sweep_state *s, const tahr__query *query)
     s->limit = 1;
     s->stopper = NULL;
     s->hair = query->motion_length > 0 ? HAIR / query->motion_length : 0;
-    s->tied = s->sensor_count = s->lost = s->again = s->waiting = s->edged = s->sinks = 0;
+    s->tied = s->sensor_count = s->lost = s->again = s->waiting = s->edged = s->sinks = s->put_off_count = 0;
     s->beside = query->margin;
     s->later = 2;
 }
@@ -381,13 +404,19 @@ static void search(sweep_state *s)
 }
 
 /* Nearly always once. A second time, with all that is beside the start known, if a contact that seemed to belong to a
- * neighbour may come first after all. */
+ * neighbour may come first after all; everybody else has answered for good. */
 static void run(sweep_state *s)
 {
     search(s);
     if (s->later >= s->limit) return;
     s->again = 1;
-    search(s);
+    if (s->put_off_count > PUT_OFF || s->search.query->world->no_vicinity) {
+        search(s);
+        return;
+    }
+    for (uint32_t i = 0; i < s->put_off_count; i++) {
+        if (s->put_off[i].earliest <= s->limit) probe(s, &s->put_off[i].prim, s->put_off[i].earliest);
+    }
 }
 
 void tahr__fill_hit(const tahr__query *query, const tahr__found *f, tahr_hit *hit)
@@ -467,6 +496,27 @@ static int meets_movable(const tahr__query *query)
     return tahr__movable_meets(query->world, &world);
 }
 
+/* A sweep for what blocks, which may have been asked before. */
+static tahr_status sweep_once(tahr__query *query, const tahr_sweep *sweep, tahr_hit *hit, uint32_t *count)
+{
+    tahr_query_context *context = query->context;
+    const tahr__native *world = query->world;
+    tahr__asked *asked = query->cache && !world->no_vicinity ? &query->cache->asked : NULL;
+    const tahr__asked_sweep *before = asked && asked->count ? tahr__asked_find(asked, world->placed, sweep) : NULL;
+    const uint64_t measured = context->narrow_iterations;
+    if (before) {
+        context->spared++;
+        *count = before->count;
+        if (before->count) *hit = before->hit;
+        return TAHR_OK;
+    }
+    tahr_status status = tahr__sweep_rest(query, hit, 1, count);
+    if (asked && status == TAHR_OK && context->narrow_iterations - measured >= TAHR__DEAR) {
+        tahr__asked_keep(asked, world->placed, sweep, hit, *count);
+    }
+    return status;
+}
+
 tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const tahr_sweep *sweep, tahr_hit *hits,
                                uint32_t capacity, uint32_t *count)
 {
@@ -488,5 +538,5 @@ tahr_status tahr__native_sweep(void *self, tahr_query_context *context, const ta
         *count = 1;
         return TAHR_OK;
     }
-    return tahr__sweep_rest(&query, hits, capacity, count);
+    return capacity == 1 ? sweep_once(&query, sweep, hits, count) : tahr__sweep_rest(&query, hits, capacity, count);
 }

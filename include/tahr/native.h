@@ -44,8 +44,9 @@ typedef tahr_status (*tahr_gather_fn)(void *user, const tahr_bounds *box, uint32
 /* Zero means default for every field but struct_size. Out of range: tahr_world_open returns TAHR_E_ARGUMENT. */
 typedef struct tahr_native_desc {
     uint32_t struct_size;
-    uint32_t no_vicinity; /* 1: every query looks at all that was gathered, however clear the air is, and at a corner
-                               * over each of its triangles; same bits */
+    uint32_t no_vicinity; /* 1: every query looks at all that was gathered, however clear the air is, at a corner over
+                               * each of its triangles, and at all again where one waits for the rest, or the same is
+                               * asked twice; same bits */
     uint32_t cache_triangles; /* per character, default 128, at most 4096, 288 bytes each; what exceeds it is slower */
     uint32_t no_cache;        /* 1: every query walks the tree; same bits */
     uint32_t no_simd;         /* 1: the scalar twin; same bits */
