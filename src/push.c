@@ -162,7 +162,7 @@ static int push_up_step(tahr__step *step, uint32_t body, const meeting *m)
     tahr__sweep(step, &step->limits->shape, from, way, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
     if (is_met(&hit)) {
         step->state.position = add_scaled(from, way, hit.fraction);
-        covered = tahr__step_up(step, scale(way, 1 - hit.fraction), &hit);
+        covered = tahr__step_up(step, scale(way, 1 - hit.fraction), &hit, NULL);
     }
     step->ignore_body = TAHR_NO_BODY;
     vec3 rest = sub(step->state.position, m->at);
