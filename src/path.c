@@ -311,8 +311,8 @@ static int take_ramp(tahr__step *step, tahr__path *w, const tahr_hit *hit)
 }
 
 /* A step is taken half a foot at a time, so that a long slice climbs one tread after the other. Not so along the end of
- * a ceiling, which lets the head rise only as it goes on while the foot goes on only as it rises: by ever smaller parts
- * without end. */
+ * a ceiling, which lets the head rise only as it goes on, while the foot goes on only as it rises: by ever smaller
+ * parts, without end. */
 static int take_step(tahr__step *step, tahr__path *w, vec3 level, const tahr_hit *hit)
 {
     double stride = min_of(1, 0.5 * step->limits->width / length(level));

@@ -219,8 +219,8 @@ static int is_inside(tahr__step *step, uint32_t body, vec3 from)
 
 /* In the air: the body that the character meets in this step, or that would push it. Their relative motion is then the
  * same at every frame rate: a landing on a train, a jump off a lift that rises. Or the one-way body that it is passing:
- * seen from the world a lift that sinks would be below the foot already before the foot has moved. [out] high: so many m
- * above his centre is what of his axis meets it; of who is inside, the foot. */
+ * seen from the world a lift that sinks would be below the foot already before the foot has moved. [out] high: so many
+ * m above his centre is what of his axis meets it; of who is inside, the foot. */
 static uint32_t first_met(tahr__step *step, vec3 own, double *high, uint32_t *inside)
 {
     const tahr__limits *l = step->limits;
