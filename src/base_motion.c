@@ -157,6 +157,12 @@ void tahr__board(tahr__step *step, uint32_t body)
 {
     tahr_body_motion motion;
     if (step->frame_body == body && body != TAHR_NO_BODY) {
+        int known = !step->frame_is_base && tahr__body_motion(step->world, body, &motion) >= 0;
+        if (known && motion_tilts(step, &motion)) { /* until now it was that of what met it */
+            vec3 now = velocity_under(step, &motion, 1);
+            step->state.velocity = bounded(add(step->state.velocity, sub(step->frame_velocity, now)));
+            step->frame_velocity = now;
+        }
         step->frame_is_base = 1;
         return;
     }

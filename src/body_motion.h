@@ -24,6 +24,12 @@ tahr_pose tahr__pose_between(const tahr_pose *from, const tahr_pose *to, double 
 /* Half the angle between two orientations, rad, 0..pi/2; axis: unit, or zero. */
 double tahr__half_turn(tahr_quat from, tahr_quat to, vec3 *axis);
 
+/* Does it turn otherwise than about up? Who stays upright is turned then, seen from the body. */
+static inline int motion_tilts(const tahr__step *step, const tahr_body_motion *motion)
+{
+    return length_squared(step_level(step, motion->angular_velocity)) > 0;
+}
+
 static inline int quat_equal(tahr_quat a, tahr_quat b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;

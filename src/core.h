@@ -303,7 +303,7 @@ struct tahr__step {
     uint32_t just_teleported; /* put somewhere without a motion of its own: its displacement is no velocity */
     uint32_t frame_body;      /* what state.velocity is relative to in this step, or TAHR_NO_BODY (base_motion.c) */
     uint32_t frame_is_base;   /* 1: it stood on it; 0: it meets it in the air */
-    vec3 frame_velocity;      /* m/s, of that body at the foot */
+    vec3 frame_velocity;      /* m/s, of that body at the foot, or at the height at which it was met */
     double decay_mean;        /* m/s, of an imparted velocity in what is left of this step; 0: none decays */
     double decay_left;        /* m/s, of it at the end of the step */
     double dt;                /* s of the whole step */

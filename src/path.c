@@ -82,6 +82,7 @@ void tahr__path_begin(tahr__step *step, tahr__path *w, double duration)
     w->wall_count = 0;
     w->turns = 0;
     w->careful = 0;
+    w->lowered = 0;
     w->ease = 0;
     w->drifts = 0;
     w->start = step->state.position;
@@ -309,11 +310,14 @@ static int take_ramp(tahr__step *step, tahr__path *w, const tahr_hit *hit)
     return tahr__decide(step, TAHR_RULE_RAMP, 1, hit, up, limit, "a walkable face");
 }
 
-/* A step is taken half a foot at a time, so that a long slice climbs one tread after the other. */
+/* A step is taken half a foot at a time, so that a long slice climbs one tread after the other. Not so along the end of
+ * a ceiling, which lets the head rise only as it goes on, while the foot goes on only as it rises: by ever smaller
+ * parts, without end. */
 static int take_step(tahr__step *step, tahr__path *w, vec3 level, const tahr_hit *hit)
 {
     double stride = min_of(1, 0.5 * step->limits->width / length(level));
-    double covered = tahr__step_up(step, scale(level, stride), hit);
+    w->lowered = w->lowered && length_squared(sub(step->state.position, w->from)) < SEAM * SEAM;
+    double covered = tahr__step_up(step, scale(level, stride), hit, &w->lowered);
     if (covered <= 0) {
         return 0;
     }

@@ -28,6 +28,7 @@ typedef struct tahr__path {
     double left_before;
     uint32_t turns;            /* times that something was met */
     uint32_t careful;          /* 1: the path ends where it meets something without a floor underfoot */
+    uint32_t lowered;          /* 1: here a step ended that something overhead cut short */
     double lost;               /* s of the piece that a cap or an answer dropped */
     struct tahr__scope *scope; /* to open where something is first met, as it was at the begin; NULL: it is open */
     vec3 given;                /* the state's velocity then */

@@ -156,7 +156,7 @@ static int push_up_step(tahr__step *step, uint32_t body, const meeting *m)
     tahr__sweep(step, &step->limits->shape, from, way, step->config->skin, TAHR_SWEEP_LEAVE_OVERLAP, &hit);
     if (is_met(&hit)) {
         step->state.position = add_scaled(from, way, hit.fraction);
-        covered = tahr__step_up(step, scale(way, 1 - hit.fraction), &hit);
+        covered = tahr__step_up(step, scale(way, 1 - hit.fraction), &hit, NULL);
     }
     step->ignore_body = TAHR_NO_BODY;
     vec3 rest = sub(step->state.position, m->at);
@@ -213,9 +213,11 @@ static int is_inside(tahr__step *step, uint32_t body, vec3 from)
 
 /* In the air: the body that the character meets in this step, or that would push it. Their relative motion is then the
  * same at every frame rate: a landing on a train, a jump off a lift that rises. Or the one-way body that it is passing:
- * seen from the world a lift that sinks would be below the foot already before the foot has moved. */
-static uint32_t first_met(tahr__step *step, vec3 own, uint32_t *inside)
+ * seen from the world a lift that sinks would be below the foot already before the foot has moved. [out] high: so many
+ * m above his centre is what of his axis meets it; of who is inside, the foot. */
+static uint32_t first_met(tahr__step *step, vec3 own, double *high, uint32_t *inside)
 {
+    const tahr__limits *l = step->limits;
     const tahr_world *world = step->world;
     const vec3 from = step->state.position;
     uint32_t first = TAHR_NO_BODY;
@@ -236,6 +238,8 @@ static uint32_t first_met(tahr__step *step, vec3 own, uint32_t *inside)
             soonest = time;
             first = body;
             *inside = (uint32_t)within;
+            *high =
+                within ? -l->shape.half_height : clamp(dot(sub(m.hit.point, m.at), step->state.up), -l->axis, l->axis);
         }
     }
     return first;
@@ -256,21 +260,26 @@ static void take_frame(tahr__step *step, double dt)
     tahr_body_motion motion;
     vec3 own = add_scaled(scale(s->velocity, dt), step->pull->gravity, 0.5 * dt * dt);
     uint32_t body = dropped_from(step), inside = body != TAHR_NO_BODY;
-    body = inside ? body : first_met(step, own, &inside);
+    double high = -step->limits->shape.half_height;
+    body = inside ? body : first_met(step, own, &high, &inside);
     if (body == TAHR_NO_BODY || tahr__body_motion(step->world, body, &motion) < 0) {
         return;
     }
     const tahr__body_note *note = &step->world->bodies[body];
     step->ignore_body = body;
     step->passes = inside; /* what it is inside of may be a row of bodies: all of them are elsewhere already */
-    tahr__go_along(step, sub(tahr__carried(step->world, &note->before, &note->pose, s->position), s->position));
+    /* Upright beside a body that tilts he stays as near as he was only where he meets it. */
+    high = motion_tilts(step, &motion) ? high : 0;
+    const vec3 held = add_scaled(s->position, s->up, high);
+    tahr__go_along(step, sub(tahr__carried(step->world, &note->before, &note->pose, held), held));
     step->passes = 0;
     step->ignore_body = TAHR_NO_BODY;
     if (body == dropped_from(step)) {
         tahr__carry_drop(step, &note->before, &note->pose);
     }
     step->frame_body = body;
-    step->frame_velocity = along_plane(step->limits, tahr__point_velocity(&motion, step_foot(step), 1));
+    step->frame_velocity =
+        along_plane(step->limits, tahr__point_velocity(&motion, add_scaled(s->position, s->up, high), 1));
     s->velocity = sub(s->velocity, step->frame_velocity);
 }
 

@@ -21,6 +21,7 @@ static const double PROGRESS = 1e-4;
 typedef struct attempt {
     vec3 up;
     double lift;    /* m, raised by */
+    int whole;      /* 1: a part of the motion is not worth it */
     double covered; /* part of the motion */
     int rises;      /* 1: the way up has been asked for */
     int lands;      /* 1: so has the way down from there, */
@@ -36,12 +37,12 @@ static int refuse(tahr__step *step, const tahr_hit *hit, double value, double li
 }
 
 /* Sweeps forward from the raised place. Returns the part of the motion that is free there. */
-static double free_ahead(tahr__step *step, vec3 motion, double lift, tahr_hit *hit)
+static double free_ahead(tahr__step *step, vec3 motion, const attempt *a, tahr_hit *hit)
 {
-    vec3 raised = add_scaled(step->state.position, step->state.up, lift);
+    vec3 raised = add_scaled(step->state.position, step->state.up, a->lift);
     tahr__sweep(step, &step->limits->shape, raised, motion, step->config->skin, 0, hit);
     double part = hit->start_overlap ? 0 : hit->fraction;
-    return part == 1 || part * length(motion) > PROGRESS * step->limits->width ? part : 0;
+    return part == 1 || (part * length(motion) > PROGRESS * step->limits->width && !a->whole) ? part : 0;
 }
 
 /* Would the raised shape, by whatever part of the lift, touch the same point of a wall, with its side? Then it gets no
@@ -83,7 +84,7 @@ static int rise(tahr__step *step, vec3 motion, attempt *a)
     a->rises = 1;
     if (is_blocked(&above)) {
         a->lift *= above.fraction;
-        a->covered = free_ahead(step, motion, a->lift, &ahead);
+        a->covered = free_ahead(step, motion, a, &ahead);
         a->lands = a->judged = 0;
     }
     if (above.start_overlap || a->covered == 0) {
@@ -102,7 +103,7 @@ static int forward(tahr__step *step, vec3 motion, const tahr_hit *obstacle, atte
         tahr__sweep_barred(step);
         return refuse(step, obstacle, 0, 0, "blocked at step height too");
     }
-    a->covered = free_ahead(step, motion, a->lift, &ahead);
+    a->covered = free_ahead(step, motion, a, &ahead);
     if (a->covered < 1) {
         a->lands = a->judged = 0;
     }
@@ -204,16 +205,16 @@ int tahr__step_up_at(tahr__step *step, vec3 motion, const tahr__swept *obstacle,
     if (step->config->step_rule == TAHR_STEP_BY_CONTACT) {
         return tahr__step_up_by_contact(step, motion, obstacle, found_floor);
     }
-    *found_floor = tahr__step_up(step, motion, &obstacle->hit) > 0;
+    *found_floor = tahr__step_up(step, motion, &obstacle->hit, NULL) > 0;
     return *found_floor;
 }
 
-double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
+double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle, uint32_t *lowered)
 {
     const tahr_config *c = step->config;
     tahr__scope scope;
     tahr_floor floor;
-    attempt a = {.up = step->state.up, .lift = c->step_height};
+    attempt a = {.up = step->state.up, .lift = c->step_height, .whole = lowered && *lowered};
     if (c->step_rule == TAHR_STEP_BY_CONTACT) {
         return by_contact(step, motion, obstacle);
     }
@@ -244,6 +245,9 @@ double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
     tahr__decide(step, TAHR_RULE_STEP_UP, 1, &a.landing, gain, c->step_height, "landed");
     if (a.rise > c->skin) { /* not again while the foot rolls over the same edge */
         tahr__event(step, TAHR_EVENT_STEPPED_UP, &a.landing, a.rise);
+    }
+    if (lowered) {
+        *lowered = a.covered < 1 && a.lift < c->step_height;
     }
     return a.covered;
 }

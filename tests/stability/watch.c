@@ -162,13 +162,22 @@ static void check_energy(watch *w, int step, const tahr_state *a, const tahr_sta
     at_most(w, KEEPS_ENERGY, step, length(b->velocity), bound * (1 + 1e-9) + 1e-12, "faster than it can be, m/s");
 }
 
-static void check_rest(watch *w, int step, const tahr_state *a, const tahr_state *b)
+/* One surface at a time it may take many steps out of an overlap: that is no rest as long as each leaves less of it. */
+static int comes_free(const watch *w, const tahr_state *a, const tahr_state *b, const tahr_report *r)
+{
+    if (w->trial->config.depenetration == TAHR_DEPENETRATION_JOINT || !has_event(r, TAHR_EVENT_DEPENETRATED)) return 0;
+    double was = judge_gap(w->judge, w->poses[1], a, 0, NULL);
+    return was < 0 && judge_gap(w->judge, w->poses[1], b, 0, NULL) > was;
+}
+
+static void check_rest(watch *w, int step, const tahr_state *a, const tahr_state *b, const tahr_report *r)
 {
     const trial *t = w->trial;
     int is_idle = step >= t->first_rest;
     w->idle = is_idle ? w->idle + 1 : 0;
     if (w->moves || !is_idle) return;
-    int rests = a->mode == TAHR_MODE_WALKING && b->mode == TAHR_MODE_WALKING && length(a->velocity) == 0;
+    int rests = a->mode == TAHR_MODE_WALKING && b->mode == TAHR_MODE_WALKING && length(a->velocity) == 0 &&
+                !comes_free(w, a, b, r);
     w->still = rests ? w->still + 1 : 0;
     if (w->still > REST_FROM && memcmp(a, b, sizeof *a) != 0) {
         watch_accuse(w, KEEPS_REST, step, length(minus(b->position, a->position)), 0, "at rest, and still changes, m");
@@ -321,7 +330,7 @@ void watch_step(watch *w, int step, tahr_status status, const tahr_state *before
     if ((w->keeps & KEEPS_WORD) && dt >= 1e-9) check_word(w, step, now, report);
     if (w->keeps & KEEPS_ENERGY) check_energy(w, step, before, now, report, dt);
     w->landed = before->mode == TAHR_MODE_WALKING && now->mode == TAHR_MODE_WALKING ? w->landed + 1 : 0;
-    check_rest(w, step, before, now);
+    check_rest(w, step, before, now, report);
     if (w->keeps & KEEPS_FLOOR) check_floor(w, step, now);
     if (w->keeps & KEEPS_GROUND) check_ground(w, step, before, now);
     if (w->keeps & KEEPS_SPEED) check_speed(w, step, before, now);

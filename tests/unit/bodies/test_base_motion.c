@@ -162,6 +162,53 @@ static void a_base_that_tilts_keeps_who_stands_on_it(void **unused)
     }
 }
 
+/* m to what is nearest, at most a bit more than the skin. */
+static double clearance(const rig *r)
+{
+    tahr_contact nearest;
+    uint32_t count = 0;
+    const tahr_contact_query q = {.shape = r->config.shape,
+                                  .position = r->state.position,
+                                  .up = r->state.up,
+                                  .orientation = r->state.orientation,
+                                  .margin = 1.1 * r->config.skin,
+                                  .mask = r->config.mask,
+                                  .ignore_body = TAHR_NO_BODY,
+                                  .flags = TAHR_CONTACTS_SOLID};
+    assert_true(tahr_world_contacts(r->world, &q, &nearest, 1, &count) >= 0);
+    return count > 0 ? nearest.distance : q.margin;
+}
+
+/* Past the end of a slab that tilts the upright shape turns, seen from the slab: held where they meet, not by its
+ * middle, it comes no nearer. */
+static void who_falls_past_the_end_of_what_tilts_comes_no_nearer(void **unused)
+{
+    const double dt = 1.0 / 60;
+    int falls_past = 0;
+    (void)unused;
+    for (int i = 0; i < 200; i++) {
+        rig r;
+        const double spin = 0.2 * (i % 10 - 4.5), height = 0.1 * (i / 10);
+        const tahr_body_desc slab = stage_box(fake_vec(0, 0, -0.5), fake_vec(6, 6, 0.5));
+        rig_open_bodies(&r, &slab, 1, NULL, fake_vec(6.4, 0, height));
+        r.input.move = fake_vec(-1, 0, 0);
+        for (int n = 1; n < 60; n++) {
+            const double half = spin * n * dt / 2;
+            const tahr_body_pose moved = {0, 0, {slab.pose.position, {0, sin(half), 0, cos(half)}}};
+            assert_int_equal(tahr_world_move(r.world, &moved, 1, dt), TAHR_OK);
+            const double before = clearance(&r);
+            rig_step(&r, dt);
+            const double now = clearance(&r), owed = fmin(before, r.config.skin);
+            falls_past += now < 1.05 * r.config.skin && r.state.mode == TAHR_MODE_FALLING;
+            if (now < owed - 1e-5) {
+                fail_msg("spin %g, from %g m, step %d: %g m instead of %g", spin, height, n, now, owed);
+            }
+        }
+        rig_close(&r);
+    }
+    assert_true(falls_past > 1000);
+}
+
 static void up_may_be_any_direction(void **unused)
 {
     rig r;
@@ -351,6 +398,7 @@ int main(void)
         cmocka_unit_test(bodies_that_move_elsewhere_cost_no_query),
         cmocka_unit_test(what_is_placed_while_others_move_is_noticed),
         cmocka_unit_test(a_base_that_tilts_keeps_who_stands_on_it),
+        cmocka_unit_test(who_falls_past_the_end_of_what_tilts_comes_no_nearer),
         cmocka_unit_test(up_may_be_any_direction),
         cmocka_unit_test(ten_minutes_on_a_turntable_do_not_drift),
         cmocka_unit_test(the_orientation_turns_with_the_base_if_asked),

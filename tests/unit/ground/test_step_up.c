@@ -288,6 +288,30 @@ static void who_stops_half_way_up_a_bevel_rests_there_and_goes_on(void **unused)
     }
 }
 
+/* From under a ceiling, along a step: where the ceiling ends its edge lets the head rise only as it goes on, and the
+ * foot goes on over the edge of the step only as it rises. */
+static void a_ceiling_that_ends_beside_a_step_takes_no_time(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < 200; i++) {
+        fake_world w;
+        rig r;
+        const double low = 0.1 + 0.1 * (i % 4), high = 1.83 + 0.02 * (i / 4 % 10), way = 0.15 * (2 + i / 40);
+        block(&w, low);
+        fake_add_box(&w, fake_vec(-9, -20, high), fake_vec(40, 0, 9));
+        rig_stand(&r, &w, NULL, fake_vec(1.5, -1, 0.915));
+        r.input.move = fake_vec(cos(way), sin(way), 0);
+        for (int k = 0; k < 72; k++) {
+            rig_step(&r, 1.0 / 60);
+            if (r.report.time_lost > 0) {
+                fail_msg("%g m high, ceiling at %g, way %g: %g s lost", low, high, way, r.report.time_lost);
+            }
+        }
+        assert_true(r.state.position.x > 2 && r.state.position.z > low + 0.9);
+        rig_close(&r);
+    }
+}
+
 /* Past the edge of a slope that is no step the floor has ended: walked down from above it is not held to, nor from
  * below. */
 static void the_upper_end_of_a_high_steep_slope_holds_nobody(void **unused)
@@ -420,6 +444,7 @@ int main(void)
         cmocka_unit_test(an_edge_that_is_never_walkable_is_walked_over_like_a_sharp_one),
         cmocka_unit_test(a_slope_too_steep_to_stand_on_is_a_step_if_it_is_no_higher_than_one),
         cmocka_unit_test(who_stops_half_way_up_a_bevel_rests_there_and_goes_on),
+        cmocka_unit_test(a_ceiling_that_ends_beside_a_step_takes_no_time),
         cmocka_unit_test(the_upper_end_of_a_high_steep_slope_holds_nobody),
         cmocka_unit_test(a_low_ceiling_over_the_step_refuses_it),
         cmocka_unit_test(a_ceiling_just_high_enough_lets_the_step_through),

@@ -166,7 +166,7 @@ static void compare(int yards, void (*make)(oracle_random *, tahr_body_desc[BODI
             tahr__step plain = step;
             plain.queries = step.queries = 0;
             int steps = plain_step(&plain, motion, &obstacle, &to);
-            double covered = tahr__step_up(&step, motion, &obstacle);
+            double covered = tahr__step_up(&step, motion, &obstacle, NULL);
             assert_int_equal(covered > 0, steps);
             t->met++;
             t->asked += step.queries;
@@ -228,7 +228,7 @@ static void only_a_point_in_the_way_bars_it(void **unused)
         step.state.floor = floor;
         hit.normal = unit(fake_vec(-1, 0, 1e-6));
         hit.point = add(step.state.position, fake_vec(touched + cases[i].farther, cases[i].aside, cases[i].higher));
-        assert_int_equal(tahr__step_up(&step, motion, &hit) > 0, !cases[i].bars);
+        assert_int_equal(tahr__step_up(&step, motion, &hit, NULL) > 0, !cases[i].bars);
     }
     rig_close(&r);
 }
