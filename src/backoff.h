@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * backoff.h: what is tried only where it is of use: after it was in vain it is left alone for a while, twice as long each
- * time, up to 15 times. Of what bears on no bit. */
+ * backoff.h: what is tried only where it is of use: after it was in vain it is left alone for a while, twice as long
+ * each time, up to 15 times. Of what bears on no bit. */
 #ifndef TAHR_BACKOFF_H
 #define TAHR_BACKOFF_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * form_avx512.c: eight triangles at a time. Only called where tahr__has_avx512 says so; without FMA, so that it does the
- * operations of the scalar twin. */
+ * form_avx512.c: eight triangles at a time. Only called where tahr__has_avx512 says so; without FMA, so that it does
+ * the operations of the scalar twin. */
 #include "form.h"
 
 #include <string.h>

@@ -180,8 +180,8 @@ static void find_cell(const field_search *f, uint32_t *column, uint32_t *row)
     }
 }
 
-/* The same straight from the grid of a field of heights: a likely cell, and then the others, of which what was met there
- * leaves few. */
+/* The same straight from the grid of a field of heights: a likely cell, and then the others, of which what was met
+ * there leaves few. */
 static void search_heights(tahr__search *s, uint32_t id, const tahr__map *map)
 {
     field_search f;

@@ -113,8 +113,8 @@ typedef struct tahr_config {
     double perch_threshold; /* m [0.15 | 0] a contact in the outermost ring of this width needs a floor further in */
     double perch_extra;     /* m [0.4] how much deeper than snap_distance that floor may lie */
     double edge_tolerance;  /* m [1e-4 | 0.0015] impacts this close to the rim of the shape are no floor */
-    /* [1 | 0] 0: look for the floor even when nothing changed. It is the same one, to the last bit but where a walk that
-     * ended in another 4 m cell than its last step began in comes to rest: native rounds in the cell of the begin. */
+    /* [1 | 0] 0: look for the floor even when nothing changed. It is the same one, to the last bit but where a walk
+     * that ended in another 4 m cell than its last step began in comes to rest: native rounds in that of the begin. */
     uint32_t cached_floor;
     uint32_t walk_off_ledges;          /* [1] 0: stop at ledges instead of falling */
     uint32_t walk_off_ledges_crouched; /* [1 | 0] */

@@ -25,11 +25,11 @@ TAHR_API void tahr_threads_destroy(tahr_threads *threads);
 /* How many threads work, the calling one among them; 0 for NULL. May run on several threads. Since 0.1. */
 TAHR_API uint32_t tahr_threads_count(const tahr_threads *threads);
 
-/* A tahr_run_tasks_fn: calls task(argument, i) once for every i < count, on all threads that the system lets run in time
- * and the calling one, and returns when all have returned; each has a share of its own, lowest first, then helps the
- * others. threads: a tahr_threads, as tahr_crowd_desc.run_user hands it over; NULL:
- * all on the calling thread, and so if the threads are at work already, for another thread or for the task that calls
- * this. Allocates nothing; may run on several threads. Since 0.1. */
+/* A tahr_run_tasks_fn: calls task(argument, i) once for every i < count, on all threads that the system lets run in
+ * time and the calling one, and returns when all have returned; each has a share of its own, lowest first, then helps
+ * the others. threads: a tahr_threads, as tahr_crowd_desc.run_user hands it over; NULL: all on the calling thread, and
+ * so if the threads are at work already, for another thread or for the task that calls this. Allocates nothing; may run
+ * on several threads. Since 0.1. */
 TAHR_API void tahr_threads_run(void *threads, tahr_task_fn task, void *argument, uint32_t count);
 
 #ifdef __cplusplus

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * families_kinds.c: kinds of bodies and of characters that others do not have: hulls, fields of heights, platforms that
- * are there from above only, sensors, water, what pushes, and who is a box. What is promised of each is measured here in
- * closed form: all that is not a hull or a field is a box along the axes, and the character is upright. */
+ * are there from above only, sensors, water, what pushes, and who is a box. What is promised of each is measured here
+ * in closed form: all that is not a hull or a field is a box along the axes, and the character is upright. */
 #include "family.h"
 
 #include <math.h>

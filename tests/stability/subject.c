@@ -28,8 +28,8 @@ static const uint32_t BOTH = IN_SPACE | IN_PLANE, ALL = (1u << KEEPS_COUNT) - 1;
 #define PLANAR_ONLY "a world of two dimensions"
 
 /* sweep-only: what is near and not overlapped it cannot tell, so nobody comes to rest between faces too steep to stand
- * on. gap: 1e-9 m is what native's README promises, and of the others, as the own core distance decides what their engines
- * find. */
+ * on. gap: 1e-9 m is what native's README promises, and of the others, as the own core distance decides what their
+ * engines find. */
 const subject SUBJECTS[] = {
     {"native", BOTH, "", ALL, 0, 0, 0, 1e-9, ON_NATIVE, 0},
 #ifdef TAHR_HAVE_CCD

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * test_method.c: Tahr as a method keeps to the seam, and the outline of a planar level is the one it was drawn out of. */
+ * test_method.c: Tahr as a method keeps to the seam, and a planar level has the outline it was drawn out of. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -112,8 +112,8 @@ static void what_is_told_again_is_what_is_found(void **unused)
     assert_true(edges > PAIRS / 50 && corners > PAIRS / 50);
 }
 
-/* An edge that hardly slants against the segment, and ends soon: its corner is as near but for rounding, since along the
- * segment it goes along. */
+/* An edge that hardly slants against the segment, and ends soon: its corner is as near but for rounding, since along
+ * the segment it goes along. */
 static void make_slanted(pair *p, oracle_random *r)
 {
     const uint32_t i = oracle_below(r, 3);

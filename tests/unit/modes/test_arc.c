@@ -83,7 +83,7 @@ static void an_arc_meets_a_plane_at_the_root_of_its_equation(void **unused)
     assert_true(met > 2000);
 }
 
-/* Along a face, as after a slide, and pulled into it: the root is that of a square, which a Newton halves its way to. */
+/* Along a face, as after a slide, and pulled into it: the root is that of a square, to which a Newton only halves. */
 static void an_arc_that_leaves_a_plane_flat_meets_it_again(void **unused)
 {
     (void)unused;
