@@ -110,6 +110,15 @@ static void open_walker(walker *w, tahr_world *worlds[2], uint32_t what, oracle_
     w->has_events = (int)oracle_below(dice, 2);
 }
 
+static void close_walkers(walker *w, int count, tahr_world *worlds[2])
+{
+    for (int way = 0; way < 2; way++) {
+        for (int i = 0; i < count; i++)
+            tahr_mover_destroy(w[i].movers[way]);
+        tahr_world_close(worlds[way]);
+    }
+}
+
 /* The button goes down and up at random, at most half a second each; who is far out turns back. */
 static void want(walker *w, uint32_t what, oracle_random *dice)
 {
@@ -190,11 +199,7 @@ static void wander(uint32_t what, int moves, oracle_random *dice, tally *all)
             step_both(&walkers[i], dt, all);
         }
     }
-    for (int i = 0; i < CHARACTERS; i++)
-        for (int way = 0; way < 2; way++)
-            tahr_mover_destroy(walkers[i].movers[way]);
-    for (int way = 0; way < 2; way++)
-        tahr_world_close(worlds[way]);
+    close_walkers(walkers, CHARACTERS, worlds);
     const uint64_t *now = all->saved, *then = before.saved;
     assert_true(now[TAHR_SHORTCUT_KNOWN_FLOOR] - then[TAHR_SHORTCUT_KNOWN_FLOOR] > STEPS / 5);
     assert_true(now[TAHR_SHORTCUT_CLEAR_AIR] - then[TAHR_SHORTCUT_CLEAR_AIR] > 20);
@@ -229,9 +234,44 @@ static void any_mixture_of_settings_has_the_bits_of_the_long_way(void **unused)
     assert_that_much_happened(&all);
 }
 
+/* Who walks and who falls: facings as large as they may be, and larger; and a first step as long as it may be, of
+ * who left a wall or presses the button. */
+static void what_is_asked_for_the_short_way_is_checked(void **unused)
+{
+    static const double sizes[] = {1, 9e4, 9e5, 1.1e6, NAN, INFINITY};
+    (void)unused;
+    for (size_t n = 0; n < 2 * sizeof sizes / sizeof sizes[0]; n++) {
+        tahr_world *worlds[2] = {open_yard(0), open_yard(0)};
+        const int falls = n % 2 == 0, good = n / 2 < 3;
+        oracle_random dice = {n};
+        tally all = {0};
+        walker w;
+        open_walker(&w, worlds, COYOTE | BUFFER | AIR, &dice);
+        for (int way = 0; way < 2; way++) {
+            w.states[way].position = (tahr_vec3){60, 60, falls ? 500 : 0.92};
+            w.states[way].flags = n % 4 == 0 ? TAHR_STATE_WALL_TOUCHED : 0;
+        }
+        w.input.jump = n % 4 == 2;
+        step_both(&w, falls ? 1 : 1.0 / 60, &all);
+        w.input.jump = 0;
+        w.input.move.x = 0.5;
+        for (int i = 0; i < 60; i++)
+            step_both(&w, 1.0 / 60, &all);
+        w.input.flags = TAHR_INPUT_FACING;
+        w.input.facing = (tahr_vec3){0.1, sizes[n / 2], 0};
+        for (int way = 0; way < 2; way++) {
+            const tahr_status is = tahr_mover_step(w.movers[way], &w.input, 1.0 / 60, &w.states[way], NULL);
+            assert_int_equal(is, good ? TAHR_OK : TAHR_E_ARGUMENT);
+        }
+        assert_memory_equal(&w.states[0], &w.states[1], sizeof w.states[0]);
+        close_walkers(&w, 1, worlds);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(each_setting_by_itself_has_the_bits_of_the_long_way),
-                                       cmocka_unit_test(any_mixture_of_settings_has_the_bits_of_the_long_way)};
+                                       cmocka_unit_test(any_mixture_of_settings_has_the_bits_of_the_long_way),
+                                       cmocka_unit_test(what_is_asked_for_the_short_way_is_checked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
