@@ -37,8 +37,10 @@ static inline int arguments_are_usual(const tahr_mover *mover, const tahr_input 
     double places = (length_squared(s->position) + length_squared(s->floor_position)) + length_squared(f->point);
     places += f->distance * f->distance + f->perch_distance * f->perch_distance;
     double speeds = length_squared(s->velocity) + length_squared(in->move);
+    speeds += in->flags ? length_squared(in->facing) : 0;
     double normals = length_squared(f->normal) + length_squared(f->surface_normal);
-    uint32_t odd = (in->struct_size ^ (uint32_t)sizeof *in) | in->flags | in->reserved | in->crouch;
+    uint32_t odd = (in->struct_size ^ (uint32_t)sizeof *in) | (in->flags & ~(uint32_t)TAHR_INPUT_FACING) |
+                   in->reserved | in->crouch;
     odd |= mover->pace.special | (report ? report->struct_size ^ (uint32_t)sizeof *report : 0u);
     odd |= s->flags & ~(uint32_t)((TAHR_STATE_CRUSHED << 1) - 1);
     double off = (turn - 1) * (turn - 1) + lean * lean; /* of the units from unit length, squared */

@@ -72,7 +72,8 @@ void tahr__specials_go(tahr_world *world, const tahr_body_pose *poses, uint32_t 
 static double extent_of(const tahr_config *c, const tahr__limits *l)
 {
     const double shape = l->around + l->axis + l->shape.half_height + l->width;
-    const double rules = c->step_height + c->snap_distance + c->perch_extra + c->max_depenetration + c->edge_tolerance;
+    const double rules = c->step_height + c->snap_distance + c->perch_extra + c->max_depenetration + c->edge_tolerance +
+                         c->ledge_grab + c->corner_correction;
     return 3 * shape + 2 * (rules + l->beside + l->below + (2 + c->floor_max) * c->skin) + SPARE;
 }
 
@@ -81,11 +82,14 @@ void tahr__calm_prepare(tahr_mover *mover)
     const tahr_config *c = &mover->config;
     const tahr_world *world = mover->world;
     tahr__calm *calm = &mover->calm;
-    calm->speed = (float)((max_of(c->max_speed, mover->limits.speed) + c->jump_speed) * (1 + ROUNDED));
+    const double speed = max_of(c->max_speed, mover->limits.speed) + c->jump_speed + c->wall_jump_speed;
+    const double heavier = max_of(max_of(c->jump_release_gravity, c->fall_gravity), 1);
+    calm->speed = (float)(speed * (1 + ROUNDED));
+    calm->pull = (float)(mover->limits.pull.size * heavier * (1 + ROUNDED));
     calm->room = -1;
     calm->may_go_short_way = (uint8_t)tahr__may_go_short_way(world, c, &mover->limits);
     calm->may = world->specials_known && world->special_count > 0 && c->short_ways && !c->keep_level_speed &&
-                !mover->limits.feel && !mover->limits.in_plane && mover->pace.upright && !world_is_planar(world);
+                !mover->limits.in_plane && mover->pace.upright && !world_is_planar(world);
 }
 
 static vec3 place_of(const tahr__calm *calm)
@@ -121,7 +125,7 @@ static int has_room(const tahr_mover *mover, vec3 p, double reach)
  * gains by its wish and by gravity is no more than its speed and theirs, and they are taken twice. */
 static double reach_of(const tahr_mover *mover, const tahr_state *s, double dt)
 {
-    return 2 * dt * (length(s->velocity) + (double)mover->calm.speed + mover->dive.gravity * dt);
+    return 2 * dt * (length(s->velocity) + (double)mover->calm.speed + (double)mover->calm.pull * dt);
 }
 
 /* Is nothing special within all that a step from this state may ask about? False for what is not finite. */
@@ -175,7 +179,7 @@ static void begin(tahr_mover *mover, tahr_state *s)
     }
     calm->on = 1;
     mover->pace.bare.seen = seen;
-    mover->plain = 1;
+    mover->plain = !mover->limits.feel;
     mover->may_go_short_way = calm->may_go_short_way;
     mover->not_quick = !calm->may_go_short_way;
 }

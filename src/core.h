@@ -196,16 +196,26 @@ typedef struct tahr__clear {
     uint64_t ground; /* of the world; 0: nothing is known */
 } tahr__clear;
 
+/* Gravity while it rises or while it falls, and the chords that it makes. */
+typedef struct tahr__weight {
+    double gravity; /* m/s2 */
+    double chord;   /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
+} tahr__weight;
+
 /* What a rise or fall the short way (plummet.h) asks of config and limits, and what it remembers. */
 typedef struct tahr__dive {
-    tahr__asked asked; /* of the last one, */
-    tahr__law law;     /* and how its move is approached */
-    uint32_t wishes;   /* law_wishes of law */
-    uint32_t reserved;
-    double gravity;  /* m/s2 */
-    double chord;    /* s at most of a chord: off the arc by no more than config.arc_tolerance, |a| t^2 / 8 */
-    double longest;  /* s: longer steps go the long way */
-    double terminal; /* m/s */
+    tahr__asked asked;     /* of the last one, */
+    tahr__law law;         /* and how its move is approached, */
+    uint32_t odd_flags;    /* and the flags of a state that is none for it, */
+    uint32_t held_flags;   /* but for these, which it has to have */
+    uint32_t wishes;       /* law_wishes of law */
+    uint32_t presses;      /* 1: a press of the button may do something in the air */
+    tahr__weight rising;   /* of who rises, */
+    tahr__weight released; /* with the button of the jump up, */
+    tahr__weight falling;  /* and of who falls */
+    double hover;          /* m/s: less of a rise is the rounding of an apex: it falls */
+    double longest;        /* s: longer steps go the long way */
+    double terminal;       /* m/s */
     tahr__clear clear;
 } tahr__dive;
 
@@ -215,7 +225,8 @@ typedef struct tahr__calm {
     double drift; /* the world's, when room was measured: */
     float at[3];
     float room;  /* m from there to the nearest, less what a step reaches that stands still */
-    float speed; /* m/s that a step may add to what it begins with */
+    float speed; /* m/s that a step may add to what it begins with, */
+    float pull;  /* m/s2, and gravity at most */
     tahr__backoff looks;
     uint32_t seen;            /* of the state before the step under way, */
     uint8_t on;               /* which is calm; */

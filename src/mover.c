@@ -388,7 +388,7 @@ tahr_status tahr__step_awake(tahr_mover *mover, const tahr_input *input, double 
     } else if (tahr__go_short_way(mover, input, dt, state, report)) {
         return TAHR_OK;
     }
-    return tahr__take_step(mover, input, dt, state, report, plain);
+    return tahr__take_step(mover, input, dt, state, report, plain && !input->flags);
 }
 
 tahr_status tahr_mover_step(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state,

@@ -10,11 +10,23 @@
 /* m/s, squared: faster than this a fall is capped (mover.c). */
 static const double FASTEST2 = 1e10;
 
+/* Of a button that is down. */
+enum { PRESSED = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMP_SPENT };
+
 /* A flight so far. */
 typedef struct flight {
     vec3 position, velocity;
-    uint32_t chords, apexes;
+    uint32_t flags, chords, apexes;
 } flight;
+
+/* What gravity makes of it now, as tahr__gravity_factor (jump.c) says. */
+static inline const tahr__weight *weight_of(const tahr__dive *dive, double rise, uint32_t flags, uint32_t jump)
+{
+    if (rise <= dive->hover) {
+        return &dive->falling;
+    }
+    return flags & TAHR_STATE_JUMPING && !(jump && flags & TAHR_STATE_JUMP_SPENT) ? &dive->released : &dive->rising;
+}
 
 /* Does all of a motion lie where nothing is, as far as a backend has told? A ball holds the way between two places that
  * it holds. */
@@ -71,30 +83,33 @@ static inline tahr__motion drift(tahr__dive *dive, vec3 level, double t)
 }
 
 /* Almost every step: one chord, no apex on it, and an up whose x and y are 0 and need not be multiplied with. */
-static inline int drop(tahr_mover *mover, double dt, const tahr_state *s, flight *f, tahr_query_context *context)
+static inline int drop(tahr_mover *mover, double dt, const tahr_state *s, double gravity, flight *f,
+                       tahr_query_context *context)
 {
     tahr__dive *dive = &mover->dive;
     double fall;
     const tahr__motion m = drift(dive, vec(s->velocity.x, s->velocity.y, 0), dt);
-    const double way = fall_for(s->velocity.z, dive->gravity, dive->terminal, dt, &fall);
+    const double way = fall_for(s->velocity.z, gravity, dive->terminal, dt, &fall);
     const vec3 motion = vec(m.displacement.x, m.displacement.y, way), to = add(s->position, motion);
-    *f = (flight){to, vec(m.velocity.x, m.velocity.y, fall), 1, 0};
+    *f = (flight){to, vec(m.velocity.x, m.velocity.y, fall), s->flags, 1, 0};
     return is_free(mover, s->position, motion, to, s->up, context);
 }
 
 /* One chord, as falling.c's fall_chord cuts it. Returns the s of it; 0: it is not known to be free. */
-static inline double fly(tahr_mover *mover, flight *f, double left, vec3 up, tahr_query_context *context)
+static inline double fly(tahr_mover *mover, flight *f, uint32_t jump, double left, vec3 up, tahr_query_context *context)
 {
     tahr__dive *dive = &mover->dive;
-    const double rise = dot(f->velocity, up), apex = rise > 1e-9 * dive->gravity ? rise / dive->gravity : 0;
-    double t = min_of(left, dive->chord), fall;
+    const double rise = dot(f->velocity, up);
+    const tahr__weight *weight = weight_of(dive, rise, f->flags, jump);
+    const double apex = rise > 1e-9 * weight->gravity ? rise / weight->gravity : 0;
+    double t = min_of(left, weight->chord), fall;
     const int meets_apex = apex > 0 && apex <= t;
     if (meets_apex) {
         t = apex;
     } else if (left > t) {
         t = left / (double)(int)(left / t + 1);
     }
-    const double way = fall_for(rise, dive->gravity, dive->terminal, t, &fall);
+    const double way = fall_for(rise, weight->gravity, dive->terminal, t, &fall);
     const tahr__motion m = drift(dive, add_scaled(f->velocity, up, -rise), t);
     const vec3 motion = add_scaled(m.displacement, up, way), to = add(f->position, motion);
     if (!is_free(mover, f->position, motion, to, up, context)) {
@@ -104,18 +119,20 @@ static inline double fly(tahr_mover *mover, flight *f, double left, vec3 up, tah
     f->velocity = add_scaled(m.velocity, up, fall);
     if (meets_apex) {
         f->velocity = reject(f->velocity, up);
+        f->flags &= ~(uint32_t)TAHR_STATE_JUMPING;
         f->apexes++;
     }
     f->chords++;
     return t;
 }
 
-static inline int fly_all(tahr_mover *mover, double dt, const tahr_state *s, flight *f, tahr_query_context *context)
+static inline int fly_all(tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *s, flight *f,
+                          tahr_query_context *context)
 {
     double used = 1;
-    *f = (flight){s->position, s->velocity, 0, 0};
+    *f = (flight){s->position, s->velocity, s->flags, 0, 0};
     for (double left = dt; left >= 1e-12 && used > 0; left -= used) { /* less is rounding */
-        used = fly(mover, f, left, s->up, context);
+        used = fly(mover, f, input->jump, left, s->up, context);
     }
     return used > 0;
 }
@@ -140,37 +157,49 @@ static inline void write_flight(tahr_mover *mover, tahr_state *s, uint32_t jump,
     mover->pace.held.orientation = s->orientation;
     mover->dive.asked.dt = dt;
     mover->dive.asked.jump = jump;
+    mover->dive.odd_flags = odd_flags(&mover->dive, jump);
+    mover->dive.held_flags = held_flags(&mover->dive, jump);
+}
+
+/* Is all of the step one chord, and no apex on it? upright: up is +z. */
+static inline int is_simple(const tahr__weight *weight, int upright, double rise, double dt)
+{
+    return dt <= weight->chord && upright && (rise <= 0 || rise > dt * weight->gravity * (1 + 1e-9));
+}
+
+/* May it be a flight at all? */
+static inline int is_flight(const tahr_mover *mover, const tahr_input *input, double dt, const tahr_state *s)
+{
+    const tahr__dive *dive = &mover->dive;
+    return dt > TAHR__SHORTEST && dt <= dive->longest && !other_bits(&s->up, &mover->pace.held.up) &&
+           (s->flags & odd_flags(dive, input->jump)) == held_flags(dive, input->jump);
 }
 
 /* tahr__plummet. ready: as ready_to_fall says. */
 static inline int plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report,
                           int ready)
 {
-    tahr__dive *dive = &mover->dive;
     tahr_query_context context = {.cache = mover->cache};
     flight f;
-    if (!(dt > TAHR__SHORTEST && dt <= dive->longest)) {
-        return 0;
-    }
     if (!ready) {
-        if (state->flags & ~(uint32_t)TAHR__READY_FLIGHT || other_bits(&state->up, &mover->pace.held.up)) {
+        if (!is_flight(mover, input, dt, state)) {
             return 0;
         }
         learn_wish(mover, input);
     }
     const double rise = state->velocity.z;
-    const int simple =
-        dt <= dive->chord && mover->pace.upright && (rise <= 0 || rise > dt * dive->gravity * (1 + 1e-9));
-    const int done = simple ? drop(mover, dt, state, &f, &context) : fly_all(mover, dt, state, &f, &context);
+    const tahr__weight *weight = weight_of(&mover->dive, rise, state->flags, input->jump);
+    const int done = is_simple(weight, ready || mover->pace.upright, rise, dt)
+                         ? drop(mover, dt, state, weight->gravity, &f, &context)
+                         : fly_all(mover, input, dt, state, &f, &context);
     const int rests = f.position.z == state->position.z && vec_equal(f.position, state->position);
     if (!done || rests || length_squared(f.velocity) > FASTEST2 || (f.apexes > 0 && report && report->events) ||
         goes_astray(mover, f.position)) {
         return 0;
     }
-    const uint32_t ended = TAHR_STATE_JUMP_HELD | (f.apexes > 0 ? TAHR_STATE_JUMPING : 0u);
     state->position = clean(f.position);
     state->velocity = clean(f.velocity);
-    state->flags = (state->flags & ~ended) | (input->jump ? TAHR_STATE_JUMP_HELD : 0u);
+    state->flags = input->jump ? f.flags | TAHR_STATE_JUMP_HELD : f.flags & ~(uint32_t)PRESSED;
     state->floor_position = clean(state->floor_position);
     if (!ready) {
         write_flight(mover, state, input->jump, dt);

@@ -16,8 +16,19 @@
 /* A floor that is all known by its face. */
 #define TAHR__READY_FACE ((uint32_t)(TAHR_FLOOR_BLOCKING | TAHR_FLOOR_WALKABLE | TAHR_FLOOR_FACE))
 
-/* What a flight may remember: buttons do nothing in the air without the settings under "Feel". */
-enum { TAHR__READY_FLIGHT = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMPING | TAHR_STATE_FLOOR_MOVED };
+/* What a flight may remember: not that a button went down, if a press does anything in the air. Of those flags that are
+ * odd it has those that are held. */
+static inline uint32_t odd_flags(const tahr__dive *dive, uint32_t jump)
+{
+    const uint32_t may = TAHR_STATE_JUMP_HELD | TAHR_STATE_JUMPING | TAHR_STATE_FLOOR_MOVED;
+    const uint32_t spent = dive->presses ? TAHR_STATE_JUMP_SPENT : 0u;
+    return ~(may | spent) | (dive->presses && jump ? TAHR_STATE_JUMP_HELD : 0u);
+}
+
+static inline uint32_t held_flags(const tahr__dive *dive, uint32_t jump)
+{
+    return dive->presses && jump ? TAHR_STATE_JUMP_HELD : 0;
+}
 
 /* 0: a report that asks for no more than counts and events. */
 static inline uint64_t other_report(const tahr_report *r)
@@ -81,13 +92,13 @@ static inline int ready_to_fall(const tahr_mover *mover, const tahr_input *input
 {
     static const tahr_floor none = {.body = TAHR_NO_BODY};
     const tahr__held *held = &mover->pace.held;
-    const tahr__asked *asked = &mover->dive.asked;
-    tahr__words other = words_or(other_memory(s, &mover->pace.bare), other_head(asked, input));
+    const tahr__dive *dive = &mover->dive;
+    tahr__words other = words_or(other_memory(s, &mover->pace.bare), other_head(&dive->asked, input));
     other = words_or(other, other_words(&s->orientation, held, offsetof(tahr__held, mode)));
     other = words_or(other, other_words(&s->floor, &none, sizeof none));
     uint64_t odd = other_company(mover) | bits_of(s->jump_hold);
-    odd |= (s->mode ^ (uint32_t)TAHR_MODE_FALLING) | (s->flags & ~(uint32_t)TAHR__READY_FLIGHT);
-    odd |= other_asked(asked, input, dt) | other_report(report);
+    odd |= (s->mode ^ (uint32_t)TAHR_MODE_FALLING) | ((s->flags & dive->odd_flags) ^ dive->held_flags);
+    odd |= other_asked(&dive->asked, input, dt) | other_report(report);
     return odd == 0 && words_are_zero(other) &&
            are_within(length_squared(s->position) + length_squared(s->floor_position), length_squared(s->velocity));
 }

@@ -9,6 +9,7 @@
 #include "core.h"
 #include "neighbours.h"
 #include "report.h"
+#include "turning.h"
 
 /* Of an arc that falling.c cuts into more chords than this the long way is no detour: 10 Hz are 5 at most. */
 enum { TAHR__MOST_CHORDS = 6 };
@@ -20,9 +21,9 @@ int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, c
 tahr__pace tahr__pace_of(const tahr_config *config, const tahr__limits *limits);
 tahr__dive tahr__dive_of(const tahr_config *config, const tahr__limits *limits);
 
-/* A step of a state that remembers nothing, with an input that asks for nothing but a direction, both checked. [out]
- * state, report (or NULL). Returns 1; 0: it is not such a step, or it is not known to be; nothing was written. What
- * counts as two sweeps, and as one. */
+/* A step of a state that remembers nothing and faces where it will, with an input that asks for nothing but a
+ * direction, both checked. [out] state, report (or NULL). Returns 1; 0: it is not such a step, or it is not known to
+ * be; nothing was written. What counts as two sweeps, and as one. */
 int tahr__stroll(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
 int tahr__plummet(tahr_mover *mover, const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
 
@@ -67,9 +68,16 @@ static inline int tahr__go_short_way(tahr_mover *mover, const tahr_input *input,
         (state->mode != TAHR_MODE_FALLING && (input->jump | state->flags)) || !backoff_tries(&mover->short_way)) {
         return 0;
     }
+    const tahr_quat before = state->orientation;
+    if (input->flags) {
+        tahr__turn_toward(input->facing, mover->config.turn_rate * dt, state);
+    }
     const int done = state->mode == TAHR_MODE_WALKING   ? tahr__stroll(mover, input, dt, state, report)
                      : state->mode == TAHR_MODE_FALLING ? tahr__plummet(mover, input, dt, state, report)
                                                         : 0;
+    if (!done) {
+        state->orientation = before;
+    }
     if (backoff_note(&mover->short_way, done)) {
         mover_wake(mover);
     }

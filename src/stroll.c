@@ -6,7 +6,7 @@
 
 int tahr__may_go_short_way(const tahr_world *world, const tahr_config *config, const tahr__limits *limits)
 {
-    return world->backend->walk && !world_is_planar(world) && !limits->feel && !limits->in_plane && limits->usual &&
+    return world->backend->walk && !world_is_planar(world) && !limits->in_plane && limits->usual &&
            config->short_ways && !config->keep_level_speed && config->floor_probe == TAHR_FLOOR_PROBE_WHOLE &&
            limits->shape.type == TAHR_SHAPE_CAPSULE;
 }

@@ -62,19 +62,22 @@ static void mirror(tahr__step *step)
 
 void tahr__face(tahr__step *step, double dt)
 {
-    tahr_state *s = &step->state;
     if (is_flat(step)) {
         mirror(step);
-        return;
+    } else {
+        tahr__turn_toward(step->input->facing, step->config->turn_rate * dt, &step->state);
     }
-    vec3 goal = unit(step_level(step, step->input->facing));
-    vec3 forward = unit(step_level(step, rotate(s->orientation, vec(1, 0, 0))));
+}
+
+void tahr__turn_toward(vec3 facing, double most, tahr_state *s)
+{
+    vec3 goal = unit(reject(facing, s->up));
+    vec3 forward = unit(reject(rotate(s->orientation, vec(1, 0, 0)), s->up));
     if (length_squared(goal) == 0 || length_squared(forward) == 0) {
         return;
     }
     double c = dot(forward, goal);
     double side = dot(cross(forward, goal), s->up);
-    double most = step->config->turn_rate * dt;
     double sine, cosine;
     if (most >= 3.141592653589793) {
         most = 3.141592653589793;

@@ -24,4 +24,7 @@ void tahr__right(tahr__step *step);
 /* Turns the orientation about up toward input.facing at turn_rate. No query. */
 void tahr__face(tahr__step *step, double dt);
 
+/* The same of a shape that may turn, by at most so many radians. */
+void tahr__turn_toward(vec3 facing, double most, tahr_state *s);
+
 #endif

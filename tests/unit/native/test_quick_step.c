@@ -38,9 +38,8 @@ typedef struct pair {
     tahr_body_desc bodies[2];
 } pair;
 
-static void open_pair_on(pair *p, int senses, double slope)
+static void open_pair_with(pair *p, tahr_config config, int senses, double slope)
 {
-    tahr_config config = rig_config();
     const tahr_vec3 at = {0, 0, config.shape.half_height + (slope > 0 ? 0.3 : 0.02)};
     for (int i = 0; i < 2; i++) {
         tahr_body_desc_init(&p->bodies[i], sizeof p->bodies[i], TAHR_BODY_BOX);
@@ -55,6 +54,22 @@ static void open_pair_on(pair *p, int senses, double slope)
     rig_open_bodies(&p->on, p->bodies, senses ? 2 : 1, &config, at);
     config.short_ways = config.sleep = 0;
     rig_open_bodies(&p->off, p->bodies, senses ? 2 : 1, &config, at);
+}
+
+static void open_pair_on(pair *p, int senses, double slope)
+{
+    open_pair_with(p, rig_config(), senses, slope);
+}
+
+static tahr_config feel_config(void)
+{
+    tahr_config config = rig_config();
+    config.coyote_time = config.jump_buffer = config.wall_coyote_time = 0.1;
+    config.jump_release_gravity = 3;
+    config.fall_gravity = 1.5;
+    config.wall_slide_speed = config.wall_jump_speed = 3;
+    config.ledge_grab = config.corner_correction = 0.25;
+    return config;
 }
 
 static void open_pair(pair *p, int senses)
@@ -119,14 +134,15 @@ static void assert_every_bit_counts(pair *p, const tahr_state *good)
     assert_true(refused > 8 * 40); /* the reserved bytes at least */
 }
 
-/* With 32-byte vectors, where the processor has them, and without; on a level, and on a slope of 29 degrees. */
+/* With 32-byte vectors, where the processor has them, and without; on a level, and on a slope of 29 degrees; with the
+ * settings of feel, and without. */
 static void every_bit_of_who_walks_is_seen(void **unused)
 {
-    for (int way = 0; way < 4; way++) {
+    for (int way = 0; way < 6; way++) {
         pair p;
         tahr_state good, end;
         (void)unused;
-        open_pair_on(&p, 0, way & 2 ? 0.5 : 0);
+        open_pair_with(&p, way & 4 ? feel_config() : rig_config(), 0, way & 2 ? 0.5 : 0);
         p.on.mover->wide = way & 1 ? 0 : p.on.mover->wide;
         settle(&p, (tahr_vec3){0.5, 0.25, 0}, &good);
         end = good;
@@ -137,14 +153,14 @@ static void every_bit_of_who_walks_is_seen(void **unused)
     }
 }
 
-/* Far above the box, with the jump button up and down. */
+/* Far above the box, with the jump button up and down, and with the settings of feel and without. */
 static void every_bit_of_who_falls_is_seen(void **unused)
 {
-    for (int way = 0; way < 4; way++) {
+    for (int way = 0; way < 8; way++) {
         pair p;
         tahr_state good, end;
         (void)unused;
-        open_pair(&p, 0);
+        open_pair_with(&p, way & 4 ? feel_config() : rig_config(), 0, 0);
         p.on.state.position = (tahr_vec3){0, 0, 400};
         p.on.input.jump = (uint32_t)(way & 1);
         p.on.mover->wide = way & 2 ? 0 : p.on.mover->wide;
