@@ -199,13 +199,14 @@ static int by_contact(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
     return tahr__step_up_by_contact(step, motion, &here, &found_floor);
 }
 
-int tahr__step_up_at(tahr__step *step, vec3 motion, const tahr__swept *obstacle, int *found_floor)
+double tahr__step_up_at(tahr__step *step, vec3 motion, const tahr__swept *obstacle, int *found_floor)
 {
     if (step->config->step_rule == TAHR_STEP_BY_CONTACT) {
         return tahr__step_up_by_contact(step, motion, obstacle, found_floor);
     }
-    *found_floor = tahr__step_up(step, motion, &obstacle->hit) > 0;
-    return *found_floor;
+    double covered = tahr__step_up(step, motion, &obstacle->hit);
+    *found_floor = covered > 0;
+    return covered;
 }
 
 double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
