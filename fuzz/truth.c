@@ -8,6 +8,10 @@
 /* After so many thirds the rest of the axis is 1e-9 of it. */
 enum { THIRDS = 52 };
 
+/* A triangle whose height is less than this part of its longest edge is not there (tahr/world.h): two corners in one
+ * place, or three in a line. */
+#define NO_AREA 1e-10
+
 typedef tahr_vec3 vec;
 
 /* One convex thing, relative to the middle of the axis. */
@@ -40,6 +44,13 @@ static vec cross(vec a, vec b)
 static double length(vec a)
 {
     return sqrt(dot(a, a));
+}
+
+static int has_area(const vec c[3])
+{
+    vec ab = minus(c[1], c[0]), bc = minus(c[2], c[1]), ca = minus(c[0], c[2]);
+    double longest = fmax(length(ab), fmax(length(bc), length(ca)));
+    return length(cross(ab, ca)) > NO_AREA * longest * longest;
 }
 
 static double to_segment(vec p, vec a, vec b)
@@ -111,9 +122,11 @@ static double from_mesh(const tahr_body_desc *mesh, vec position, vec up, double
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         for (int k = 0; k < 3; k++) {
             const double *v = mesh->vertices + (size_t)3 * mesh->indices[3 * i + (uint32_t)k];
-            vec corner = plus(minus(mesh->pose.position, position), (vec){v[0], v[1], v[2]}, 1);
-            t.corner[k] = corner;
+            t.corner[k] = (vec){v[0], v[1], v[2]};
         }
+        if (!has_area(t.corner)) continue;
+        for (int k = 0; k < 3; k++)
+            t.corner[k] = plus(minus(mesh->pose.position, position), t.corner[k], 1);
         if (to_triangle((vec){0, 0, 0}, t.corner) - half > nearest) continue;
         nearest = fmin(nearest, from_axis(&t, up, half));
     }

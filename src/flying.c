@@ -78,56 +78,84 @@ static vec3 look_around(const tahr__step *step, tahr__glide *g, const tahr__law 
     return tahr__around_hold(&g->around, g->around.normal, v);
 }
 
+/* A piece: straight, by its law. */
+typedef struct piece {
+    tahr__law law;
+    vec3 velocity, way; /* at its begin; m */
+    double time;
+    vec3 end; /* STEPPED: the velocity of all of it */
+    int driven;
+} piece;
+
+/* s of a piece until that part of its way is made. Sets the velocity of then. */
+static double reach(tahr__step *step, const tahr__glide *g, const piece *p, double part)
+{
+    if (step->config->integrator == TAHR_INTEGRATOR_STEPPED) {
+        step->state.velocity = p->end;
+        return p->time * part;
+    }
+    double used = p->driven ? tahr__around_time(&g->around, p->time, part)
+                            : time_of_part(&p->law, p->velocity, p->time, p->way, part);
+    step->state.velocity = tahr__law_advance(&p->law, p->velocity, used).velocity;
+    return used;
+}
+
+/* On from what stopped the piece after `used` seconds. Returns 0 if nothing can. */
+static int go_on(tahr__step *step, tahr__glide *g, const piece *p, const tahr_hit *hit, double used)
+{
+    if (hit->start_overlap || hit->unknown) {
+        return 0;
+    }
+    const double rest = 1 - hit->fraction, covered = tahr__glide_step_up(step, g, hit, scale(p->way, rest), NULL);
+    if (covered > 0) {
+        tahr__glide_use(step, g, max_of(reach(step, g, p, hit->fraction + covered * rest) - used, 0));
+        tahr__glide_forget_floor(step);
+        return 1;
+    }
+    return tahr__glide_meet(step, g, hit);
+}
+
 /* One piece of the slice. Returns 0 if nothing can go on from where it ended. */
 static int fly_piece(tahr__step *step, tahr__glide *g)
 {
-    int steps = step->config->integrator == TAHR_INTEGRATOR_STEPPED;
     tahr_hit hit;
-    int driven = holds_drive(step);
-    vec3 v = tahr__glide_bend(g, driven ? step->input->drive : step->state.velocity);
-    tahr__law law = driven ? drive_law(v) : law_of(step, g);
+    piece p;
+    p.driven = holds_drive(step);
+    p.velocity = tahr__glide_bend(g, p.driven ? step->input->drive : step->state.velocity);
+    p.law = p.driven ? drive_law(p.velocity) : law_of(step, g);
     if (g->around.is_round || g->around.turns) {
-        v = look_around(step, g, &law, v);
+        p.velocity = look_around(step, g, &p.law, p.velocity);
     }
-    double piece = tahr__glide_piece(step, g, tahr__law_bending(&law, v)), used = piece;
-    tahr__motion m = steps ? stepped(step, &law, v, piece) : tahr__law_advance(&law, v, piece);
-    vec3 way = tahr__glide_bend(g, driven ? tahr__around_way(&g->around, v, piece) : m.displacement);
-    step->state.velocity = m.velocity;
-    if (length_squared(way) == 0) {
-        tahr__glide_use(step, g, piece);
+    p.time = tahr__glide_piece(step, g, tahr__law_bending(&p.law, p.velocity));
+    tahr__motion m = step->config->integrator == TAHR_INTEGRATOR_STEPPED
+                         ? stepped(step, &p.law, p.velocity, p.time)
+                         : tahr__law_advance(&p.law, p.velocity, p.time);
+    p.way = tahr__glide_bend(g, p.driven ? tahr__around_way(&g->around, p.velocity, p.time) : m.displacement);
+    p.end = step->state.velocity = m.velocity;
+    if (length_squared(p.way) == 0) {
+        tahr__glide_use(step, g, p.time);
         return 1;
     }
     if (step->config->slide_solver == TAHR_SLIDE_TWO_WALLS) {
-        const tahr__glide_motion whole = {way, piece, NULL};
+        const tahr__glide_motion whole = {p.way, p.time, NULL};
         if (tahr__glide_two_walls(step, g, &whole, &hit)) {
             tahr__glide_forget_floor(step);
         }
         return !hit.unknown && !hit.start_overlap;
     }
-    step->just_teleported |= (uint32_t)tahr__move(step, way, &hit);
+    step->just_teleported |= (uint32_t)tahr__move(step, p.way, &hit);
     if (hit.blocking) {
-        used = driven  ? tahr__around_time(&g->around, piece, hit.fraction)
-               : steps ? piece * hit.fraction
-                       : time_of_part(&law, v, piece, way, hit.fraction);
-        step->state.velocity = steps ? m.velocity : tahr__law_advance(&law, v, used).velocity;
-    } else if (m.stop_time >= 0) {
+        const double used = reach(step, g, &p, hit.fraction);
+        tahr__glide_use(step, g, used);
+        return go_on(step, g, &p, &hit, used);
+    }
+    if (m.stop_time >= 0) {
         step->ahead = m.stop_time;
         tahr__event(step, TAHR_EVENT_STOPPED, NULL, 0);
         step->ahead = 0;
     }
-    if (!hit.blocking) {
-        tahr__glide_pass(step, g, used);
-        return 1;
-    }
-    tahr__glide_use(step, g, used);
-    if (hit.start_overlap || hit.unknown) {
-        return 0;
-    }
-    if (tahr__glide_step_up(step, g, &hit, scale(way, 1 - hit.fraction), NULL)) {
-        tahr__glide_forget_floor(step);
-        return 1;
-    }
-    return tahr__glide_meet(step, g, &hit);
+    tahr__glide_pass(step, g, p.time);
+    return 1;
 }
 
 tahr__next tahr__fly(tahr__step *step, double time)

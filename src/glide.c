@@ -105,7 +105,7 @@ static int is_front(const tahr__step *step, const tahr_hit *hit, vec3 level)
            length_squared(level) > 0 && dot(level, hit->normal) < 0;
 }
 
-int tahr__glide_step_up(tahr__step *step, tahr__glide *g, const tahr_hit *hit, vec3 rest, int (*keeps)(tahr__step *))
+double tahr__glide_step_up(tahr__step *step, tahr__glide *g, const tahr_hit *hit, vec3 rest, int (*keeps)(tahr__step *))
 {
     const tahr__swept swept = {.hit = *hit, .location = step->state.position, .motion = rest};
     vec3 level = step_level(step, rest);
@@ -117,15 +117,15 @@ int tahr__glide_step_up(tahr__step *step, tahr__glide *g, const tahr_hit *hit, v
     }
     tahr__scope_open(step, &scope);
     stand_on_nothing(step);
-    int up_there = tahr__step_up_at(step, level, &swept, &found);
-    if (up_there && !found) { /* Unreal's, which comes down as far where nothing is: nobody stands on the foot */
+    double covered = tahr__step_up_at(step, level, &swept, &found);
+    if (covered > 0 && !found) { /* Unreal's, which comes down as far where nothing is: nobody stands on the foot */
         tahr__glide_forget_floor(step);
     }
-    if (up_there && (!keeps || keeps(step))) {
+    if (covered > 0 && (!keeps || keeps(step))) {
         g->plane_count = 0; /* what stood beside the foot below need not stand here */
         g->hits++;
         g->lifted = add_scaled(g->lifted, up, dot(sub(step->state.position, before), up));
-        return 1;
+        return covered;
     }
     tahr__scope_revert(step, &scope);
     return 0;
@@ -157,7 +157,7 @@ int tahr__glide_two_walls(tahr__step *step, tahr__glide *g, const tahr__glide_mo
     if (is_met(hit)) {
         double rest = 1 - hit->fraction;
         step->ahead = m->time * hit->fraction;
-        up = tahr__glide_step_up(step, g, hit, scale(m->way, rest), m->keeps);
+        up = tahr__glide_step_up(step, g, hit, scale(m->way, rest), m->keeps) > 0;
         if (!up) {
             tahr__handle_impact(step, hit);
             tahr__slide_along_surface(step, m->way, rest, hit->normal, &swept);

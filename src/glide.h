@@ -48,10 +48,11 @@ void tahr__glide_use(tahr__step *step, tahr__glide *glide, double time);
 int tahr__glide_meet(tahr__step *step, tahr__glide *glide, const tahr_hit *hit);
 
 /* Over what was met, if that is as low as a step from the foot on, and the motion level enough. rest: what is left of
- * it. Returns 1 if it stands on it now, on the state's floor, with `keeps` or without an opinion of it; 0 with
- * everything as it was. 3 to 12 queries where the front is steep, else none. */
-int tahr__glide_step_up(tahr__step *step, tahr__glide *glide, const tahr_hit *hit, vec3 rest,
-                        int (*keeps)(tahr__step *));
+ * it, whose time is not counted here. Returns the part of the rest that it made, if it stands on it now, on the state's
+ * floor, with `keeps` or without an opinion of it; 0 with everything as it was. 3 to 12 queries where the front is
+ * steep, else none. */
+double tahr__glide_step_up(tahr__step *step, tahr__glide *glide, const tahr_hit *hit, vec3 rest,
+                           int (*keeps)(tahr__step *));
 
 /* config.slide_solver TWO_WALLS: the whole piece of `time` seconds at once, over, or along one surface and a second
  * one. The velocity of one that was blocked is what was covered. keeps as above. [out] hit: what was met first. Returns

@@ -57,7 +57,7 @@ static void leave_overlap(tahr__step *step, vec3 delta, tahr__swept *swept)
 static int step_up(tahr__step *step, vec3 rest, double time, const tahr__swept *obstacle, int *found_floor)
 {
     vec3 before = step->state.position;
-    if (!tahr__step_up_at(step, rest, obstacle, found_floor)) {
+    if (tahr__step_up_at(step, rest, obstacle, found_floor) <= 0) {
         return 0;
     }
     if (!step->config->keep_level_speed) {

@@ -55,13 +55,16 @@ static int blocks_raised(const tahr__step *step, vec3 motion, const tahr_hit *ob
 {
     const double upright = 1e-9, against = 1e-3; /* less is the rounding of a face, and of a motion along it */
     const double nearly = 1e-3;
+    /* m: of less the hair of a backend's sweeps (1e-9) and the rounding of places 1e7 m out (2e-9) decide. */
+    const double told = 1e-7;
     const tahr__limits *l = step->limits;
     const vec3 up = step->state.up, off = sub(obstacle->point, step->state.position);
     double lean = dot(obstacle->normal, up), at = dot(off, up), size = length(motion);
     double into = -dot(motion, obstacle->normal) / size, over = max_of(at - l->axis, 0);
     int straight = l->shape.type == TAHR_SHAPE_SPHERE || l->shape.type == TAHR_SHAPE_CAPSULE;
     int side = lean < nearly && lean > -nearly && at - lift >= -l->axis && into > against;
-    if (!side || !straight || !step->config->barred_steps || step->config->separation != TAHR_SEPARATION_MARGIN) {
+    if (!side || !straight || PROGRESS * l->width < told || !step->config->barred_steps ||
+        step->config->separation != TAHR_SEPARATION_MARGIN) {
         return 0;
     }
     if (lean < upright && lean > -upright) {
@@ -200,13 +203,14 @@ static int by_contact(tahr__step *step, vec3 motion, const tahr_hit *obstacle)
     return tahr__step_up_by_contact(step, motion, &here, &found_floor);
 }
 
-int tahr__step_up_at(tahr__step *step, vec3 motion, const tahr__swept *obstacle, int *found_floor)
+double tahr__step_up_at(tahr__step *step, vec3 motion, const tahr__swept *obstacle, int *found_floor)
 {
     if (step->config->step_rule == TAHR_STEP_BY_CONTACT) {
         return tahr__step_up_by_contact(step, motion, obstacle, found_floor);
     }
-    *found_floor = tahr__step_up(step, motion, &obstacle->hit, NULL) > 0;
-    return *found_floor;
+    double covered = tahr__step_up(step, motion, &obstacle->hit, NULL);
+    *found_floor = covered > 0;
+    return covered;
 }
 
 double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle, uint32_t *lowered)

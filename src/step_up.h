@@ -12,9 +12,9 @@
  * sweeps and what the floor asks (TAHR__FLOOR_QUERIES), and with a face too steep to stand on 1 to 6 rays. */
 double tahr__step_up(tahr__step *step, vec3 motion, const tahr_hit *obstacle, uint32_t *lowered);
 
-/* The same by config.step_rule, for a motion that was blocked by `obstacle`. [out] found_floor: 1 if the state's floor
- * is that of the step. Returns 1 if it went up. */
-int tahr__step_up_at(tahr__step *step, vec3 motion, const tahr__swept *obstacle, int *found_floor);
+/* The same by config.step_rule, for a motion that was blocked by `obstacle`: BY_CONTACT covers all of it or none. [out]
+ * found_floor: 1 if the state's floor is that of the step. */
+double tahr__step_up_at(tahr__step *step, vec3 motion, const tahr__swept *obstacle, int *found_floor);
 
 /* StepUp, TAHR_STEP_BY_CONTACT: up by what of step_height is left above the floor, along `motion` and what slides
  * along, down again; judged by where the shape comes down, else everything is as before. Returns 1 if it went up. 3

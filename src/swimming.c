@@ -253,6 +253,14 @@ static int wade_out(tahr__step *step, const tahr_hit *hit, double left, tahr__ne
     return 0;
 }
 
+/* s of a piece until that part of its way is made. [out] then: the velocity there. */
+static double reach(const piece *p, vec3 way, double part, vec3 *then)
+{
+    const double used = p->stroke ? tahr__stroke_time(p->stroke, p->velocity, p->time, way, part) : p->time * part;
+    along_piece(p, used, then);
+    return used;
+}
+
 /* Moves along the piece. Returns 1 if it stepped up on something. [out] hit */
 static int move_piece(tahr__step *step, tahr__glide *g, const piece *p, tahr_hit *hit)
 {
@@ -263,16 +271,16 @@ static int move_piece(tahr__step *step, tahr__glide *g, const piece *p, tahr_hit
         step->state.velocity = then;
         return tahr__glide_two_walls(step, g, &whole, hit);
     }
-    double used = p->time;
     step->just_teleported |= (uint32_t)tahr__move(step, way, hit);
-    if (hit->blocking) {
-        used =
-            p->stroke ? tahr__stroke_time(p->stroke, p->velocity, p->time, way, hit->fraction) : used * hit->fraction;
-        along_piece(p, used, &then);
-    }
+    const double used = hit->blocking ? reach(p, way, hit->fraction, &then) : p->time, rest = 1 - hit->fraction;
     step->state.velocity = then;
     tahr__glide_use(step, g, used);
-    return is_met(hit) && tahr__glide_step_up(step, g, hit, scale(way, 1 - hit->fraction), stands_here);
+    const double covered = is_met(hit) ? tahr__glide_step_up(step, g, hit, scale(way, rest), stands_here) : 0;
+    if (covered > 0) {
+        const double until = reach(p, way, hit->fraction + covered * rest, &step->state.velocity);
+        tahr__glide_use(step, g, max_of(until - used, 0));
+    }
+    return covered > 0;
 }
 
 /* One piece of the slice, from where the water is known. Returns 0 where the slice ends early: *next says how. */

@@ -70,7 +70,9 @@ typedef struct tahr_body_desc {
      * or more; z does not count; its front is on the right hand of who goes along it seen from +z, so that a ring that
      * runs counter-clockwise has it outside). */
     const double *vertices;
-    const uint32_t *indices; /* mesh: 3 per triangle, counter-clockwise seen from the front; copied */
+    /* Mesh: 3 per triangle, counter-clockwise seen from the front; copied. One without area (its height below 1e-10 of
+     * its longest edge: two corners in one place, three in a line) is not there. */
+    const uint32_t *indices;
     uint32_t vertex_count;
     uint32_t triangle_count;
 

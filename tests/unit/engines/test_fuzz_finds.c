@@ -206,9 +206,69 @@ static void who_stands_beside_the_end_of_a_box_touches_it(void **state)
 #endif
 }
 
+/* fuzz_steps, found_triangle_without_area: the fuzzer held it for a wire. It is not there, however it has none. */
+static void a_triangle_without_area_is_not_there(void **state)
+{
+    const double corners[] = {-1, 0, 0, 1, 0, 0, 0, 0, 1e-11, 0, 0, 3e-9, 0, 0, -9, 1, 0, -9, 0, 1, -9};
+    const uint32_t flat[] = {4, 5, 6, 0, 1, 1, 0, 1, 2}, thin[] = {0, 1, 3};
+    (void)state;
+    for (uint32_t there = 0; there < 2; there++) {
+        rig r;
+        tahr_hit hit;
+        uint32_t count = 0, indices[12];
+        tahr_sweep q = {.shape = {TAHR_SHAPE_CAPSULE, 0, 0.35, 0.9, 0, 0},
+                        .position = {0, -2, 0},
+                        .up = {0, 0, 1},
+                        .orientation = {0, 0, 0, 1},
+                        .motion = {0, 4, 0},
+                        .margin = 0.01,
+                        .mask = 1,
+                        .ignore_body = TAHR_NO_BODY};
+        tahr_body_desc body;
+        tahr_body_desc_init(&body, sizeof body, TAHR_BODY_MESH);
+        memcpy(indices, flat, sizeof flat);
+        memcpy(indices + 9, there ? thin : flat, sizeof thin);
+        body.flags = TAHR_BODY_TWO_SIDED;
+        body.vertices = corners, body.vertex_count = 7;
+        body.indices = indices, body.triangle_count = 4;
+        rig_open_bodies(&r, &body, 1, NULL, vec(0, -2, 3));
+        assert_int_equal(tahr_world_sweep(r.world, &q, &hit, 1, &count), TAHR_OK);
+        assert_int_equal(count, there);
+        rig_close(&r);
+    }
+}
+
+/* fuzz_steps, found_flight_over_a_step: who flies (or swims) went the rest of a motion over a step in no time, and then
+ * used that time for another one. */
+static void who_flies_up_a_step_gains_no_way(void **state)
+{
+    (void)state;
+    for (int i = 0; i < RIG_RATES; i++) {
+        const double dt = 1 / rig_rates[i];
+        int steps = 0;
+        fake_world w;
+        rig r;
+        fake_world_flat(&w);
+        fake_add_box(&w, vec(3, -5, -1), vec(20, 5, 0.4));
+        rig_open(&r, &w, NULL, vec(0, 0, 0.91));
+        r.state.mode = TAHR_MODE_FLYING;
+        r.input.move = vec(1, 0, 0);
+        while (r.time < 1.5) {
+            const double before = r.state.position.x;
+            rig_step(&r, dt);
+            assert_true(r.state.position.x - before <= r.config.fly_speed * dt + 1e-6);
+            steps += rig_event(&r, TAHR_EVENT_STEPPED_UP) != NULL;
+        }
+        assert_true(steps >= 1);
+        rig_close(&r);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_triangle_without_area_is_not_there),
+        cmocka_unit_test(who_flies_up_a_step_gains_no_way),
         cmocka_unit_test(who_stands_beside_the_end_of_a_box_touches_it),
         cmocka_unit_test(a_way_too_short_to_square_takes_no_time),
         cmocka_unit_test(every_undecided_hit_is_handed_on_as_a_wall),

@@ -246,7 +246,7 @@ static void step_up(parity_table *table)
     tahr__move_updated(&p.step, parity_vec(30, 0, 0), 0, &obstacle);
     s.count = 0;
     vec3 rest = scale(parity_vec(30, 0, 0), 1 - obstacle.hit.fraction);
-    parity_true(table, "goes up", tahr__step_up_at(&p.step, rest, &obstacle, &found_floor));
+    parity_true(table, "goes up", tahr__step_up_at(&p.step, rest, &obstacle, &found_floor) > 0);
     parity_true(table, "with its floor", found_floor && p.step.state.floor.body == 1);
     parity_vector(table, "way up", s.motion[0], 0, 0, 42.85, 1e-4);
     parity_vector(table, "way down", s.motion[2], 0, 0, -49.8, 1e-4);
