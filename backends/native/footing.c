@@ -198,11 +198,15 @@ static inline int is_clear(const tahr__cache *cache, const local_walk *w, const 
     return !f->fenced || (is_fenced_off(cache, first, w->most) && is_fenced_off(cache, last, w->most));
 }
 
-/* Onto another triangle of the same floor, of which all else that is known holds as well. */
+/* Onto another triangle of the same floor, of which all else that is known holds as well. Far from the place that was
+ * measured it is left to who measures anew and finds the triangle in one go: of two steps that find out one half each
+ * neither is a short one. */
 static int goes_over(const tahr__native *world, tahr_query_context *context, const local_walk *w, landing *end)
 {
     const tahr__cache *cache = context->cache;
+    const upright first = start_of(w);
     tahr__query query;
+    if (cache->level == TAHR_NO_BODY && away2(&cache->footing, &first) > TAHR__DRIFT * TAHR__DRIFT) return 0;
     query.world = world;
     query.context = context;
     query.cache = context->cache;
