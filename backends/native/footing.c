@@ -199,14 +199,14 @@ static inline int is_clear(const tahr__cache *cache, const local_walk *w, const 
 }
 
 /* Onto another triangle of the same floor, of which all else that is known holds as well. Far from the place that was
- * measured it is left to who measures anew and finds the triangle in one go: of two steps that find out one half each
- * neither is a short one. */
+ * measured, where something is near, it is left to who measures anew and finds the triangle in one go: of two steps
+ * that find out one half each neither is a short one. */
 static int goes_over(const tahr__native *world, tahr_query_context *context, const local_walk *w, landing *end)
 {
     const tahr__cache *cache = context->cache;
     const upright first = start_of(w);
     tahr__query query;
-    if (cache->level == TAHR_NO_BODY && away2(&cache->footing, &first) > TAHR__DRIFT * TAHR__DRIFT) return 0;
+    if (cache->footing.fenced && away2(&cache->footing, &first) > TAHR__DRIFT * TAHR__DRIFT) return 0;
     query.world = world;
     query.context = context;
     query.cache = context->cache;
