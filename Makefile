@@ -73,7 +73,9 @@ asan: setup
 
 # TIME seconds for each fuzzer; what they find is kept in $(BUILD)/fuzz/found.
 TIME ?= 60
-fuzz: setup
+fuzz:
+	@sh .ci/setup fuzz
+	@sh .ci/fetch_box2d3 $(BUILD)/box2d3
 	@command -v clang >/dev/null || { echo "fuzz: clang is not installed"; exit 1; }
 	@$(call configure,$(BUILD)/fuzz,-DTAHR_FUZZ=ON -DTAHR_TESTS=OFF -DTAHR_SHARED=OFF -DCMAKE_C_COMPILER=clang \
 		-DCMAKE_CXX_COMPILER=clang++)
