@@ -207,10 +207,7 @@ static int goes_over(const tahr__native *world, tahr_query_context *context, con
     const upright first = start_of(w);
     tahr__query query;
     if (cache->footing.fenced && away2(&cache->footing, &first) > TAHR__DRIFT * TAHR__DRIFT) return 0;
-    query.world = world;
-    query.context = context;
-    query.cache = context->cache;
-    query.frame = &cache->frame;
+    ask_in_cache(&query, world, context);
     return tahr__ground_find(&query, end->point) && !cache->footing.steep && comes_down(&cache->footing, w, end) &&
            ground_is_at_spot(cache, end->point);
 }

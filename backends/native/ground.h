@@ -10,6 +10,15 @@
 #define TAHR__SMALL 1e-3
 #define TAHR__LARGE 8.0
 
+/* Of a query only where it is asked: in a cache that has been announced. */
+static inline void ask_in_cache(tahr__query *query, const tahr__native *world, tahr_query_context *context)
+{
+    query->world = world;
+    query->context = context;
+    query->cache = context->cache;
+    query->frame = &query->cache->frame;
+}
+
 /* m from the core at which something is met. */
 static inline double reach_of(const tahr__query *query)
 {

@@ -221,10 +221,7 @@ int tahr__vicinity_lands(const tahr__query *query, tahr_hit *hit)
 static void ask_of(tahr__query *query, const tahr__native *world, tahr_query_context *context, tahr_vec3 start,
                    tahr_vec3 motion)
 {
-    query->world = world;
-    query->context = context;
-    query->cache = context->cache;
-    query->frame = &query->cache->frame;
+    ask_in_cache(query, world, context);
     query->start = start;
     query->motion = motion;
     query->motion_length = v_length(motion);
