@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: MIT
+"""What a picture of the ways is of: where everybody went, from where it is seen, and how much of the world is shown."""
+from __future__ import annotations
+
+from typing import Any, Optional, Tuple
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.patheffects import withStroke
+
+from . import _relief
+from ._paths import by_character, polylines
+from ._relief import Frame, View
+from ._style import find_marks, mark_style, modes_of
+
+Floats = npt.NDArray[np.float64]
+Array = npt.NDArray[Any]
+
+# cos 50 degrees: steeper ground than this is drawn grey; the precise preset can stand on no more.
+_WALKABLE = 0.6427876096865394
+
+# The most pixels of the picture of a level along its longer side, and the most per metre.
+_PIXELS = 1600
+_FINEST = 80.0
+
+# Beside the ways so much is shown, m and part of their extent.
+_MARGIN, _MARGIN_PART = 2.0, 0.08
+
+# Ways that are drawn thinner and paler when there are more of them.
+_CROWD = 12
+
+# Numbers at the beginnings of more ways would lie on each other; from the south they do so earlier.
+_NUMBERED, _NUMBERED_SOUTH = 40, 4
+
+
+def is_flat(states: Array) -> bool:
+    """Whether the world is one of two dimensions, y up: nobody leaves a plane of equal z."""
+    if len(states) == 0:
+        return False
+    return bool(np.all(np.abs(states["up"][:, 2]) < 0.5) and np.ptp(states["position"][:, 2]) < 1e-9)
+
+
+def feet(states: Array) -> Floats:
+    """Where the shapes end below, shape (n, 3), m."""
+    return np.asarray(states["position"] - states["up"] * states["half_height"][:, None])
+
+
+def bounds(states: Array, view: View) -> Tuple[float, float, float, float]:
+    """left, right, bottom, top of what is to be seen, m."""
+    if len(states) == 0:
+        return -1.0, 1.0, -1.0, 1.0
+    shape = np.maximum(states["radius"], np.abs(states["up"] @ view.directions[1]) * states["half_height"])[:, None]
+    seen = view.project(states["position"])[:, :2]
+    low, high = (seen - shape).min(axis=0), (seen + shape).max(axis=0)
+    margin = _MARGIN + _MARGIN_PART * (high - low)
+    (left, bottom), (right, top) = low - margin, high + margin
+    return float(left), float(right), float(bottom), float(top)
+
+
+def draw_level(ax: Axes, triangles: Optional[Floats], view: View, states: Array) -> None:
+    """The level behind the ways: all that axes of another shape may show too."""
+    left, right, bottom, top = bounds(states, view)
+    if triangles is not None and len(triangles):
+        seen = view.project(triangles).reshape(-1, 3)
+        low, high = seen.min(axis=0), seen.max(axis=0)
+        if view is _relief.SOUTH:
+            triangles = _beside(triangles, states)
+        room = np.array([right - left, top - bottom]).max()
+        frame = (
+            max(left - room, low[0] - 0.5),
+            min(right + room, high[0] + 0.5),
+            max(bottom - room, low[1] - 0.5),
+            min(top + room, high[1] + 0.5),
+        )
+        if frame[0] < frame[1] and frame[2] < frame[3]:
+            scale = min(_FINEST, _PIXELS / max(frame[1] - frame[0], frame[3] - frame[2]))
+            image = _relief.draw(triangles, view, Frame(*frame, scale), _WALKABLE)
+            rows, columns = image.shape[:2]
+            extent = (frame[0], frame[0] + columns / scale, frame[3] - rows / scale, frame[3])
+            ax.imshow(image, extent=extent, origin="upper", aspect="auto", interpolation="antialiased", zorder=0)
+
+def set_limits(ax: Axes, view: View, states: Array) -> None:
+    """What is to be seen; last, as drawing moves limits. From the south heights are stretched: they are small."""
+    left, right, bottom, top = bounds(states, view)
+    ax.set_xlim(left, right, auto=True)
+    ax.set_ylim(bottom, top, auto=True)
+    ax.set_xlabel(f"{view.names[0]} in m")
+    if view is _relief.SOUTH:
+        ax.set_aspect("auto")
+        ax.set_ylabel(f"{view.names[1]} in m\n(stretched)")
+    else:
+        ax.set_aspect("equal", adjustable="datalim")
+        ax.set_ylabel(f"{view.names[1]} in m")
+
+
+def _beside(triangles: Floats, states: Array) -> Floats:
+    """Those in the strip in y that the ways take up: what lies before it only hides them, what lies a metre behind it
+    has nothing to do with them."""
+    if len(states) == 0:
+        return triangles
+    y = states["position"][:, 1]
+    low, high = triangles[:, :, 1].min(axis=1), triangles[:, :, 1].max(axis=1)
+    return triangles[(high >= y.min()) & (low <= y.max() + 1)]
+
+
+def draw_lines(ax: Axes, states: Array, points: Floats, spans: Tuple[float, float]) -> None:
+    """Everybody's lines through points (n, 2), coloured by mode."""
+    collected: "dict[int, list[Floats]]" = {}
+    count = 0
+    for number, _ in by_character(states):
+        whose = states["character"] == number
+        count += 1
+        for mode, lines in polylines(states[whose], points[whose], spans).items():
+            collected.setdefault(mode, []).extend(lines)
+    crowded = count > _CROWD
+    for mode in modes_of(states["mode"]):
+        style = {"colors": mode.colour, "linestyles": mode.dashes, "linewidths": 0.9 if crowded else 1.4}
+        ax.add_collection(LineCollection(collected[mode.number], alpha=0.75 if crowded else 0.95, zorder=2, **style))
+
+
+def draw_marks(ax: Axes, events: Array, points: Floats, factor: float = 1.0) -> None:
+    """A mark for each event at points (n, 2); factor: of their size."""
+    for mark, _ in find_marks(events):
+        chosen = points[events["type"] == _number_of(mark.event)]
+        style = mark_style(mark)
+        style["markersize"] *= factor
+        ax.plot(chosen[:, 0], chosen[:, 1], zorder=3, **style)
+
+
+def _number_of(name: str) -> int:
+    from ._style import EVENTS
+
+    return next(number for number, known in EVENTS.items() if known == name)
+
+
+def draw_starts(ax: Axes, states: Array, points: Floats, view: View) -> None:
+    """A dot where each way begins, with the character's number if there are several."""
+    most = _NUMBERED_SOUTH if view is _relief.SOUTH else _NUMBERED
+    first = {number: int(np.flatnonzero(states["character"] == number)[0]) for number, _ in by_character(states)}
+    halo = [withStroke(linewidth=2.2, foreground="white")]
+    for number, index in first.items():
+        x, y = points[index]
+        ax.plot(x, y, "o", color="#1f5ebf", markersize=6, markeredgecolor="white", zorder=4)
+        if 1 < len(first) <= most:
+            ax.annotate(
+                str(number), (x, y), (4, 4), textcoords="offset points", fontsize=8, zorder=5, path_effects=halo
+            )
