@@ -3,7 +3,8 @@
 
 ``overview(read_log("run.lcmlog"), "level.obj").savefig("run.png")``
 """
+from ._live import Live
 from ._overview import overview
 from .panels import above, height, modes, queries, side, speed
 
-__all__ = ["above", "height", "modes", "overview", "queries", "side", "speed"]
+__all__ = ["Live", "above", "height", "modes", "overview", "queries", "side", "speed"]

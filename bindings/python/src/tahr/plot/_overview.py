@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import List
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from ..telemetry import Log
@@ -51,7 +52,7 @@ def overview(log: Log, level: Level = None, characters: Characters = None, up: s
     """
     log = log.of(characters)
     triangles = load_triangles(level, up)
-    level = None if triangles is None else (triangles.reshape(-1, 3), _numbers(len(triangles)))
+    level = None if triangles is None else (triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
     flat = _scene.is_flat(log.states)
     figure = Figure(figsize=(_WIDTH, _HEIGHT), layout="constrained")
     figure.get_layout_engine().set(rect=(0.005, 0.045, 0.99, 0.895))
@@ -76,9 +77,3 @@ def overview(log: Log, level: Level = None, characters: Characters = None, up: s
     if handles:
         figure.legend(handles, labels, loc="lower center", ncol=len(labels), fontsize=9, frameon=False, columnspacing=1.3)
     return figure
-
-
-def _numbers(count: int) -> "object":
-    import numpy as np
-
-    return np.arange(3 * count).reshape(-1, 3)

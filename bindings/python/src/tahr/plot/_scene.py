@@ -2,7 +2,7 @@
 """What a picture of the ways is of: where everybody went, from where it is seen, and how much of the world is shown."""
 from __future__ import annotations
 
-from typing import Any, Optional, Tuple
+from typing import Any, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -59,27 +59,44 @@ def bounds(states: Array, view: View) -> Tuple[float, float, float, float]:
     return float(left), float(right), float(bottom), float(top)
 
 
-def draw_level(ax: Axes, triangles: Optional[Floats], view: View, states: Array) -> None:
-    """The level behind the ways: all that axes of another shape may show too."""
+class Backdrop(NamedTuple):
+    """A level as a picture, and where it lies: left, right, bottom, top, m."""
+
+    image: npt.NDArray[np.uint8]
+    extent: Tuple[float, float, float, float]
+
+
+def backdrop(triangles: Floats, view: View, window: Tuple[float, float, float, float]) -> Optional[Backdrop]:
+    """What of a level is in a window (left, right, bottom, top, m); None where nothing is."""
+    seen = view.project(triangles).reshape(-1, 3)
+    if len(seen) == 0:
+        return None
+    low, high = seen.min(axis=0) - 0.5, seen.max(axis=0) + 0.5
+    left, right = max(window[0], low[0]), min(window[1], high[0])
+    bottom, top = max(window[2], low[1]), min(window[3], high[1])
+    if left >= right or bottom >= top:
+        return None
+    scale = min(_FINEST, _PIXELS / max(right - left, top - bottom))
+    image = _relief.draw(triangles, view, Frame(left, right, bottom, top, scale), _WALKABLE)
+    rows, columns = image.shape[:2]
+    return Backdrop(image, (left, left + columns / scale, top - rows / scale, top))
+
+
+def draw_backdrop(ax: Axes, behind: Optional[Backdrop]) -> None:
+    """The level behind the ways."""
+    if behind is not None:
+        ax.imshow(behind.image, extent=behind.extent, origin="upper", aspect="auto", zorder=0)
+
+
+def level_behind(triangles: Optional[Floats], view: View, states: Array) -> Optional[Backdrop]:
+    """The level around the ways: as much as axes of another shape may show too."""
+    if triangles is None:
+        return None
     left, right, bottom, top = bounds(states, view)
-    if triangles is not None and len(triangles):
-        seen = view.project(triangles).reshape(-1, 3)
-        low, high = seen.min(axis=0), seen.max(axis=0)
-        if view is _relief.SOUTH:
-            triangles = _beside(triangles, states)
-        room = np.array([right - left, top - bottom]).max()
-        frame = (
-            max(left - room, low[0] - 0.5),
-            min(right + room, high[0] + 0.5),
-            max(bottom - room, low[1] - 0.5),
-            min(top + room, high[1] + 0.5),
-        )
-        if frame[0] < frame[1] and frame[2] < frame[3]:
-            scale = min(_FINEST, _PIXELS / max(frame[1] - frame[0], frame[3] - frame[2]))
-            image = _relief.draw(triangles, view, Frame(*frame, scale), _WALKABLE)
-            rows, columns = image.shape[:2]
-            extent = (frame[0], frame[0] + columns / scale, frame[3] - rows / scale, frame[3])
-            ax.imshow(image, extent=extent, origin="upper", aspect="auto", interpolation="antialiased", zorder=0)
+    room = max(right - left, top - bottom)
+    window = (left - room, right + room, bottom - room, top + room)
+    return backdrop(_beside(triangles, states) if view is _relief.SOUTH else triangles, view, window)
+
 
 def set_limits(ax: Axes, view: View, states: Array) -> None:
     """What is to be seen; last, as drawing moves limits. From the south heights are stretched: they are small."""

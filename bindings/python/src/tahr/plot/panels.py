@@ -5,7 +5,7 @@ All take the log, and the ids of the characters to be drawn (None: all).
 """
 from __future__ import annotations
 
-from typing import Any, List, Tuple
+from typing import Any, List, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -47,22 +47,23 @@ def _time_axis(ax: Axes, messages: Array) -> None:
     ax.set_xlabel("simulated time in s")
     ax.grid(alpha=0.25)
     if len(messages):
-        ax.set_xlim(0, max(float(seconds(messages).max()), 1e-3))
+        begin = _begin(seconds(messages))
+        ax.set_xlim(begin, max(float(seconds(messages).max()), begin + 1e-3))
 
 
-def _ways(ax: Axes, log: Log, level: Level, characters: Characters, view: _relief.View) -> None:
-    log = log.of(characters)
+def ways(ax: Axes, log: Log, behind: Optional[_scene.Backdrop], view: _relief.View) -> None:
+    """The ways of the feet before what is behind them."""
     states, events = log.states, log.events
-    _scene.draw_level(ax, load_triangles(level), view, states)
+    _scene.draw_backdrop(ax, behind)
     if len(states) == 0:
         _tell(ax, "no states in this log")
-        return
-    ax.grid(alpha=0.2)
-    points = view.project(_scene.feet(states))[:, :2]
-    left, right, bottom, top = _scene.bounds(states, view)
-    _scene.draw_lines(ax, states, points, (right - left, top - bottom))
-    _scene.draw_starts(ax, states, points, view)
-    _scene.draw_marks(ax, events, _feet_at(events, states, view), 0.8 if len(log.characters) > 12 else 1.0)
+    else:
+        ax.grid(alpha=0.2)
+        points = view.project(_scene.feet(states))[:, :2]
+        left, right, bottom, top = _scene.bounds(states, view)
+        _scene.draw_lines(ax, states, points, (right - left, top - bottom))
+        _scene.draw_starts(ax, states, points, view)
+        _scene.draw_marks(ax, events, _feet_at(events, states, view), 0.8 if len(log.characters) > 12 else 1.0)
     _scene.set_limits(ax, view, states)
 
 
@@ -81,7 +82,8 @@ def above(ax: Axes, log: Log, level: Level = None, characters: Characters = None
 
     Raises ValueError where the log tells nothing of a character, and what tahr.load_level raises.
     """
-    _ways(ax, log, level, characters, _relief.ABOVE)
+    log = log.of(characters)
+    ways(ax, log, _scene.level_behind(load_triangles(level), _relief.ABOVE, log.states), _relief.ABOVE)
 
 
 def side(ax: Axes, log: Log, level: Level = None, characters: Characters = None) -> None:
@@ -89,7 +91,8 @@ def side(ax: Axes, log: Log, level: Level = None, characters: Characters = None)
 
     Raises as above does.
     """
-    _ways(ax, log, level, characters, _relief.SOUTH)
+    log = log.of(characters)
+    ways(ax, log, _scene.level_behind(load_triangles(level), _relief.SOUTH, log.states), _relief.SOUTH)
 
 
 def _over_time(ax: Axes, states: Array, values: Floats) -> None:
@@ -182,11 +185,18 @@ def modes(ax: Axes, log: Log, characters: Characters = None) -> None:
     ax.grid(False, axis="y")
 
 
+def _begin(time: Floats) -> float:
+    """When the first of these steps began: times are the ends of steps."""
+    count = len(np.unique(time))
+    step = (float(time.max()) - float(time.min())) / (count - 1) if count > 1 else float(time.max())
+    return max(0.0, float(time.min()) - step)
+
+
 def _bins(time: Floats) -> Tuple[Floats, Array]:
     """Edges along the time axis, no more than there are times, and the bin of each time."""
-    count = int(np.clip(len(np.unique(time)) - 1, 1, _BINS))
-    edges = np.linspace(0, max(float(time.max()), 1e-3), count + 1)
-    # A time on an edge ends the bin before it, as a step's time is its end; half a nanosecond is no time.
+    count = int(np.clip(len(np.unique(time)), 1, _BINS))
+    edges = np.linspace(_begin(time), max(float(time.max()), 1e-3), count + 1)
+    # A time on an edge ends the bin before it; half a nanosecond is no time.
     return edges, np.clip(np.searchsorted(edges, time - 5e-10) - 1, 0, count - 1)
 
 

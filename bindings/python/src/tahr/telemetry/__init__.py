@@ -5,6 +5,7 @@
 """
 from ._events import Problem
 from ._listener import Listener
-from ._log import Log, LogWarning, read_log
+from ._log import Log, LogWarning, ranges, read_log
+from ._wire import KINDS
 
-__all__ = ["Listener", "Log", "LogWarning", "Problem", "read_log"]
+__all__ = ["KINDS", "Listener", "Log", "LogWarning", "Problem", "ranges", "read_log"]

@@ -99,7 +99,7 @@ class Log:
         wanted = np.unique(np.atleast_1d(np.asarray([characters] if isinstance(characters, int) else list(characters))))
         missing = [str(c) for c in wanted if c not in known]
         if missing:
-            raise ValueError(f"no message of character {', '.join(missing)}; there are {_ranges(known)}")
+            raise ValueError(f"no message of character {', '.join(missing)}; there are {ranges(known)}")
         return self._cut({k: np.isin(self.messages(k)["character"], wanted) for k in KINDS if _is_personal(self, k)})
 
     @property
@@ -149,8 +149,8 @@ def _gaps(messages: Array) -> int:
     return int(np.sum(steps[same & (steps > 1)] - 1))
 
 
-def _ranges(ids: Array) -> str:
-    """0-3, 7"""
+def ranges(ids: Array) -> str:
+    """Ascending ids for people: "0-3, 7"."""
     if len(ids) == 0:
         return "none"
     parts = np.split(ids, np.flatnonzero(np.diff(ids) > 1) + 1)
