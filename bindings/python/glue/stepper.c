@@ -58,18 +58,16 @@ static void work(void *argument, uint32_t index)
 
 static void run_tasks(void *user, tahr_task_fn task, void *argument, uint32_t count)
 {
-    const glue_stepper *stepper = user;
     job j = {task, argument, glue_text_mine()};
 #ifdef TAHR_HAVE_THREADS
-    if (stepper->pool != NULL) {
-        tahr_threads_run(stepper->pool, work, &j, count);
-        return;
-    }
-#endif
-    (void)stepper;
+    const glue_stepper *stepper = user;
+    tahr_threads_run(stepper->pool, work, &j, count);
+#else
+    (void)user; /* never asked for: start_pool refuses */
     for (uint32_t i = 0; i < count; i++) {
         work(&j, i);
     }
+#endif
 }
 
 /* The threads of a pool stay behind when a process forks: the child starts its own, and leaves the old pool alone, for
@@ -107,7 +105,7 @@ tahr_status glue_crowd_create(glue_world *held, tahr_crowd_desc *desc, uint32_t 
     status = made ? TAHR_OK : TAHR_E_MEMORY;
     if (status >= 0) {
         made->threads = threads;
-        desc->run_tasks = run_tasks;
+        desc->run_tasks = threads == 1 ? NULL : run_tasks;
         desc->run_user = made;
         status = tahr_crowd_create(held->world, desc, &made->crowd);
     }
