@@ -47,7 +47,7 @@ if(with_threads)
     # An archive alone: who links it needs what it needs.
     set(shared ${TAHR_SHARED})
     set(TAHR_SHARED OFF)
-    tahr_pc(tahr_threads "Pool of threads for the crowds of tahr" tahr "-pthread")
+    tahr_pc(tahr_threads "Pool of threads for the crowds of tahr, and telemetry" tahr "-pthread")
     set(TAHR_SHARED ${shared})
 endif()
 
