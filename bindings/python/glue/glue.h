@@ -20,6 +20,10 @@
 #ifdef TAHR_HAVE_THREADS
 #include <tahr/threads.h>
 #endif
+#ifdef TAHR_HAVE_LCM
+#include <tahr/lcm.h>
+#include <tahr/telemetry.h>
+#endif
 
 /* Beside the library's own statuses. CLOSED: the object was closed. IN_USE: it cannot be closed while others need
  * it. */
@@ -72,6 +76,36 @@ tahr_status glue_crowd_counts(glue_stepper *stepper, tahr_crowd_counts *counts);
 tahr_status glue_states_init(const tahr_config *config, const double *places, size_t count, tahr_state *states,
                              size_t *done);
 void glue_states_hash(const tahr_state *states, size_t count, uint64_t *hashes);
+
+#ifdef TAHR_HAVE_LCM
+/* A telemetry whose sink is LCM. Used by one call at a time. */
+typedef struct glue_publisher glue_publisher;
+
+/* Whose step it is. */
+typedef struct glue_published {
+    uint32_t character, config, flags;
+} glue_published;
+
+/* desc->sink is set here. */
+tahr_status glue_publisher_open(const tahr_lcm_desc *channels, tahr_telemetry_desc *desc, glue_publisher **publisher);
+
+/* As glue_mover_step and glue_crowd_step, and told of; report may be NULL, the tick has reports and statuses. */
+tahr_status glue_publisher_step(glue_publisher *publisher, glue_stepper *stepper, const glue_published *whom,
+                                const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
+tahr_status glue_publisher_crowd_step(glue_publisher *publisher, glue_stepper *stepper, const tahr_crowd_tick *tick,
+                                      tahr_event *events, uint32_t room);
+
+/* Changes the world, and tells of it. */
+tahr_status glue_publisher_change(glue_publisher *publisher, glue_world *held, uint32_t kind,
+                                  const tahr_body_pose *poses, uint32_t count, double dt);
+tahr_status glue_publisher_latest(glue_publisher *publisher, uint32_t character, tahr_state *state);
+tahr_status glue_publisher_counts(glue_publisher *publisher, tahr_telemetry_counts *counts);
+
+/* [out] counts, if it was open. */
+tahr_status glue_publisher_close(glue_publisher *publisher, uint32_t how, double timeout,
+                                 tahr_telemetry_counts *counts);
+void glue_publisher_drop(glue_publisher *publisher);
+#endif
 
 /* The backends inside, NULL at the end. */
 const tahr_backend *glue_backend(uint32_t index);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Many characters in one step."""
-from typing import Any, Optional, Sequence, Type, Union
+from typing import Any, Dict, List, Optional, Sequence, Tuple, Type, Union
 
 import numpy.typing as npt
 
@@ -85,52 +85,56 @@ class Crowd:
         its field), StructSizeError, BackendError, ReentrantError, ClosedError: a character that fails keeps its state,
         the others have moved.
         """
-        count = len(states) if hasattr(states, "__len__") else 0
-        tick = ffi.new("tahr_crowd_tick *")
-        tick.struct_size = _TICK_SIZE
-        tick.states = kept_states = pointer_to(states, "tahr_state", "Crowd.step", "states", None)
-        tick.inputs = kept_inputs = self._inputs(inputs, count)
-        tick.count = count
-        tick.dt = dt
-        kept = [kept_states, kept_inputs]
-        for name, array, ctype in (
-            ("members", members, "tahr_member"),
-            ("reports", reports, "tahr_report"),
-            ("statuses", statuses, "int32_t"),
-            ("delays", delays, "tahr_delay"),
-        ):
-            if array is not None:
-                pointer = pointer_to(array, ctype, "Crowd.step", name, count, write=name != "members")
-                setattr(tick, name, pointer)
-                kept.append(pointer)
-        room, happened = 0, ffi.NULL
-        if events is not None:
-            room = self._room(events, reports, count)
-            happened = pointer_to(events.reshape(-1), "tahr_event", "Crowd.step", "events", None)
+        given = {"members": members, "reports": reports, "statuses": statuses, "delays": delays}
+        tick, happened, room, kept = self._tick("Crowd.step", inputs, dt, states, events, given)
         status: int = lib.glue_crowd_step(self._c, tick, happened, room)
+        del kept
         if status < 0:
             raise self.world._failed(status, "Crowd.step", any_thread=True)
         return status
 
+    def _tick(
+        self, caller: str, inputs: Array, dt: float, states: Array, events: Optional[Array], given: Dict[str, Any]
+    ) -> Tuple[Any, Any, int, List[Any]]:
+        """The arguments of step for C, and what has to be kept meanwhile. Raises ArgumentError."""
+        count = len(states) if hasattr(states, "__len__") else 0
+        tick = ffi.new("tahr_crowd_tick *")
+        tick.struct_size = _TICK_SIZE
+        tick.states = kept_states = pointer_to(states, "tahr_state", caller, "states", None)
+        tick.inputs = kept_inputs = self._inputs(inputs, count, caller)
+        tick.count = count
+        tick.dt = dt
+        kept = [kept_states, kept_inputs]
+        for name, array in given.items():
+            if array is not None:
+                pointer = pointer_to(array, _ARRAYS[name], caller, name, count, write=name != "members")
+                setattr(tick, name, pointer)
+                kept.append(pointer)
+        room, happened = 0, ffi.NULL
+        if events is not None:
+            room = self._room(events, given["reports"], count, caller)
+            happened = pointer_to(events.reshape(-1), "tahr_event", caller, "events", None)
+        return tick, happened, room, kept
+
     @staticmethod
-    def _inputs(inputs: Array, count: int) -> Any:
-        pointer = pointer_to(inputs, "tahr_input", "Crowd.step", "inputs", count, write=False)
+    def _inputs(inputs: Array, count: int, caller: str) -> Any:
+        pointer = pointer_to(inputs, "tahr_input", caller, "inputs", count, write=False)
         if count and pointer[0].struct_size == 0:
             if not inputs.flags.writeable:
-                raise ArgumentError("Crowd.step: inputs is read-only and has no struct_size; make it with tahr.inputs(n)")
+                raise ArgumentError(f"{caller}: inputs is read-only and has no struct_size; make it with tahr.inputs(n)")
             inputs["struct_size"] = _INPUT_SIZE
         return pointer
 
     @staticmethod
-    def _room(events: Array, reports: Optional[Array], count: int) -> int:
+    def _room(events: Array, reports: Optional[Array], count: int, caller: str) -> int:
         """How many events each character may have."""
         if reports is None:
-            raise ArgumentError("Crowd.step: events without reports, which say how many there are")
+            raise ArgumentError(f"{caller}: events without reports, which say how many there are")
         if getattr(events, "dtype", None) != dtype_of("tahr_event") or events.ndim != 2 or len(events) != count:
             found = f"{events.dtype} of shape {events.shape}" if hasattr(events, "dtype") else type(events).__name__
-            raise ArgumentError(f"Crowd.step: events is {found[:120]}, expected tahr.EVENT of shape ({count}, room)")
+            raise ArgumentError(f"{caller}: events is {found[:120]}, expected tahr.EVENT of shape ({count}, room)")
         if not events.flags.c_contiguous or not events.flags.writeable:
-            raise ArgumentError("Crowd.step: events is read-only or not contiguous, expected a writeable array in C order")
+            raise ArgumentError(f"{caller}: events is read-only or not contiguous, expected a writeable array in C order")
         return int(events.shape[1])
 
     def counts(self) -> CrowdCounts:
@@ -150,4 +154,5 @@ class Crowd:
         self.close()
 
 
+_ARRAYS = {"members": "tahr_member", "reports": "tahr_report", "statuses": "int32_t", "delays": "tahr_delay"}
 _TICK_SIZE = ffi.sizeof("tahr_crowd_tick")

@@ -65,7 +65,7 @@ class Live:
         log = self._recent()
         for axes in self._axes.values():
             axes.cla()
-        panels.ways(self._axes["ways"], log, self._behind, _relief.ABOVE)
+        panels.ways(self._axes["ways"], log, self._behind, _relief.ABOVE, dots_last=True)
         panels.height(self._axes["height"], log)
         panels.speed(self._axes["speed"], log)
         panels.modes(self._axes["modes"], log)

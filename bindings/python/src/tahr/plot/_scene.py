@@ -152,15 +152,14 @@ def _number_of(name: str) -> int:
     return next(number for number, known in EVENTS.items() if known == name)
 
 
-def draw_starts(ax: Axes, states: Array, points: Floats, view: View) -> None:
-    """A dot where each way begins, with the character's number if there are several."""
+def draw_dots(ax: Axes, states: Array, points: Floats, view: View, last: bool) -> None:
+    """A dot where each way begins (last: ends), with the character's number if there are several."""
     most = _NUMBERED_SOUTH if view is _relief.SOUTH else _NUMBERED
-    first = {number: int(np.flatnonzero(states["character"] == number)[0]) for number, _ in by_character(states)}
+    where = {number: np.flatnonzero(states["character"] == number) for number, _ in by_character(states)}
     halo = [withStroke(linewidth=2.2, foreground="white")]
-    for number, index in first.items():
-        x, y = points[index]
+    for number, indices in where.items():
+        x, y = points[indices[-1 if last else 0]]
         ax.plot(x, y, "o", color="#1f5ebf", markersize=6, markeredgecolor="white", zorder=4)
-        if 1 < len(first) <= most:
-            ax.annotate(
-                str(number), (x, y), (4, 4), textcoords="offset points", fontsize=8, zorder=5, path_effects=halo
-            )
+        if 1 < len(where) <= most:
+            style = {"textcoords": "offset points", "fontsize": 8, "zorder": 5, "path_effects": halo}
+            ax.annotate(str(number), (x, y), (4, 4), **style)

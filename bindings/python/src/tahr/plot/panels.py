@@ -51,8 +51,10 @@ def _time_axis(ax: Axes, messages: Array) -> None:
         ax.set_xlim(begin, max(float(seconds(messages).max()), begin + 1e-3))
 
 
-def ways(ax: Axes, log: Log, behind: Optional[_scene.Backdrop], view: _relief.View) -> None:
-    """The ways of the feet before what is behind them."""
+def ways(
+    ax: Axes, log: Log, behind: Optional[_scene.Backdrop], view: _relief.View, dots_last: bool = False
+) -> None:
+    """The ways of the feet before what is behind them, each with a dot where it begins or (dots_last) ends."""
     states, events = log.states, log.events
     _scene.draw_backdrop(ax, behind)
     if len(states) == 0:
@@ -62,7 +64,7 @@ def ways(ax: Axes, log: Log, behind: Optional[_scene.Backdrop], view: _relief.Vi
         points = view.project(_scene.feet(states))[:, :2]
         left, right, bottom, top = _scene.bounds(states, view)
         _scene.draw_lines(ax, states, points, (right - left, top - bottom))
-        _scene.draw_starts(ax, states, points, view)
+        _scene.draw_dots(ax, states, points, view, dots_last)
         _scene.draw_marks(ax, events, _feet_at(events, states, view), 0.8 if len(log.characters) > 12 else 1.0)
     _scene.set_limits(ax, view, states)
 

@@ -6,6 +6,7 @@
 from ._events import Problem
 from ._listener import Listener
 from ._log import Log, LogWarning, ranges, read_log
+from ._publisher import Publisher
 from ._wire import KINDS
 
-__all__ = ["KINDS", "Listener", "Log", "LogWarning", "Problem", "ranges", "read_log"]
+__all__ = ["KINDS", "Listener", "Log", "LogWarning", "Problem", "Publisher", "ranges", "read_log"]

@@ -45,7 +45,8 @@ def _sift(lengths: Sequence[int], expected: int, kind: str) -> Tuple[List[int], 
     if len(good) == len(lengths):
         return good, []
     wrong = [(i, length) for i, length in enumerate(lengths) if length != expected]
-    return good, [(i, f"a {kind} message of {length} bytes, expected {expected}") for i, length in wrong]
+    article = "an" if kind[0] in "aei" else "a"
+    return good, [(i, f"{article} {kind} message of {length} bytes, expected {expected}") for i, length in wrong]
 
 
 def _members(known: "np.dtype[Any]", without: str) -> List[Tuple[str, Any]]:

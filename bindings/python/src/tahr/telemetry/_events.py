@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """The events of an LCM log one after the other, and at which byte something is wrong with it.
 
-The log is read by LCM's own EventLog, which looks for the next event by itself where a log is damaged and says nothing
-about it, or stops. So what it is about to read is looked at first.
+A log is read by LCM's own EventLog. Where it is damaged that looks for the next event by itself and says nothing about
+it, or stops. So it is checked that all bytes were read; around those that were not, events are looked at one by one.
 """
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import mmap
 import os
 import struct
 from types import ModuleType
-from typing import TYPE_CHECKING, Callable, Iterator, List, NamedTuple, Optional, Tuple
+from typing import TYPE_CHECKING, Callable, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 if TYPE_CHECKING:
     import lcm
@@ -47,11 +47,18 @@ class Problem(NamedTuple):
         return f"byte {self.byte}: {self.text}"
 
 
+class Event(NamedTuple):
+    """What is read of an event, here or by EventLog."""
+
+    channel: str
+    data: bytes
+
+
 class Block(NamedTuple):
     """Some events of a log."""
 
     bytes: List[int]  # where in the file each of them begins
-    events: "List[lcm.Event]"
+    events: "Sequence[Event | lcm.Event]"
 
 
 def _fault(view: mmap.mmap, at: int, size: int) -> Tuple[int, str]:
@@ -65,7 +72,7 @@ def _fault(view: mmap.mmap, at: int, size: int) -> Tuple[int, str]:
     if end > size:
         return end, f"the file ends inside of an event, {size - at} of its {end - at} bytes after it began"
     # What follows is no event: these lengths are wrong, if another one begins before they are over.
-    if end < size and view[end : end + 4] != SYNC[: size - end] and view.find(SYNC, at + 4, end) >= 0:
+    if end < size and view[end : end + 4] != SYNC[: size - end] and view.find(SYNC, at + 4, min(end + 3, size)) >= 0:
         return end, f"an event of {end - at} bytes inside of which another one begins"
     return end, ""
 
@@ -108,8 +115,9 @@ class _Reader:
         return None
 
     def read_broken(self) -> Block:
-        """The same, looking at each of them before it is read."""
-        block = Block([], [])
+        """The same, without EventLog, which refuses sound events too where what follows them is not."""
+        places: List[int] = []
+        events: List[Event] = []
         stop = min(self.at + _CAREFUL, self.size)
         while self.at < stop:
             if not self._is_event(self.at):
@@ -117,22 +125,20 @@ class _Reader:
                 self._skip(after, f"{after - self.at} bytes that belong to no event")
                 continue
             end, fault = _fault(self.view, self.at, self.size)
-            try:
-                event = None if fault else self._log.read_next_event()
-            except UnicodeDecodeError:
-                fault = "an event whose channel is no text"
-            if event is None:
+            if fault:
                 self._skip(_next_sync(self.view, self.at + 4, self.size), fault)
                 continue
-            block.bytes.append(self.at)
-            block.events.append(event)
+            length = _LENGTHS.unpack_from(self.view, self.at + _LENGTHS_AT)[0]
+            data = self.at + _HEADER + length
+            places.append(self.at)
+            events.append(Event(self.view[self.at + _HEADER : data].decode("utf-8", "replace"), self.view[data:end]))
             self.at = end
-        return block
+        self._log.seek(self.at)
+        return Block(places, events)
 
     def _skip(self, to: int, why: str) -> None:
         self._on_problem(Problem(self.at, why))
         self.at = to
-        self._log.seek(to)
 
 
 def read_events(
