@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Many characters in one step."""
+
 from typing import Any, Optional, Sequence, Type, Union
 
 import numpy.typing as npt
@@ -117,7 +118,9 @@ class Crowd:
         pointer = pointer_to(inputs, "tahr_input", "Crowd.step", "inputs", count, write=False)
         if count and pointer[0].struct_size == 0:
             if not inputs.flags.writeable:
-                raise ArgumentError("Crowd.step: inputs is read-only and has no struct_size; make it with tahr.inputs(n)")
+                raise ArgumentError(
+                    "Crowd.step: inputs is read-only and has no struct_size; make it with tahr.inputs(n)"
+                )
             inputs["struct_size"] = _INPUT_SIZE
         return pointer
 
@@ -130,7 +133,9 @@ class Crowd:
             found = f"{events.dtype} of shape {events.shape}" if hasattr(events, "dtype") else type(events).__name__
             raise ArgumentError(f"Crowd.step: events is {found[:120]}, expected tahr.EVENT of shape ({count}, room)")
         if not events.flags.c_contiguous or not events.flags.writeable:
-            raise ArgumentError("Crowd.step: events is read-only or not contiguous, expected a writeable array in C order")
+            raise ArgumentError(
+                "Crowd.step: events is read-only or not contiguous, expected a writeable array in C order"
+            )
         return int(events.shape[1])
 
     def counts(self) -> CrowdCounts:
