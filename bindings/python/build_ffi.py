@@ -7,6 +7,7 @@ Run by CMake. Into the folder --out go
     _errors.py     an exception for each status
     _records.py    every struct that Python users see, with the headers' own comments as documentation
 """
+
 import argparse
 import pathlib
 import re

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Small worlds that the tests share."""
+
 import numpy as np
 
 import tahr

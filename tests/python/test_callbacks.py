@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Worlds behind Python functions."""
+
 import traceback
 
 import numpy as np
@@ -83,9 +84,7 @@ def test_contacts_ray_sensors_body_and_fluid_are_asked():
         asked.add("fluid")
         return None
 
-    world = tahr.World.from_callbacks(
-        plane_sweep, contacts=contacts, ray=ray, sensors=sensors, body=body, fluid=fluid
-    )
+    world = tahr.World.from_callbacks(plane_sweep, contacts=contacts, ray=ray, sensors=sensors, body=body, fluid=fluid)
     mover, report = tahr.Mover(world), tahr.Report(events=16)
     state = tahr.State(None, (0, 0, 1))
     for tick in range(30):

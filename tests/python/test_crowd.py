@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Many characters: arrays, threads, the same bits as one by one."""
+
 import sys
 import threading
 import time

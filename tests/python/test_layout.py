@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Arrays are the C structs, byte for byte."""
+
 import numpy as np
 import pytest
 
@@ -36,7 +37,9 @@ def test_a_dtype_that_differs_from_c_fails_the_import_with_both_numbers(monkeypa
         }
     )
     monkeypatch.setitem(_layout._made, "tahr_state", shifted)
-    with pytest.raises(ImportError, match=r"tahr_state\.touched has \(size, offset\) \(32, \d+\), the C library's \(32, \d+\)"):
+    with pytest.raises(
+        ImportError, match=r"tahr_state\.touched has \(size, offset\) \(32, \d+\), the C library's \(32, \d+\)"
+    ):
         _layout.check_layout()
     monkeypatch.setitem(_layout._made, "tahr_state", right)
     _layout.check_layout()

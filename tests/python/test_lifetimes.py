@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Closing, forgetting, threads and forks in whatever order: exceptions, never a crash."""
+
 import gc
 import os
 import subprocess

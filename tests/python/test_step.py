@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """One character: steps, snapshots, reports, settings."""
+
 import pickle
 
 import numpy as np

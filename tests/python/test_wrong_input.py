@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What is wrong is named, with what was expected; nothing has changed then."""
+
 import builtins
 import re
 
@@ -153,7 +154,10 @@ def test_what_the_library_refuses_names_the_character():
     mixed["struct_size"][2] = 3
     crowd_refuses("inputs[2].struct_size", error=tahr.StructSizeError, inputs=mixed)
     crowd_refuses(
-        "count", inputs=tahr.inputs(5), members=None, states=tahr.states(None, np.ones((5, 3)) * [[i] for i in range(5)])
+        "count",
+        inputs=tahr.inputs(5),
+        members=None,
+        states=tahr.states(None, np.ones((5, 3)) * [[i] for i in range(5)]),
     )
 
 

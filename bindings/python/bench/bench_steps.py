@@ -5,6 +5,7 @@
 
 Prints the medians of blocks that take turns, and their ratio. The states of both must have the same hash after each.
 """
+
 import argparse
 import pathlib
 import statistics
@@ -100,7 +101,6 @@ def measure(scene: Scene, other: Any, what: str, blocks: int, steps: int) -> Tup
             ours()
         if hashed != scene.hash():
             raise SystemExit(f"{what}: the states of Python and of C differ")
-    print(what, "least", min(mine), min(theirs), "pairs", statistics.median(m / t for m, t in zip(mine, theirs)))
     return statistics.median(mine), statistics.median(theirs)
 
 
@@ -125,8 +125,10 @@ def main() -> None:
             pipe = subprocess.PIPE
             with subprocess.Popen(command, stdin=pipe, stdout=pipe, text=True) as other:
                 python, c = measure(scene, other, "crowd", options.blocks, 20)
-                print(f"crowd of {options.characters}, {threads} threads: C {c / 1e3:.1f} us a step, "
-                      f"Python {python / 1e3:.1f} us: {100 * (python / c - 1):+.2f} %")
+                print(
+                    f"crowd of {options.characters}, {threads} threads: C {c / 1e3:.1f} us a step, "
+                    f"Python {python / 1e3:.1f} us: {100 * (python / c - 1):+.2f} %"
+                )
                 python, c = measure(scene, other, "mover", 10 * options.blocks, 400)
                 print(f"one mover, walking: C {c:.0f} ns a step, Python {python:.0f} ns: {python - c:+.0f} ns")
                 assert other.stdin is not None

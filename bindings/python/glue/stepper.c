@@ -137,10 +137,12 @@ static tahr_status begin(glue_stepper *stepper)
 {
     glue_forget();
     if (atomic_flag_test_and_set(&stepper->busy)) {
-        return glue_complain(TAHR_E_REENTRANT, "this mover or crowd is in use already, by another thread or by a call further up");
+        return glue_complain(TAHR_E_REENTRANT,
+                             "this mover or crowd is in use already, by another thread or by a call further up");
     }
     tahr_status status = TAHR_OK;
-    if (stepper->mover == NULL && stepper->crowd == NULL) status = glue_complain(GLUE_CLOSED, "this mover or crowd is closed");
+    if (stepper->mover == NULL && stepper->crowd == NULL)
+        status = glue_complain(GLUE_CLOSED, "this mover or crowd is closed");
     if (status >= 0) status = glue_world_share(stepper->held);
     if (status < 0) atomic_flag_clear(&stepper->busy);
     return status;

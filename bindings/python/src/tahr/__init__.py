@@ -10,6 +10,7 @@ Metres, seconds, radians; right-handed, z up unless gravity says otherwise. Name
 headers: TAHR_MODE_WALKING is tahr.MODE_WALKING, tahr_state is tahr.State, an array of it has the dtype tahr.STATE.
 Errors are exceptions named after the library's statuses, all of them tahr.Error.
 """
+
 from . import _constants, _errors
 from ._constants import *  # noqa: F403
 from ._error import ClosedError, Error, InUseError

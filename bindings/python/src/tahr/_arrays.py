@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """From a NumPy array to a pointer, if it is just what C expects."""
+
 from typing import Any, Optional
 
 import numpy as np

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Python functions that C calls. What they are handed is theirs to keep; what they raise comes out of the step."""
+
 import threading
 from typing import Any, Callable, Dict, Optional, Sequence, Type, TypeVar
 
@@ -69,7 +70,9 @@ def _many(user: Any, name: str, query: Any, kind: Type[R], out: Any, capacity: i
     def call() -> int:
         answers = functions.functions[name](query)
         if not isinstance(answers, (list, tuple)):
-            raise ArgumentError(f"{name}: expected the function to return a list of tahr.{kind.__name__}, got {answers!r}")
+            raise ArgumentError(
+                f"{name}: expected the function to return a list of tahr.{kind.__name__}, got {answers!r}"
+            )
         for i, answer in enumerate(answers[:capacity]):
             out[i] = _expect(name, answer, kind)._c[0]
         count[0] = min(len(answers), capacity)
@@ -111,5 +114,3 @@ def python_sensors(user: Any, query: Any, hits: Any, capacity: int, count: Any) 
 @ffi.def_extern()  # type: ignore[untyped-decorator]
 def python_line(user: Any, level: int, line: Any) -> None:
     ffi.from_handle(user).append(ffi.string(line).decode("utf-8", "replace"))
-
-

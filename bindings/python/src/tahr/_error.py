@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What all exceptions of the package have in common, and those that only Python needs."""
+
 from typing import Optional
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """NumPy dtypes laid out exactly as the C structs: vectors are arrays of 3, quaternions of 4 (x, y, z, w)."""
+
 from typing import Any, Dict, Mapping, Tuple
 
 import numpy as np

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """C structs as Python objects. A field is read and written where it lies; vectors are NumPy views into it."""
+
 import difflib
 from typing import Any, ClassVar, Generic, Optional, Tuple, Type, TypeVar, Union, overload
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """From a status of the C library to an exception."""
+
 import re
 from typing import Dict, Type
 
@@ -15,7 +16,7 @@ def error_of(status: int, caller: str) -> Error:
     said = ffi.string(lib.glue_message()).decode("utf-8", "replace")
     if not said and status in BY_STATUS:
         said = ffi.string(lib.tahr_status_message(status)).decode()
-    text = re.sub(r"^tahr_\w+: ", "", said)
+    text = re.sub(r"\btahr_\w+: ", "", said)  # functions of C, which nobody called here
     error = _CLASSES.get(status, Error)(f"{caller}: {text}")
     error.status = status
     return error

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Arrays of many characters and bodies: dtypes as the C structs, and arrays that begin as C expects them."""
+
 from typing import Any, Optional
 
 import numpy as np
@@ -38,7 +39,9 @@ def states(config: Optional[Config], positions: npt.ArrayLike) -> Array:
     status = lib.glue_states_init(used._c, from_places, len(places), pointer_to(made, "tahr_state", "", "", None), done)
     if status < 0:
         used.check()
-        raise ArgumentError(f"states: positions[{done[0]}] is {places[done[0]].tolist()}, expected numbers within 1e7 m")
+        raise ArgumentError(
+            f"states: positions[{done[0]}] is {places[done[0]].tolist()}, expected numbers within 1e7 m"
+        )
     return made
 
 
@@ -65,8 +68,8 @@ def members(count: int) -> Array:
 
 
 def poses(bodies: npt.ArrayLike, positions: npt.ArrayLike, orientations: Optional[npt.ArrayLike] = None) -> Array:
-    """Where bodies shall be, for World.set and World.move: BODY_POSE of shape (n,). bodies: (n,) ids; positions: (n, 3),
-    m, world; orientations: (n, 4) unit quaternions x, y, z, w, None: none is turned."""
+    """Where bodies shall be, for World.set and World.move: BODY_POSE of shape (n,). bodies: (n,) ids; positions:
+    (n, 3), m, world; orientations: (n, 4) unit quaternions x, y, z, w, None: none is turned."""
     ids = np.asarray(bodies)
     if ids.ndim != 1 or ids.dtype.kind not in "iu" or (ids < 0).any() or (ids > 0xFFFFFFFF).any():
         raise ArgumentError(f"poses: bodies is {bodies!r}, expected ids of bodies, of shape (n,)")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The bodies of a scene."""
+
 from typing import Any, List, Tuple, Union
 
 import numpy as np
@@ -137,9 +138,8 @@ class Body(BodyFields):
         local x (columns) and y (rows)."""
         array = np.asarray(heights)
         if array.dtype.kind not in "fiu" or array.ndim != 2:
-            raise ArgumentError(
-                f"Body.heights: heights: expected numbers of shape (rows, columns), got {array.dtype} of shape {array.shape}"
-            )
+            found = f"{array.dtype} of shape {array.shape}"
+            raise ArgumentError(f"Body.heights: heights: expected numbers of shape (rows, columns), got {found}")
         half = numbers(half_extents, (2,), "Body.heights: half_extents")
         body = cls(BODY_HEIGHTS, half_extents=(half[0], half[1], 0.0), **fields)
         array = np.ascontiguousarray(array, dtype=np.float64)

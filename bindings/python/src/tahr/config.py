@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The settings of a character, and their presets."""
+
 from typing import Any, Union
 
 from ._constants import PRESET_PLATFORMER, PRESET_PRECISE, PRESET_UNREAL
@@ -47,6 +48,8 @@ class Config(ConfigFields):
         other = self.copy()
         lib.glue_forget()
         if lib.tahr_config_scale(other._c, factor) < 0:
-            raise ArgumentError(f"Config.scaled: factor is {factor!r}, expected a finite number above 0 "
-                                "that leaves every field in its range")
+            raise ArgumentError(
+                f"Config.scaled: factor is {factor!r}, expected a finite number above 0 "
+                "that leaves every field in its range"
+            )
         return other

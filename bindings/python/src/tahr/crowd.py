@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Many characters in one step."""
+
 from typing import Any, Dict, List, Optional, Sequence, Tuple, Type, Union
 
 import numpy.typing as npt

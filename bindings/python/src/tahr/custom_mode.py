@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A mode of one's own: a function that moves the character through a piece of time."""
+
 import threading
 from typing import Any, Callable, Optional, Tuple
 

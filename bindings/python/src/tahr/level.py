@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Levels from files, through trimesh."""
+
 import os
 from typing import Any, Tuple, Union
 

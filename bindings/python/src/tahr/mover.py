@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """One character at a time."""
+
 from typing import Optional, Type
 
 from ._callbacks import Functions

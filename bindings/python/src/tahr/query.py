@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What a world is asked, and what moves in it: records with sensible beginnings."""
+
 from typing import Any
 
 from ._constants import NO_BODY

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What a step did."""
+
 from typing import Any, List
 
 import numpy as np

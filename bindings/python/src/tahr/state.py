@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """All that decides a character's future: 512 bytes."""
+
 from typing import Any, Optional
 
 import numpy.typing as npt

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A world: a scene on a backend, or the answers of Python functions."""
+
 import contextlib
 import os
 from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Type, Union
@@ -151,8 +152,8 @@ class World:
         options: Optional[Mapping[str, Any]] = None,
         **fields: Any,
     ) -> "World":
-        """A level from a file (OBJ, glTF, STL, ...: what trimesh reads, of the extra `levels`), which is body 0. up: the
-        file's axis, "y" or "z"; z is up in the world. Raises NotFoundError, FileError."""
+        """A level from a file (OBJ, glTF, STL, ...: what trimesh reads, of the extra `levels`), which is body 0.
+        up: the file's axis, "y" or "z"; z is up in the world. Raises NotFoundError, FileError."""
         return cls.from_mesh(*load_level(path, up), bodies=bodies, backend=backend, options=options, **fields)
 
     @classmethod
@@ -168,7 +169,7 @@ class World:
         margin: bool = True,
         probe: bool = False,
     ) -> "World":
-        """A world whose geometry is behind Python functions: for teaching, for tests, for an engine that Python reaches.
+        """A world whose geometry is behind Python functions: for teaching, tests, an engine that Python reaches.
 
         sweep(query) returns a Hit, or None where the way is free; it honours query.margin (unless margin=False).
         Optional: contacts(query) and sensors(query) return lists of Contact and Hit, ray(query) a Hit or None,
