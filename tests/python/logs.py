@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: MIT
 """Logs that the tests of the telemetry share: of real movers, and of random messages of every kind."""
-import lcm
 import numpy as np
+import pytest
+from scenes import DT, ground
 
 import tahr
-from scenes import DT, ground
-from tahr import messages
-from tahr.telemetry import KINDS
-from tahr.telemetry._wire import blank, fields
+
+lcm = pytest.importorskip("lcm")
+messages = pytest.importorskip("tahr.messages")
+
+from tahr.telemetry import KINDS  # noqa: E402
+from tahr.telemetry._wire import blank, fields  # noqa: E402
 
 CHANNELS = {kind: f"TAHR_{kind.upper()}" for kind in KINDS}
 

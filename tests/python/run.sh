@@ -22,11 +22,12 @@ mkdir -p "$folder"
 [ "$what" = built ] || rm -rf "$folder/venv"
 [ -x "$folder/venv/bin/python" ] || "$python" -m venv "$folder/venv"
 pip="$folder/venv/bin/python -m pip --quiet --disable-pip-version-check"
-$pip install scikit-build-core cffi numpy >"$folder/pip.log" 2>&1 ||
+generator=$(command -v lcm-gen >/dev/null || echo lcm)
+$pip install scikit-build-core cffi numpy $generator >"$folder/pip.log" 2>&1 ||
     skip "pip cannot install packages: $(tail -n 1 "$folder/pip.log")"
 
 if [ "$what" = sources ]; then
-    $pip uninstall -y scikit-build-core cffi numpy
+    $pip uninstall -y scikit-build-core cffi numpy $generator
     $pip install "$package"
     awk '/^```python$/ { inside = 1; next } /^```$/ && inside { exit } inside' "$package/README.md" >"$folder/start.py"
     cd "$folder" && venv/bin/python start.py

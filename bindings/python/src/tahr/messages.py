@@ -35,7 +35,7 @@ def _load(name: str) -> Type[Message]:
     try:
         module = importlib.import_module(f"tahr._messages.{name}")
     except ImportError as error:
-        raise ImportError(
+        raise ModuleNotFoundError(
             "tahr was built without the types of its LCM messages: lcm-gen was not found. Install it (Debian: "
             "liblcm-bin; PyPI: lcm) and build tahr again",
             name=__name__,

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 # Where LCM publishes when nobody says anything else.
 _DEFAULT_URL = "udpm://239.255.76.67:7667"
 
+# Of the socket, bytes, as far as the system allows it: its own default holds a few hundred messages, which is too few
+# where a listener has to wait for its turn.
+_BUFFER = 1 << 22
+
 _SCHEMES = ("udpm", "mpudpm", "tcpq", "file", "memq")
 
 
@@ -33,6 +37,8 @@ def connect(url: Optional[str]) -> "lcm.LCM":
         raise ValueError(f"{url!r} is no URL of LCM: expected one of {', '.join(s + '://' for s in _SCHEMES)}")
     if parts.scheme == "udpm":
         _probe(url, parts.hostname or "239.255.76.67")
+        if "recv_buf_size=" not in parts.query:
+            url += f"{'&' if parts.query else '?'}recv_buf_size={_BUFFER}"
     path = parts.netloc + parts.path
     if parts.scheme == "file" and "mode=w" not in parts.query and not os.path.exists(path):
         raise ConnectionError(f"{url}: there is no file {path}")

@@ -95,6 +95,7 @@ class Publisher:
         self._c = ffi.gc(made[0], lib.glue_publisher_drop)
         self._whom = ffi.new("glue_published *")
         self._told = (0, 0, 0)  # what is in it
+        self._ends = (characters, len(chosen))
         self._last: Any = None
         self._reports: "tuple[Array, Array, Array] | None" = None
         self._left: Any = None
@@ -126,10 +127,10 @@ class Publisher:
     def _tell(self, whom: Tuple[int, int, int]) -> None:
         from .. import ArgumentError
 
-        try:
-            self._whom.character, self._whom.config, self._whom.flags = whom
-        except (OverflowError, TypeError) as error:
-            raise ArgumentError(f"Publisher.step: character is {whom[0]!r}, config {whom[1]!r}, expected ids") from error
+        for name, value, end in zip(("character", "config"), whom, self._ends):
+            if not isinstance(value, int) or not 0 <= value < end:
+                raise ArgumentError(f"Publisher.step: {name} is {value!r}, expected 0 to {end - 1}")
+        self._whom.character, self._whom.config, self._whom.flags = whom
         self._told = whom
 
     def step_crowd(
@@ -147,7 +148,11 @@ class Publisher:
     ) -> int:
         """Crowd.step, and published: the character at index i with the id i. Raises what Crowd.step raises, and
         ArgumentError where there are more characters than the publisher was made for."""
+        from .. import ArgumentError
+
         own = self._room_for(len(states) if hasattr(states, "__len__") else 0)
+        if len(own[0]) > self._ends[0]:
+            raise ArgumentError(f"Publisher.step_crowd: {len(own[0])} characters, expected up to {self._ends[0]}")
         if reports is None:
             reports, events = own[0], own[1] if events is None else events
         given = {
