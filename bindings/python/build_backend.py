@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """scikit-build-core, which is told to bring lcm-gen (it is part of PyPI's lcm) where the machine has none."""
+
 import shutil
 from typing import Any, Dict, List, Optional
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Logs that the tests of the telemetry share: of real movers, and of random messages of every kind."""
+
 import numpy as np
 import pytest
 from scenes import DT, ground

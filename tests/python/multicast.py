@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Run by test_telemetry_live.py in a network of its own: what is published over multicast is heard, all of it."""
+
 import time
 
 import lcm

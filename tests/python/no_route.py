@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Run by test_telemetry_live.py where there is no network at all: both sides say so, and go on."""
+
 from scenes import ground
 
 import tahr

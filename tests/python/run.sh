@@ -45,5 +45,5 @@ venv/bin/python -B -m pytest -p no:cacheprovider -q -rs "$folder_of_tests" >pyte
 cat pytest.log
 sed -n 's/^SKIPPED \[[0-9]*\] [^ ]*: /SKIP: python_built: /p' pytest.log
 [ $status = 0 ] || exit $status
-venv/bin/python -m mypy --strict -p tahr
+venv/bin/python -m mypy --strict --config-file "$package/pyproject.toml" -p tahr
 venv/bin/python -m mypy --strict "$package"/examples/*.py "$package"/bench/*.py "$package"/build_ffi.py

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Logs that were cut off or spoilt: what can be read is kept, and it is said at which byte something is wrong."""
+
 import struct
 import warnings
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Live channels: a log that is played, and multicast in a network of the test's own."""
+
 import os
 import pathlib
 import shutil
@@ -83,7 +84,7 @@ def test_wrong_arguments_are_refused(tmp_path, monkeypatch):
     with Listener("memq://") as listener:
         with pytest.raises(ValueError, match="no kind of messages is called 'stat'"):
             listener.messages("stat")
-        assert len(listener.states()) == 0 and listener.latest() .shape == (0,) and listener.world is None
+        assert len(listener.states()) == 0 and listener.latest().shape == (0,) and listener.world is None
 
 
 def test_a_fork_is_told_that_it_has_no_thread(played):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Logs as arrays: what is in them, what is lost, foreign or of another run."""
+
 import warnings
 
 import numpy as np

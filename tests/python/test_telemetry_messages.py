@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Messages as the generated types have them, and as arrays."""
+
 import numpy as np
 import pytest
 from logs import random_message

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Publishing what is stepped in Python: the library's own thread sends it, here into files."""
+
 import os
 import threading
 
@@ -158,7 +159,8 @@ def test_wrong_arguments_are_named(tmp_path):
 
 def test_more_characters_than_expected_are_refused(tmp_path):
     world, config = ground(), tahr.Config()
-    crowd, states = tahr.Crowd(world, config, 4), tahr.states(config, np.c_[np.arange(4) * 2.0, np.zeros(4), np.ones(4)])
+    places = np.c_[np.arange(4) * 2.0, np.zeros(4), np.ones(4)]
+    crowd, states = tahr.Crowd(world, config, 4), tahr.states(config, places)
     with Publisher(world, config, characters=3, url=url_of(tmp_path / "few.lcmlog")) as publisher:
         with pytest.raises(tahr.ArgumentError, match="4 characters, expected up to 3"):
             publisher.step_crowd(crowd, tahr.inputs(4), DT, states)

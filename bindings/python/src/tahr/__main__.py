@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """``python -m tahr``: pictures of logs and of live channels. What is logged and published is ``tahr run --lcm``'s, or
 your own program's."""
+
 from __future__ import annotations
 
 import argparse

@@ -122,7 +122,9 @@ class Crowd:
         pointer = pointer_to(inputs, "tahr_input", caller, "inputs", count, write=False)
         if count and pointer[0].struct_size == 0:
             if not inputs.flags.writeable:
-                raise ArgumentError(f"{caller}: inputs is read-only and has no struct_size; make it with tahr.inputs(n)")
+                raise ArgumentError(
+                    f"{caller}: inputs is read-only and has no struct_size; make it with tahr.inputs(n)"
+                )
             inputs["struct_size"] = _INPUT_SIZE
         return pointer
 
@@ -135,7 +137,9 @@ class Crowd:
             found = f"{events.dtype} of shape {events.shape}" if hasattr(events, "dtype") else type(events).__name__
             raise ArgumentError(f"{caller}: events is {found[:120]}, expected tahr.EVENT of shape ({count}, room)")
         if not events.flags.c_contiguous or not events.flags.writeable:
-            raise ArgumentError(f"{caller}: events is read-only or not contiguous, expected a writeable array in C order")
+            raise ArgumentError(
+                f"{caller}: events is read-only or not contiguous, expected a writeable array in C order"
+            )
         return int(events.shape[1])
 
     def counts(self) -> CrowdCounts:

@@ -6,6 +6,7 @@ are those of the .lcm files. Constants are attributes: ``state_t.MODE_WALKING``.
 
 :mod:`tahr.telemetry` reads many messages at once, into NumPy arrays.
 """
+
 from __future__ import annotations
 
 import importlib

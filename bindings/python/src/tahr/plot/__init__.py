@@ -3,6 +3,7 @@
 
 ``overview(read_log("run.lcmlog"), "level.obj").savefig("run.png")``
 """
+
 from ._live import Live
 from ._overview import overview
 from .panels import above, height, modes, queries, side, speed

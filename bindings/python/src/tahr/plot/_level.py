@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The level that movement is shown in."""
+
 from __future__ import annotations
 
 import os
@@ -29,4 +30,5 @@ def load_triangles(level: Level, up: str = "y") -> Optional[Floats]:
             f"level: expected vertices of shape (n, 3) and triangles of shape (m, 3), got {vertices.shape} and "
             f"{triangles.shape}"
         )
-    return np.asarray(vertices, np.float64)[triangles]
+    corners: Floats = np.asarray(vertices, np.float64)[triangles]
+    return corners

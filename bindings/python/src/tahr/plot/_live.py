@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The last seconds of what a Listener hears, drawn anew again and again."""
+
 from __future__ import annotations
 
 import time

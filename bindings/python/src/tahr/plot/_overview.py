@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT
 """All of a log on one page."""
+
 from __future__ import annotations
 
-from typing import List
+from typing import Any, List
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from ..telemetry import Log
 from ..telemetry._log import Characters
@@ -28,7 +30,8 @@ def _title(log: Log) -> str:
 
 def _caption(log: Log, flat: bool, has_level: bool) -> str:
     seen = "from its side" if flat else "from above and from the south"
-    text = f"The ways of the feet {seen}{' over the level' if has_level else ''}, each from its dot on, coloured by mode."
+    over = " over the level" if has_level else ""
+    text = f"The ways of the feet {seen}{over}, each from its dot on, coloured by mode."
     wrong: List[str] = []
     lost = sum(log.lost.values())
     if lost:
@@ -54,9 +57,10 @@ def overview(log: Log, level: Level = None, characters: Characters = None, up: s
     triangles = load_triangles(level, up)
     level = None if triangles is None else (triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
     flat = _scene.is_flat(log.states)
-    figure = Figure(figsize=(_WIDTH, _HEIGHT), layout="constrained")
-    figure.get_layout_engine().set(rect=(0.005, 0.045, 0.99, 0.895))
-    left, right = figure.subfigures(1, 2, width_ratios=(1.0, 1.0))
+    engine = ConstrainedLayoutEngine(rect=(0.005, 0.045, 0.99, 0.895))
+    figure = Figure(figsize=(_WIDTH, _HEIGHT), layout=engine)
+    halves: Any = figure.subfigures(1, 2)
+    left, right = halves
     if flat:
         panels.above(left.subplots(), log, level)
     else:
@@ -75,5 +79,6 @@ def overview(log: Log, level: Level = None, characters: Characters = None, up: s
     figure.text(0.01, 0.955, _caption(log, flat, triangles is not None), fontsize=10, va="top", color="#40444f")
     handles, labels = panels.legend_entries(tall, log)
     if handles:
-        figure.legend(handles, labels, loc="lower center", ncol=len(labels), fontsize=9, frameon=False, columnspacing=1.3)
+        style: Any = {"loc": "lower center", "ncol": len(labels), "fontsize": 9, "frameon": False}
+        figure.legend(handles, labels, columnspacing=1.3, **style)
     return figure

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The ways of characters as lines: cut where the mode changes and where somebody was put elsewhere, and thinned out to
 what can be seen."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, Iterator, List, Tuple

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A level as a picture: the surface nearest to who looks at it, shaded, with walls and drops drawn as lines."""
+
 from __future__ import annotations
 
 from typing import Any, Iterator, NamedTuple, Tuple
@@ -16,8 +17,11 @@ _EDGE_ON = 0.1
 # Light from the upper left, at 45 degrees, as on printed maps.
 _LIGHT = np.array([-0.5, 0.5, 0.7071067811865476])
 
-# Pixels that are looked at in one go; bounds the memory, some 100 bytes each.
+# Pixels that are looked at in one go; bounds the memory, some 50 bytes each.
 _CHUNK = 1 << 20
+
+# So much beside a side a pixel's middle is still on it: as much as the sums above it are wrong by.
+_ON_EDGE = 1e-9
 
 # Colours of ground that can be walked on, low and high, and of what is steeper; of lines; what each channel ends at.
 _GROUND = np.array([[216.0, 227.0, 237.0], [253.0, 238.0, 205.0]])
@@ -85,36 +89,62 @@ def _chunks(counts: Array) -> Iterator[slice]:
         begin = end
 
 
+class _Spans(NamedTuple):
+    """Rows of pixels that triangles cover, each from its first pixel on."""
+
+    owner: Array  # which triangle
+    first: Array  # pixel
+    count: Array
+    near: Floats  # at the first one, m
+    slope: Floats  # by how much it grows to the next one
+
+
+def _spans(corners: Floats, rows: int, columns: int) -> _Spans:
+    """What triangles in pixels, (n, 3, 3), cover: the pixels whose middle is inside of them."""
+    x, y, z = (corners[:, :, k] for k in range(3))
+    begin = np.clip(np.ceil(y.min(axis=1) - 0.5), 0, rows).astype(np.int64)
+    end = np.clip(np.floor(y.max(axis=1) - 0.5), -1, rows - 1).astype(np.int64)
+    owner, which = _expand(np.maximum(end - begin + 1, 0))
+    row = begin[owner] + which
+    left, right = np.full(len(row), np.inf), np.full(len(row), -np.inf)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        for k, m in ((0, 1), (1, 2), (2, 0)):  # where each side crosses the middle of the row, if it does
+            part = (row + 0.5 - y[owner, k]) / (y[owner, m] - y[owner, k])
+            at = np.where((part >= 0) & (part <= 1), x[owner, k] + part * (x[owner, m] - x[owner, k]), np.nan)
+            left, right = np.fmin(left, at), np.fmax(right, at)
+        area = (x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (y[:, 1] - y[:, 0]) * (x[:, 2] - x[:, 0])
+        slope_x = ((z[:, 1] - z[:, 0]) * (y[:, 2] - y[:, 0]) - (z[:, 2] - z[:, 0]) * (y[:, 1] - y[:, 0])) / area
+        slope_y = ((x[:, 1] - x[:, 0]) * (z[:, 2] - z[:, 0]) - (x[:, 2] - x[:, 0]) * (z[:, 1] - z[:, 0])) / area
+    first = np.ceil(np.clip(left - 0.5 - _ON_EDGE, 0, columns)).astype(np.int64)
+    last = np.floor(np.clip(right - 0.5 + _ON_EDGE, -1, columns - 1)).astype(np.int64)
+    near = z[owner, 0] + slope_x[owner] * (first + 0.5 - x[owner, 0]) + slope_y[owner] * (row + 0.5 - y[owner, 0])
+    kept = (last >= first) & np.isfinite(near)
+    spans = _Spans(owner, row * columns + first, last - first + 1, near, slope_x[owner])
+    return _Spans(*(column[kept] for column in spans))
+
+
 class _Canvas:
-    """Depth, normal and ink of each pixel, rows from the top."""
+    """The nearest triangle of each pixel, how near it is, and the ink upon it; rows from the top."""
 
     def __init__(self, frame: Frame) -> None:
         self.frame = frame
         self.near = np.full(frame.shape, -np.inf)
-        self.normal = np.zeros((*frame.shape, 3))
+        self.owner = np.zeros(frame.shape, np.int64)
         self.ink = np.full(frame.shape, -np.inf)
 
-    def fill(self, corners: Floats, normals: Floats) -> None:
-        """Triangles in pixels, (n, 3, 3), over what is farther away; what was filled before stays."""
-        rows, columns = self.near.shape
-        free = ~np.isfinite(self.near.ravel())
-        low = np.floor(np.clip(corners[:, :, :2].min(axis=1), 0, [columns, rows])).astype(np.int64)
-        high = np.ceil(np.clip(corners[:, :, :2].max(axis=1), 0, [columns, rows])).astype(np.int64)
-        widths, heights = (high - low).T
-        for part in _chunks(widths * heights):
-            whose, which = _expand((widths * heights)[part])
-            column = low[part, 0][whose] + which % widths[part][whose]
-            row = low[part, 1][whose] + which // widths[part][whose]
-            near, inside = _interpolate(corners[part][whose], column + 0.5, row + 0.5)
-            pixel = row * columns + column
-            inside &= free[pixel]
-            inside[inside] = near[inside] > self.near.ravel()[pixel[inside]]
-            self._put(pixel[inside], near[inside], normals[part][whose[inside]])
-
-    def _put(self, pixel: Array, near: Floats, normals: Floats) -> None:
-        order = np.argsort(near, kind="stable")  # where a pixel is named twice the last one stays
-        self.near.ravel()[pixel[order]] = near[order]
-        self.normal.reshape(-1, 3)[pixel[order]] = normals[order]
+    def fill(self, corners: Floats, numbers: Array) -> None:
+        """Triangles in pixels, (n, 3, 3), with these numbers, into what is still empty."""
+        near, owner = self.near.ravel(), self.owner.ravel()
+        free = ~np.isfinite(near)
+        spans = _spans(corners, *self.near.shape)
+        for part in _chunks(spans.count):
+            whose, which = _expand(spans.count[part])
+            pixel = spans.first[part][whose] + which
+            here = spans.near[part][whose] + spans.slope[part][whose] * which
+            here[~free[pixel]] = -np.inf
+            np.maximum.at(near, pixel, here)
+            nearest = (here == near[pixel]) & free[pixel]
+            owner[pixel[nearest]] = numbers[spans.owner[part][whose[nearest]]]
 
     def draw_lines(self, begins: Floats, ends: Floats) -> None:
         """Lines in pixels, (n, 3) each; the nearest of each pixel is kept."""
@@ -133,18 +163,7 @@ class _Canvas:
         near = np.where(np.isfinite(self.near), self.near, np.nan)
         padded = np.pad(near, 1, mode="edge")
         around = np.stack([padded[:-2, 1:-1], padded[2:, 1:-1], padded[1:-1, :-2], padded[1:-1, 2:]])
-        return np.nan_to_num(near - np.fmin.reduce(around))
-
-
-def _interpolate(corners: Floats, x: Array, y: Array) -> Tuple[Floats, npt.NDArray[np.bool_]]:
-    """Depth of one triangle at each place, and whether the place is inside of it."""
-    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = (corners[:, k].T for k in range(3))
-    area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        u = ((bx - x) * (cy - y) - (by - y) * (cx - x)) / area
-        v = ((cx - x) * (ay - y) - (cy - y) * (ax - x)) / area
-        inside = (area != 0) & (u >= -1e-9) & (v >= -1e-9) & (u + v <= 1 + 1e-9)
-        return u * az + v * bz + (1 - u - v) * cz, inside
+        return np.asarray(np.nan_to_num(near - np.fmin.reduce(around)))
 
 
 def draw(triangles: Floats, view: View, frame: Frame, walkable_cosine: float) -> npt.NDArray[np.uint8]:
@@ -161,21 +180,24 @@ def draw(triangles: Floats, view: View, frame: Frame, walkable_cosine: float) ->
     corners = frame.to_pixels(seen[lengths > 0])
     towards = normals[:, 2]
     canvas = _Canvas(frame)
-    canvas.fill(corners[towards >= _EDGE_ON], normals[towards >= _EDGE_ON])
+    front, back = np.flatnonzero(towards >= _EDGE_ON), np.flatnonzero(towards <= -_EDGE_ON)
+    canvas.fill(corners[front], front)
     if view is not SOUTH:
-        canvas.fill(corners[towards <= -_EDGE_ON], -normals[towards <= -_EDGE_ON])
+        canvas.fill(corners[back], back)
+    normals[back] *= -1
     thin = corners[np.abs(towards) < _EDGE_ON]
     for k in range(3):
         canvas.draw_lines(thin[:, k], thin[:, (k + 1) % 3])
-    return _colour(canvas, walkable_cosine)
+    return _colour(canvas, normals, walkable_cosine)
 
 
-def _colour(canvas: _Canvas, walkable_cosine: float) -> npt.NDArray[np.uint8]:
-    is_ground = canvas.normal[..., 2] >= walkable_cosine
+def _colour(canvas: _Canvas, normals: Floats, walkable_cosine: float) -> npt.NDArray[np.uint8]:
+    normal = normals[canvas.owner] if len(normals) else np.zeros((*canvas.near.shape, 3))
+    is_ground = normal[..., 2] >= walkable_cosine
     heights = canvas.near[is_ground & np.isfinite(canvas.near)]
     low, high = (heights.min(), heights.max()) if len(heights) else (0.0, 0.0)
     tint = np.clip((canvas.near - low) / (high - low), 0, 1) if high > low else np.zeros(canvas.near.shape)
-    shade = 0.72 + 0.4 * (canvas.normal @ _LIGHT)
+    shade = 0.72 + 0.4 * (normal @ _LIGHT)
     drop = canvas.drops() - 2 / canvas.frame.scale  # a slope of 63 degrees is no drop
     shade = np.where(drop > 0.03, shade * np.clip(0.8 - 0.4 * drop, 0.35, 1), shade)
     colours = np.where(is_ground[..., None], _mix(_GROUND, tint), _mix(_STEEP, tint)) * shade[..., None]

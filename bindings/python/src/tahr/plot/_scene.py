@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
 """What a picture of the ways is of: where everybody went, from where it is seen, and how much of the world is shown."""
+
 from __future__ import annotations
 
-from typing import Any, NamedTuple, Optional, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,7 +14,7 @@ from matplotlib.patheffects import withStroke
 from . import _relief
 from ._paths import by_character, polylines
 from ._relief import Frame, View
-from ._style import find_marks, mark_style, modes_of
+from ._style import EVENTS, find_marks, mark_style, modes_of
 
 Floats = npt.NDArray[np.float64]
 Array = npt.NDArray[Any]
@@ -119,21 +120,25 @@ def _beside(triangles: Floats, states: Array) -> Floats:
         return triangles
     y = states["position"][:, 1]
     low, high = triangles[:, :, 1].min(axis=1), triangles[:, :, 1].max(axis=1)
-    return triangles[(high >= y.min()) & (low <= y.max() + 1)]
+    return np.asarray(triangles[(high >= y.min()) & (low <= y.max() + 1)])
 
 
 def draw_lines(ax: Axes, states: Array, points: Floats, spans: Tuple[float, float]) -> None:
     """Everybody's lines through points (n, 2), coloured by mode."""
     collected: "dict[int, list[Floats]]" = {}
     count = 0
-    for number, _ in by_character(states):
-        whose = states["character"] == number
+    for character, _ in by_character(states):
+        whose = states["character"] == character
         count += 1
-        for mode, lines in polylines(states[whose], points[whose], spans).items():
-            collected.setdefault(mode, []).extend(lines)
+        for number, lines in polylines(states[whose], points[whose], spans).items():
+            collected.setdefault(number, []).extend(lines)
     crowded = count > _CROWD
     for mode in modes_of(states["mode"]):
-        style = {"colors": mode.colour, "linestyles": mode.dashes, "linewidths": 0.9 if crowded else 1.4}
+        style: Dict[str, Any] = {
+            "colors": mode.colour,
+            "linestyles": mode.dashes,
+            "linewidths": 0.9 if crowded else 1.4,
+        }
         ax.add_collection(LineCollection(collected[mode.number], alpha=0.75 if crowded else 0.95, zorder=2, **style))
 
 
@@ -147,8 +152,6 @@ def draw_marks(ax: Axes, events: Array, points: Floats, factor: float = 1.0) -> 
 
 
 def _number_of(name: str) -> int:
-    from ._style import EVENTS
-
     return next(number for number, known in EVENTS.items() if known == name)
 
 
@@ -161,5 +164,5 @@ def draw_dots(ax: Axes, states: Array, points: Floats, view: View, last: bool) -
         x, y = points[indices[-1 if last else 0]]
         ax.plot(x, y, "o", color="#1f5ebf", markersize=6, markeredgecolor="white", zorder=4)
         if 1 < len(where) <= most:
-            style = {"textcoords": "offset points", "fontsize": 8, "zorder": 5, "path_effects": halo}
+            style: Dict[str, Any] = {"textcoords": "offset points", "fontsize": 8, "zorder": 5, "path_effects": halo}
             ax.annotate(str(number), (x, y), (4, 4), **style)

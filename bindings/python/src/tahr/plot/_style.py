@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """How modes and events look, in every picture."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, NamedTuple, Tuple, Union

@@ -3,6 +3,7 @@
 
 All take the log, and the ids of the characters to be drawn (None: all).
 """
+
 from __future__ import annotations
 
 from typing import Any, List, Optional, Tuple
@@ -51,9 +52,7 @@ def _time_axis(ax: Axes, messages: Array) -> None:
         ax.set_xlim(begin, max(float(seconds(messages).max()), begin + 1e-3))
 
 
-def ways(
-    ax: Axes, log: Log, behind: Optional[_scene.Backdrop], view: _relief.View, dots_last: bool = False
-) -> None:
+def ways(ax: Axes, log: Log, behind: Optional[_scene.Backdrop], view: _relief.View, dots_last: bool = False) -> None:
     """The ways of the feet before what is behind them, each with a dot where it begins or (dots_last) ends."""
     states, events = log.states, log.events
     _scene.draw_backdrop(ax, behind)

@@ -3,6 +3,7 @@
 
 ``read_log("run.lcmlog").states["position"]`` is an array of shape (n, 3).
 """
+
 from ._events import Problem
 from ._listener import Listener
 from ._log import Log, LogWarning, ranges, read_log

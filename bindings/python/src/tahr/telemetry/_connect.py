@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Connecting to LCM, with an error that says why not."""
+
 from __future__ import annotations
 
 import os
@@ -30,7 +31,7 @@ def connect(url: Optional[str]) -> "lcm.LCM":
         ConnectionError: no route for multicast, no such file, or LCM has another reason, which it prints
         ImportError: PyPI's lcm is missing
     """
-    lcm = import_lcm()
+    library = import_lcm()
     url = url or os.environ.get("LCM_DEFAULT_URL") or _DEFAULT_URL
     parts = urlsplit(url)
     if parts.scheme not in _SCHEMES:
@@ -43,7 +44,8 @@ def connect(url: Optional[str]) -> "lcm.LCM":
     if parts.scheme == "file" and "mode=w" not in parts.query and not os.path.exists(path):
         raise ConnectionError(f"{url}: there is no file {path}")
     try:
-        return lcm.LCM(url)
+        connection: "lcm.LCM" = library.LCM(url)
+        return connection
     except RuntimeError as error:
         raise ConnectionError(f"{url}: LCM could not be set up: {error}") from error
 

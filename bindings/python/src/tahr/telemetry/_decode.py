@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Messages of one kind as an array, whether all of them are of one size or not."""
+
 from __future__ import annotations
 
 import struct

@@ -4,6 +4,7 @@
 A log is read by LCM's own EventLog. Where it is damaged that looks for the next event by itself and says nothing about
 it, or stops. So it is checked that all bytes were read; around those that were not, events are looked at one by one.
 """
+
 from __future__ import annotations
 
 import itertools

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """The messages of a log, sorted by prefix and kind, and made into arrays in large pieces."""
+
 from __future__ import annotations
 
 import re
@@ -80,7 +81,7 @@ class Gathering:
     def _begin(self, channel: str, first: bytes) -> Optional[Pile]:
         match = CHANNEL.fullmatch(channel)
         kind = self._kinds.get(first)
-        return Pile(kind) if match and kind == match["kind"].lower() else None
+        return Pile(kind) if kind and match and kind == match["kind"].lower() else None
 
     def _count(self, channel: str) -> None:
         if CHANNEL.fullmatch(channel):

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: MIT
 """Live channels: a thread that receives, and what it received as arrays."""
+
 from __future__ import annotations
 
 import collections
 import os
 import struct
 import threading
-from typing import TYPE_CHECKING, Any, Deque, Dict, List, Optional, Tuple, Type
+from typing import TYPE_CHECKING, Any, Deque, Dict, List, Mapping, Optional, Tuple, Type
 from types import TracebackType
 
 import numpy as np
@@ -30,7 +31,7 @@ _QUEUE = 1 << 16
 
 def _numbers(kind: str) -> Optional[struct.Struct]:
     """Reads character and sequence out of a message; None where a kind has none."""
-    places = layout(kind).wire.fields or {}
+    places: Mapping[str, Any] = layout(kind).wire.fields or {}
     if "character" not in places:
         return None
     character, sequence = int(places["character"][1]), int(places["sequence"][1])

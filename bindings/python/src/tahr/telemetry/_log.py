@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A log of LCM messages as arrays."""
+
 from __future__ import annotations
 
 import os

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Publishing what is stepped in Python, over LCM."""
+
 from __future__ import annotations
 
 import os

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """How the fields of a message lie in its bytes, and many messages at once as a NumPy array."""
+
 from __future__ import annotations
 
 from typing import Any, Dict, List, NamedTuple, Sequence, Tuple, Type
@@ -57,7 +58,7 @@ class Field(NamedTuple):
     offset: int
     letter: str  # f, i, b (a boolean)
     width: int  # bytes of one number
-    count: int  # of numbers; 0: not an array
+    length: int  # of an array; 0: none
 
 
 def _measure(kind: str, name: str) -> "Field | None":
@@ -116,14 +117,17 @@ class Layout:
             {
                 "names": [field.name for field in known],
                 "formats": [
-                    (f">{field.letter}{field.width}" if field.letter != "b" else "u1", (field.count,) if field.count else ())
+                    (
+                        "u1" if field.letter == "b" else f">{field.letter}{field.width}",
+                        (field.length,) if field.length else (),
+                    )
                     for field in known
                 ],
                 "offsets": [field.offset for field in known],
-                "itemsize": known[-1].offset + known[-1].width * max(known[-1].count, 1),
+                "itemsize": known[-1].offset + known[-1].width * max(known[-1].length, 1),
             }
         )
-        self.dtype = np.dtype([_shaped(field.name, _native_type(field), field.count) for field in known], align=True)
+        self.dtype = np.dtype([_shaped(field.name, _native_type(field), field.length) for field in known], align=True)
 
     def decode(self, payloads: Sequence[bytes]) -> Array:
         """The fixed parts of n messages as an array, shape (n,); each must be as long as that or longer."""
