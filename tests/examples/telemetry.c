@@ -70,12 +70,12 @@ static tahr_status climb(tahr_mover *mover, tahr_telemetry *telemetry, tahr_stat
 
 int main(void)
 {
-    heard heard = {0};
+    heard all = {0};
     const tahr_sink sink = {.struct_size = sizeof sink,
                             .abi_major = TAHR_ABI_MAJOR,
                             .abi_minor = TAHR_ABI_MINOR,
                             .name = "print",
-                            .user = &heard,
+                            .user = &all,
                             .state = hear_state,
                             .event = hear_event};
     tahr_telemetry_desc desc;
@@ -99,6 +99,6 @@ int main(void)
     tahr_telemetry_destroy(telemetry);
     tahr_mover_destroy(mover);
     tahr_world_close(world);
-    printf("%u of %d states heard, the highest at %.2f m\n", heard.states, STEPS, heard.highest);
-    return status >= 0 && stopped == TAHR_OK && heard.states == STEPS && heard.climbed == STAIRS ? 0 : 1;
+    printf("%u of %d states heard, the highest at %.2f m\n", all.states, STEPS, all.highest);
+    return status >= 0 && stopped == TAHR_OK && all.states == STEPS && all.climbed == STAIRS ? 0 : 1;
 }
