@@ -137,7 +137,7 @@ class crowd
     status step(const tahr_crowd_tick &tick) noexcept
     {
         tahr_status code = tahr_crowd_step(handle_, &tick);
-        if (block_ && block_->told.load(std::memory_order_acquire)) hear();
+        if (block_ && block_->told.load(std::memory_order_acquire)) hear(code);
         return detail::checked("tahr_crowd_step", code);
     }
     /* The same over containers of one size; TAHR_E_ARGUMENT where they differ. */
@@ -194,15 +194,16 @@ class crowd
                                 "tahr::crowd::step: %s has %zu elements, expected %zu, as many as states", what, size,
                                 expected);
     }
-    /* What was complained of inside the tasks is complained of here. */
-    void hear() noexcept
+    /* What was complained of inside the tasks is complained of here, if it was what the tick failed for. */
+    void hear(tahr_status code) noexcept
     {
-        detail::trouble &first = block_->first;
+        const detail::trouble first = std::exchange(block_->first, detail::trouble{});
+        block_->told.store(false, std::memory_order_release);
+        if (code >= 0) return;
         detail::say(first.text);
 #ifndef TAHR_CPP_NO_EXCEPTIONS
-        detail::open_trouble().thrown = std::move(first.thrown);
+        detail::open_trouble().thrown = first.thrown;
 #endif
-        block_->told.store(false, std::memory_order_release);
     }
 
     detail::ref<detail::crowd_block> block_;

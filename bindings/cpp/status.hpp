@@ -80,10 +80,12 @@ inline void append(trouble &t, const char *text) noexcept
     t.text[t.length] = 0;
 }
 
-/* Adds a sentence to what the call under way will be told to have failed for. */
+/* Adds a sentence to what the call under way will be told to have failed for. Where there is no room the older ones go:
+ * they may be of calls that did not go through this binding. */
 inline void say(const char *text) noexcept
 {
     trouble &t = open_trouble();
+    if (t.length + 2 + std::strlen(text) >= sizeof t.text) t.length = 0;
     if (t.length) append(t, "; ");
     append(t, text);
 }

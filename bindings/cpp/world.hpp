@@ -105,6 +105,8 @@ class world
     template <class Function>
     static result<world> open(gathering<Function> source, const tahr_world_desc &desc) noexcept
     {
+        static_assert(std::is_invocable_v<Function &, const tahr_bounds &, std::uint32_t, triangles &>,
+                      "what gathers takes (const tahr_bounds &, uint32_t mask, tahr::triangles &)");
         auto kept = detail::make<detail::kept<Function>>(desc.allocator, std::move(source.gather));
         if (!kept) return detail::no_memory("tahr::world::open");
         tahr_native_desc native = source.options.struct_size ? source.options : make_native_desc();

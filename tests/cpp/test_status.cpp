@@ -50,6 +50,18 @@ static void message_is_that_of_the_last_failure(void **)
     assert_string_equal(first.message(), tahr_status_message(TAHR_E_ARGUMENT));
 }
 
+/* The log is told of them too, on the same thread. */
+static void failures_of_c_beside_it_do_not_drown_the_words(void **)
+{
+    tahr::world world = open_floor();
+    tahr::mover mover = tahr::mover::create(world, precise()).value();
+    tahr_state state = standing();
+    const tahr_input input = wish(1e300, 0);
+    for (int i = 0; i < 20; i++)
+        assert_int_equal(tahr_mover_step(mover.handle(), &input, DT, &state, nullptr), TAHR_E_ARGUMENT);
+    assert_says(mover.step(wish(1, 0), -1, state), TAHR_E_ARGUMENT, "tahr_mover_step: dt is -1");
+}
+
 static void each_thread_has_its_own_message(void **)
 {
     tahr::world world = open_floor();
@@ -124,6 +136,7 @@ int main()
         cmocka_unit_test(ok_but_is_no_error),
         cmocka_unit_test(message_names_the_argument),
         cmocka_unit_test(message_is_that_of_the_last_failure),
+        cmocka_unit_test(failures_of_c_beside_it_do_not_drown_the_words),
         cmocka_unit_test(each_thread_has_its_own_message),
         cmocka_unit_test(results_hand_over_what_was_made),
 #ifdef TAHR_CPP_NO_EXCEPTIONS
