@@ -3,7 +3,7 @@
 # so that all around the steps drops out. Usage: cost.sh PROGRAM BUILD-TYPE
 set -eu
 command -v valgrind >/dev/null || { echo "SKIP: cpp_cost: valgrind is not installed"; exit 77; }
-[ "$2" = Release ] || { echo "SKIP: cpp_cost: this is a build of type '$2', and cost is what an optimised one has"; exit 77; }
+[ "$2" = Release ] || { echo "SKIP: cpp_cost: cost is that of an optimised build, this one is of type '$2'"; exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 # instructions KIND STEPS

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * steps.cpp: the same loop of steps in C and in C++, for a tool that counts instructions (cost.sh). A character falls
- * asleep on a floor, so that a step is as little as it can be and what a wrapper adds shows. Usage: steps c|cpp STEPS */
+ * steps.cpp: the same loop of steps in C and in C++, for a tool that counts instructions (cost.sh). A character sleeps
+ * on a floor, so that a step is as little as it can be and what a wrapper adds shows. Usage: steps c|cpp STEPS */
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * test_crowd.cpp: crowds over containers, on a scheduler of the user's and on the pool of threads, with the bits of C. */
+ * test_crowd.cpp: crowds over containers, on the user's scheduler and on the pool of threads, with the bits of C. */
 #include "cpp_test.hpp"
 
 #ifdef TAHR_HAVE_THREADS

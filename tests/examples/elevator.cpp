@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * elevator.cpp: a level of triangles with a shaft in C++: somebody walks in, calls the elevator by standing on it, rides
- * to the upper floor, and flies back over the shaft by a jet pack, a mode of his own; the flight is rolled back and
- * flown again.
+ * elevator.cpp: a level of triangles with a shaft, in C++: somebody walks in, rides the elevator to the upper floor,
+ * and flies back over the shaft by a jet pack, a mode of his own; the flight is rolled back and flown again.
  * By hand, with Tahr installed and PKG_CONFIG_PATH pointing to its lib/pkgconfig:
  *     c++ -std=c++17 elevator.cpp $(pkg-config --cflags --libs tahr) -o elevator */
 #include <cstdio>
