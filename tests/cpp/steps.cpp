@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * steps.cpp: the same loops of steps in C and in C++, for a tool that counts instructions (cost.sh). asleep: on a floor,
- * so that a step is as little as it can be and what a wrapper adds shows. walk: over an engine of the user's, which each
- * step asks, so that what carries the questions shows. Usage: steps c|cpp asleep|walk STEPS */
+ * steps.cpp: the same loops of steps in C and in C++, for a tool that counts instructions (cost.sh). asleep: on a
+ * floor, so that a step is as little as it can be and what a wrapper adds shows. walk: over an engine of the user's,
+ * which each step asks, so that what carries the questions shows. Usage: steps c|cpp asleep|walk STEPS */
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
