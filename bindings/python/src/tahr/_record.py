@@ -231,7 +231,7 @@ class Plain(Record):
         ffi.memmove(self._c, other._c, self.dtype.itemsize)
 
     def __eq__(self, other: object) -> bool:
-        return type(other) is type(self) and bytes(self) == bytes(other)
+        return isinstance(other, Plain) and type(other) is type(self) and bytes(self) == bytes(other)
 
     __hash__ = None  # type: ignore[assignment]
 
