@@ -155,7 +155,7 @@ def struct_documents(text: str) -> "dict[str, tuple[str, dict[str, str]]]":
     return {name: (clean(about), field_documents(body)) for about, name, body in found}
 
 
-def descriptor(field: "cffi.FFI.CType", document: str) -> str:
+def descriptor(field: "cffi.FFI.CType", document: str, fixed: bool) -> str:
     """The descriptor of _record.py for a field of this type; '' for pointers, which Python sets by itself."""
     kind, name = field.kind, field.cname
     if kind == "struct":
@@ -165,14 +165,14 @@ def descriptor(field: "cffi.FFI.CType", document: str) -> str:
     if kind == "array":
         return f'Integers({field.length}, "{document}")'
     if kind == "primitive":
-        return f'{"Real" if name == "double" else "Integer"}("{document}")'
+        return f'{"Real" if name == "double" else "Fixed" if fixed else "Integer"}("{document}")'
     return ""
 
 
 def write_records(ffi: cffi.FFI, text: str) -> str:
     documents = struct_documents(text)
     lines = [HEAD + '"""The structs of the C headers, with the headers\' own comments."""']
-    lines += ["from ._record import Integer, Integers, Nested, Plain, Real, Record, Vector", "", ""]
+    lines += ["from ._record import Fixed, Integer, Integers, Nested, Plain, Real, Record, Vector", "", ""]
     for name, title in RECORDS.items():
         about, comments = documents[name]
         fields = [(field, info.type) for field, info in ffi.typeof(name).fields]
@@ -180,7 +180,9 @@ def write_records(ffi: cffi.FFI, text: str) -> str:
         about = textwrap.fill(about or title, 108, subsequent_indent="    ")
         lines += [f"class {title}({base}):", f'    """{about}"""', "", "    __slots__ = ()", f'    ctype = "{name}"']
         for field, kind in fields:
-            made = descriptor(kind, comments.get(field, ""))
+            # What says how long an array behind a pointer is, is not for everybody to change.
+            fixed = base == "Record" and re.search("_count$|_capacity$|^rows$|^columns$", field) is not None
+            made = descriptor(kind, comments.get(field, ""), fixed)
             if made and field != "struct_size" and not field.startswith("reserved"):
                 lines.append(f"    {field} = {made}")
         lines += ["", ""]

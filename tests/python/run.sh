@@ -36,7 +36,7 @@ fi
 
 cmake --install "$BUILD" --prefix "$folder/prefix" >/dev/null
 $pip install --no-build-isolation --force-reinstall --no-deps "$package" \
-    -C "cmake.define.TAHR_PYTHON_INSTALLED=$folder/prefix"
+    --config-settings="cmake.define.TAHR_PYTHON_INSTALLED=$folder/prefix"
 $pip install --no-build-isolation "tahr[test]"
 folder_of_tests=$PWD/tests/python
 cd "$folder"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What a reader would run: the README's quick start as it stands, every example, the benchmark's Python side."""
+
 import pathlib
 import re
 import subprocess

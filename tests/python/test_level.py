@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Levels from files, against what the shell makes of the same file."""
+
 import csv
 import json
 import os

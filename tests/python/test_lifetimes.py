@@ -143,6 +143,41 @@ def test_movers_of_one_world_step_on_many_threads_with_the_same_bits():
     assert len(hashes) == 8 and len(set(hashes)) == 1
 
 
+def test_movers_and_crowds_come_and_go_while_others_step():
+    world, hashes = ground(), []
+
+    def step():
+        mover = tahr.Mover(world)
+        hashes.append(walk(mover, tahr.State(None, (0, 0, 1)), 10 * N).hash())
+
+    def come_and_go():
+        for _ in range(N):
+            tahr.Mover(world)  # forgotten at once
+            try:
+                tahr.Crowd(world, capacity=2)
+            except tahr.ReentrantError:
+                pass  # the world is in use, which only its making minds
+
+    run_threads([step, step, come_and_go])
+    assert len(hashes) == 2 and len(set(hashes)) == 1
+    world.close()  # nothing is left
+
+
+def test_garbage_that_is_collected_does_not_take_the_message_along(monkeypatch):
+    world = ground()
+    mover = tahr.Mover(world)
+    garbage, make = [tahr.Mover(world), tahr.Crowd(world), tahr.Mover(ground())], world._failed
+
+    def collect_first(*arguments):
+        garbage.clear()
+        gc.collect()
+        return make(*arguments)
+
+    monkeypatch.setattr(world, "_failed", collect_first)
+    with pytest.raises(tahr.ArgumentError, match="dt is -1"):
+        mover.step(tahr.State(), tahr.Input(), -1)
+
+
 def test_one_mover_on_many_threads_is_refused_or_steps_whole():
     mover, refused, stepped = tahr.Mover(ground()), [], []
     everybody = threading.Barrier(4)

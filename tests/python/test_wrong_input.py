@@ -139,7 +139,7 @@ def test_arrays_that_must_not_be_written_are_named():
     crowd_refuses("states is read-only, expected a writeable array", states=states)
     wish = np.zeros(4, tahr.INPUT)
     wish.flags.writeable = False
-    crowd_refuses("inputs is read-only and has no struct_size; make it with tahr.inputs(n)", inputs=wish)
+    crowd_refuses("inputs is read-only without struct_size; make it with tahr.inputs(n)", inputs=wish)
     refuses("states is read-only", lambda: tahr.State.of(states, 0))
 
 
@@ -150,6 +150,9 @@ def test_what_the_library_refuses_names_the_character():
     wild = tahr.members(4)
     wild["config"][2] = 7
     crowd_refuses("members[2].config", members=wild)
+    large = tahr.inputs(4)
+    large["struct_size"] = 1 << 20  # would be a stride into nowhere
+    crowd_refuses("inputs[0].struct_size is 1048576", error=tahr.StructSizeError, inputs=large)
     mixed = tahr.inputs(4)
     mixed["struct_size"][2] = 3
     crowd_refuses("inputs[2].struct_size", error=tahr.StructSizeError, inputs=mixed)
@@ -193,3 +196,21 @@ def test_wrong_poses_and_bodies_are_named():
     refuses("poses has dtype", lambda: world.set(np.zeros(1)))
     refuses("World.body", lambda: world.body(9), tahr.NotFoundError)
     refuses("World.sweep", lambda: world.sweep(tahr.Sweep()))
+
+
+def test_sizes_and_addresses_that_c_trusts_cannot_be_written():
+    report, body = tahr.Report(events=2), tahr.Body.mesh(VERTICES, TRIANGLES)
+    refuses("Report.event_capacity: is 2, and not to be set", lambda: setattr(report, "event_capacity", 1 << 20))
+    refuses("Report.decision_count: is 0", lambda: setattr(report, "decision_count", 9))
+    refuses("Body.vertex_count: is 4", lambda: setattr(body, "vertex_count", 1 << 20))
+    refuses("Body.triangle_count", lambda: tahr.Body.mesh(VERTICES, TRIANGLES, triangle_count=1 << 20))
+    for record in (report, body, tahr.Input(), tahr.Config()):
+        with pytest.raises(ValueError):
+            record.array["struct_size"] = 1 << 20
+    wild = tahr.inputs(1)
+    wild["struct_size"] = 1 << 20
+    state, one = tahr.State(None, (0, 0, 1)), tahr.Input.from_bytes(wild[0].tobytes())
+    assert tahr.Mover(ground()).step(state, one, DT) == tahr.OK
+    state.array["velocity"] = (1, 2, 3)  # a state has neither
+    assert state.velocity.tolist() == [1, 2, 3]
+    refuses("has no 'struct_size'", lambda: ground(options={"struct_size": 1 << 20}))

@@ -99,7 +99,7 @@ static void end_pool(glue_stepper *stepper)
 tahr_status glue_crowd_create(glue_world *held, tahr_crowd_desc *desc, uint32_t threads, glue_stepper **stepper)
 {
     glue_forget();
-    tahr_status status = glue_world_claim(held);
+    tahr_status status = glue_world_claim(held, GLUE_CLEANING);
     if (status < 0) return status;
     glue_stepper *made = new_stepper(held);
     status = made ? TAHR_OK : TAHR_E_MEMORY;
@@ -162,7 +162,7 @@ tahr_status glue_stepper_close(glue_stepper *stepper)
     }
     tahr_status status = TAHR_OK;
     if (stepper->mover != NULL || stepper->crowd != NULL) {
-        status = stepper->crowd ? glue_world_claim(stepper->held) : glue_world_share(stepper->held);
+        status = stepper->crowd ? glue_world_claim(stepper->held, GLUE_CLEANING) : glue_world_share(stepper->held);
         if (status >= 0) {
             glue_stepper_destroy(stepper);
             glue_world_leave(stepper->held);
@@ -176,12 +176,19 @@ tahr_status glue_stepper_close(glue_stepper *stepper)
 void glue_stepper_drop(glue_stepper *stepper)
 {
     glue_world *held = stepper->held;
-    glue_stepper *first = atomic_load(&held->dead);
-    do {
-        stepper->next = first;
-    } while (!atomic_compare_exchange_weak(&held->dead, &first, stepper));
-    int free = 0;
-    if (atomic_compare_exchange_strong(&held->use, &free, -1)) glue_world_leave(held);
+    glue_text *before = glue_text_redirect(glue_text_nobodys()); /* an exception may be in the making */
+    if (stepper->crowd == NULL && glue_world_share(held) >= 0) {
+        glue_stepper_destroy(stepper);
+        free(stepper);
+        glue_world_leave(held);
+    } else {
+        glue_stepper *first = atomic_load(&held->dead);
+        do {
+            stepper->next = first;
+        } while (!atomic_compare_exchange_weak(&held->dead, &first, stepper));
+        if (glue_world_claim(held, GLUE_CLEANING) >= 0) glue_world_leave(held); /* who leaves, frees */
+    }
+    glue_text_redirect(before);
     glue_world_drop(held);
 }
 

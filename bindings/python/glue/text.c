@@ -15,11 +15,17 @@ struct glue_text {
 };
 
 static _Thread_local glue_text own = {.lock = ATOMIC_FLAG_INIT};
+static _Thread_local glue_text lost = {.lock = ATOMIC_FLAG_INIT};
 static _Thread_local glue_text *elsewhere;
 
 glue_text *glue_text_mine(void)
 {
     return &own;
+}
+
+glue_text *glue_text_nobodys(void)
+{
+    return &lost;
 }
 
 glue_text *glue_text_redirect(glue_text *text)

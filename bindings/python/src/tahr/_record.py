@@ -78,6 +78,13 @@ class Integer(_Number):
         self.write(record, value, "an integer of the field's range")
 
 
+class Fixed(Integer):
+    """An int that C or the class itself writes."""
+
+    def __set__(self, record: "Record", value: int) -> None:
+        raise ArgumentError(f"{self.label(record)}: is {self.__get__(record, Record)}, and not to be set")
+
+
 class Vector(_Field):
     """A view, float64 of shape (length,); assigning copies into it."""
 
@@ -92,11 +99,11 @@ class Vector(_Field):
     def __get__(self, record: Optional["Record"], owner: type) -> Union["Vector", Floats]:
         if record is None:
             return self
-        view: Floats = record.array[self.name]
+        view: Floats = record._memory[self.name]
         return view
 
     def __set__(self, record: "Record", value: npt.ArrayLike) -> None:
-        record.array[self.name][:] = numbers(value, (self.length,), self.label(record))
+        record._memory[self.name][:] = numbers(value, (self.length,), self.label(record))
 
 
 class Integers(_Field):
@@ -113,7 +120,7 @@ class Integers(_Field):
     def __get__(self, record: Optional["Record"], owner: type) -> Union["Integers", npt.NDArray[np.uint32]]:
         if record is None:
             return self
-        view: npt.NDArray[np.uint32] = record.array[self.name]
+        view: npt.NDArray[np.uint32] = record._memory[self.name]
         return view
 
     def __set__(self, record: "Record", value: npt.ArrayLike) -> None:
@@ -134,7 +141,7 @@ class Nested(_Field, Generic[R]):
     def __get__(self, record: Optional["Record"], owner: type) -> Union["Nested[R]", R]:
         if record is None:
             return self
-        return self.kind._view(ffi.addressof(record._c[0], self.name), record.array[self.name])
+        return self.kind._view(ffi.addressof(record._c[0], self.name), record._memory[self.name])
 
     def __set__(self, record: "Record", value: R) -> None:
         if not isinstance(value, self.kind):
@@ -177,14 +184,24 @@ class Record:
         """Memory of its own, for what is C's only for a while."""
         record = cls._view(ffi.new(cls._pointer))
         ffi.memmove(record._c, c, cls.dtype.itemsize)
+        if cls._sized:
+            record._c.struct_size = cls.dtype.itemsize
         return record
 
     @property
-    def array(self) -> npt.NDArray[Any]:
-        """The same memory as a structured array of shape (), dtype as the class's."""
+    def _memory(self) -> npt.NDArray[Any]:
         if self._array is None:
             self._array = np.frombuffer(ffi.buffer(self._c), dtype=self.dtype).reshape(())
         return self._array
+
+    @property
+    def array(self) -> npt.NDArray[Any]:
+        """The same memory as a structured array of shape (), dtype as the class's; read-only where C trusts a size or
+        an address in it."""
+        view = self._memory[...]
+        if self._sized or not isinstance(self, Plain):
+            view.flags.writeable = False
+        return view
 
     def update(self, **fields: Any) -> None:
         """Sets fields by name."""
@@ -231,7 +248,7 @@ class Plain(Record):
         ffi.memmove(self._c, other._c, self.dtype.itemsize)
 
     def __eq__(self, other: object) -> bool:
-        return type(other) is type(self) and bytes(self) == bytes(other)
+        return isinstance(other, Plain) and type(other) is type(self) and bytes(self) == bytes(other)
 
     __hash__ = None  # type: ignore[assignment]
 

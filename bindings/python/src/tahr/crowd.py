@@ -6,7 +6,7 @@ from typing import Any, Dict, List, Optional, Sequence, Tuple, Type, Union
 import numpy.typing as npt
 
 from ._arrays import pointer_to
-from ._errors import ArgumentError
+from ._errors import ArgumentError, StructSizeError
 from ._layout import dtype_of
 from ._records import CrowdCounts
 from ._status import check
@@ -120,12 +120,13 @@ class Crowd:
     @staticmethod
     def _inputs(inputs: Array, count: int, caller: str) -> Any:
         pointer = pointer_to(inputs, "tahr_input", caller, "inputs", count, write=False)
-        if count and pointer[0].struct_size == 0:
+        size = pointer[0].struct_size if count else _INPUT_SIZE
+        if size == 0:
             if not inputs.flags.writeable:
-                raise ArgumentError(
-                    f"{caller}: inputs is read-only and has no struct_size; make it with tahr.inputs(n)"
-                )
+                raise ArgumentError(f"{caller}: inputs is read-only without struct_size; make it with tahr.inputs(n)")
             inputs["struct_size"] = _INPUT_SIZE
+        elif size != _INPUT_SIZE:  # C takes the first one's for the distance between two
+            raise StructSizeError(f"{caller}: inputs[0].struct_size is {size}, expected {_INPUT_SIZE} or 0")
         return pointer
 
     @staticmethod

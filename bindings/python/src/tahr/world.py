@@ -3,6 +3,7 @@
 
 import contextlib
 import os
+import re
 from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Type, Union
 
 import numpy as np
@@ -24,6 +25,7 @@ from .query import BodyMotion, ContactQuery, Fluid, FluidQuery, Ray, Sweep
 Answers = npt.NDArray[Any]
 
 _MOST_ANSWERS = 64  # of one question: the library's own limit
+_OF_C = re.compile("^struct_size$|^reserved|^world|_count$")  # numbers that go with addresses
 _plugins: Dict[str, Any] = {}
 
 
@@ -63,7 +65,7 @@ def _options_of(backend: str, options: Optional[Mapping[str, Any]]) -> Any:
         kind = ffi.typeof(f"tahr_{backend}_desc")
     except ffi.error:
         raise ArgumentError(f"World: options: backend {backend!r} has none that Python can set") from None
-    known = [name for name, info in kind.fields if info.type.kind == "primitive" and name != "struct_size"]
+    known = [name for name, info in kind.fields if info.type.kind == "primitive" and not _OF_C.search(name)]
     made = ffi.new(f"tahr_{backend}_desc *", {"struct_size": ffi.sizeof(kind)})
     for name, value in options.items():
         if name not in known:
