@@ -209,6 +209,10 @@ def test_a_flat_world_is_seen_from_its_side(tmp_path):
     assert _scene.is_flat(log.states)
     figure = overview(log)
     assert "from its side" in figure.texts[1].get_text()
+    axes = [a for part in figure.subfigs for a in part.axes]
+    assert [a.get_ylabel().replace("\n", " ") for a in axes] == [
+        "y in m", "height of the feet in m", "speed in m/s", "character", "queries per step",
+    ]  # fmt: skip
     ax = Figure().subplots()
     height(ax, log)
     drawn = np.concatenate(lines_of(ax, COLOURS["falling"]))

@@ -3,20 +3,26 @@
 
 from __future__ import annotations
 
-from typing import Any, List
+from typing import Any, List, Optional, Tuple
 
-import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from ..telemetry import Log
 from ..telemetry._log import Characters
-from . import _scene, panels
+from . import _relief, _scene, panels
 from ._level import Level, load_triangles
 from ._paths import seconds
 
 # Of the page, inches.
 _WIDTH, _HEIGHT = 16.0, 10.0
+
+# So many times as wide as high ways fill the width of the page better than its left half.
+_WIDE = 2.5
+
+# Entries of the legend that fit beside each other.
+_LEGEND_COLUMNS = 11
 
 
 def _title(log: Log) -> str:
@@ -55,30 +61,48 @@ def overview(log: Log, level: Level = None, characters: Characters = None, up: s
     """
     log = log.of(characters)
     triangles = load_triangles(level, up)
-    level = None if triangles is None else (triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
     flat = _scene.is_flat(log.states)
-    engine = ConstrainedLayoutEngine(rect=(0.005, 0.045, 0.99, 0.895))
+    handles, labels = panels.legend_entries(Figure().subplots(), log)
+    rows = -(-len(labels) // _LEGEND_COLUMNS)
+    engine = ConstrainedLayoutEngine(rect=(0.005, 0.02 + 0.025 * rows, 0.99, 0.92 - 0.025 * rows))
     figure = Figure(figsize=(_WIDTH, _HEIGHT), layout=engine)
-    halves: Any = figure.subfigures(1, 2)
-    left, right = halves
-    if flat:
-        panels.above(left.subplots(), log, level)
-    else:
-        top, bottom = left.subplots(2, 1, height_ratios=(3.6, 1))
-        panels.above(top, log, level)
-        panels.side(bottom, log, level)
-    rows = min(max(len(log.characters), 3), 24)
-    tall, fast, timeline, asked = right.subplots(4, 1, sharex=True, height_ratios=(3, 2.4, 1 + rows / 6, 2.4))
-    panels.height(tall, log)
-    panels.speed(fast, log)
-    panels.modes(timeline, log)
-    panels.queries(asked, log)
-    for ax in (tall, fast, timeline):
-        ax.set_xlabel("")
+    above, side, over_time = _lay_out(figure, log, flat)
+    panels.ways(above, log, _scene.level_behind(triangles, _relief.ABOVE, log.states), _relief.ABOVE)
+    if side is not None:
+        panels.ways(side, log, _scene.level_behind(triangles, _relief.SOUTH, log.states), _relief.SOUTH)
+    for panel, ax in zip((panels.height, panels.speed, panels.modes, panels.queries), over_time):
+        panel(ax, log)
+        if not ax.xaxis.get_tick_params()["labelbottom"]:  # the axes below have the same time
+            ax.set_xlabel("")
     figure.text(0.01, 0.985, _title(log), fontsize=16, fontweight="bold", va="top")
     figure.text(0.01, 0.955, _caption(log, flat, triangles is not None), fontsize=10, va="top", color="#40444f")
-    handles, labels = panels.legend_entries(tall, log)
     if handles:
-        style: Any = {"loc": "lower center", "ncol": len(labels), "fontsize": 9, "frameon": False}
+        style: Any = {"loc": "lower center", "ncol": -(-len(labels) // rows), "fontsize": 9, "frameon": False}
         figure.legend(handles, labels, columnspacing=1.3, **style)
     return figure
+
+
+def _lay_out(figure: Figure, log: Log, flat: bool) -> Tuple[Axes, Optional[Axes], List[Axes]]:
+    """Axes for the ways from above and from the side (none in a flat world), and those over time: beside each other,
+    or, where the ways take up much more width than height, below each other."""
+    left, right, bottom, top = _scene.bounds(log.states, _relief.ABOVE)
+    wide = (right - left) / (top - bottom)
+    halves: Any
+    if wide > _WIDE:
+        tall = _WIDTH / wide + (0 if flat else 1.6)
+        halves = figure.subfigures(2, 1, height_ratios=(tall + 0.6, _HEIGHT - tall - 1.6))
+        ways, rest = halves
+        grid = rest.subplots(2, 2, sharex=True)
+        over_time = [grid[0, 0], grid[1, 0], grid[0, 1], grid[1, 1]]
+        ratios = (_WIDTH / wide, 1.6)
+    else:
+        halves = figure.subfigures(1, 2)
+        ways, rest = halves
+        count = len(log.characters)
+        rows = 1 + (min(max(count, 3), 24) if count <= panels.ROWS else 9) / 6
+        over_time = list(rest.subplots(4, 1, sharex=True, height_ratios=(3, 2.4, rows, 2.4)))
+        ratios = (3.6, 1)
+    if flat:
+        return ways.subplots(), None, over_time
+    above, side = ways.subplots(2, 1, height_ratios=ratios)
+    return above, side, over_time

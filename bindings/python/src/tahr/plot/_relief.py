@@ -94,7 +94,7 @@ class _Spans(NamedTuple):
 
     owner: Array  # which triangle
     first: Array  # pixel
-    count: Array
+    length: Array  # pixels
     near: Floats  # at the first one, m
     slope: Floats  # by how much it grows to the next one
 
@@ -137,8 +137,8 @@ class _Canvas:
         near, owner = self.near.ravel(), self.owner.ravel()
         free = ~np.isfinite(near)
         spans = _spans(corners, *self.near.shape)
-        for part in _chunks(spans.count):
-            whose, which = _expand(spans.count[part])
+        for part in _chunks(spans.length):
+            whose, which = _expand(spans.length[part])
             pixel = spans.first[part][whose] + which
             here = spans.near[part][whose] + spans.slope[part][whose] * which
             here[~free[pixel]] = -np.inf

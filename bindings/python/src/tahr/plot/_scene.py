@@ -162,7 +162,8 @@ def draw_dots(ax: Axes, states: Array, points: Floats, view: View, last: bool) -
     halo = [withStroke(linewidth=2.2, foreground="white")]
     for number, indices in where.items():
         x, y = points[indices[-1 if last else 0]]
-        ax.plot(x, y, "o", color="#1f5ebf", markersize=6, markeredgecolor="white", zorder=4)
+        size = 6.0 if len(where) <= most else 3.5
+        ax.plot(x, y, "o", color="#1f5ebf", markersize=size, markeredgecolor="white", markeredgewidth=0.8, zorder=4)
         if 1 < len(where) <= most:
             style: Dict[str, Any] = {"textcoords": "offset points", "fontsize": 8, "zorder": 5, "path_effects": halo}
             ax.annotate(str(number), (x, y), (4, 4), **style)

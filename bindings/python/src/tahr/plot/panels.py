@@ -22,8 +22,8 @@ from ._style import MARKS, find_marks, mark_style, modes_of
 Floats = npt.NDArray[np.float64]
 Array = npt.NDArray[Any]
 
-# Rows of a timeline that can still be read; more characters are counted by mode instead.
-_ROWS = 40
+#: Rows of a timeline that can still be read; more characters are counted by mode instead.
+ROWS = 40
 
 # Lines that can still be told apart where they go up and down all the time.
 _LINES = 6
@@ -168,7 +168,7 @@ def modes(ax: Axes, log: Log, characters: Characters = None) -> None:
     if len(states) == 0:
         _tell(ax, "no states in this log")
         return
-    if len(log.characters) > _ROWS:
+    if len(log.characters) > ROWS:
         _mode_counts(ax, states)
         return
     rows = {int(number): row for row, number in enumerate(log.characters)}
