@@ -191,6 +191,13 @@ def test_a_log_without_states_says_so(tmp_path):
     overview(log)
 
 
+def test_a_part_of_a_log_is_drawn_over_its_own_time(log):
+    figure = overview(log.between(0.5, 1.0))
+    assert figure.texts[0].get_text() == "flat: 3 characters from 0.5 to 1 s on native"
+    for ax in figure.subfigs[1].axes:
+        assert ax.get_xlim() == pytest.approx((0.5, 1.0))
+
+
 def test_a_character_that_is_not_there_is_refused(log, ax):
     for panel in (above, side, height, speed, modes, queries):
         with pytest.raises(ValueError, match="no message of character 9; there are 0-2"):

@@ -58,7 +58,7 @@ def test_info_tells_of_damage_and_runs(capsys, tmp_path):
 def test_plot_writes_a_picture(capsys, log, level, tmp_path, kind):
     pytest.importorskip("trimesh")
     path = tmp_path / f"run.{kind}"
-    options = ["--level", level, "--characters", "0,2", "--dpi", 50]
+    options = ["--level", level, "--characters", "0,2", "--dpi", 50, "--from", 0.5, "--to", 1]
     assert run(capsys, "plot", log, *options, "-o", path) == (0, "", "")
     begin = {"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[kind]
     assert path.read_bytes().startswith(begin)
@@ -104,6 +104,7 @@ def test_watch_needs_a_display_or_a_file(log):
         (["plot", "LOG", "-o", "x.png", "--characters", "1,9"], "no message of character 9; there are 0-2"),
         (["plot", "LOG", "-o", "x.png", "--level", "no.obj"], "no such file: no.obj"),
         (["plot", "LOG", "-o", "x.png", "--prefix", "y/"], "no channels with the prefix 'y/'; there are ''"),
+        (["plot", "LOG", "-o", "x.png", "--from", "2", "--to", "1"], "begin is 2.0 s and end 1.0 s"),
         (["watch", "--lcm", "bogus://", "--frames", "1", "-o", "x.png"], "'bogus://' is no URL of LCM"),
         (["watch", "--lcm", "memq://", "--frames", "1"], "--frames N and -o FILE go together"),
         (["watch", "--lcm", "memq://", "--frames", "1", "-o", "x.png", "--window", "0"], "window is 0.0 s"),

@@ -61,6 +61,15 @@ def test_characters_can_be_chosen(log):
         log.of([0, 7])
 
 
+def test_a_time_can_be_chosen(log):
+    part = log.between(0.5, 1.0)
+    assert part.states["time_ns"].min() > 500_000_000 and part.states["time_ns"].max() == 1_000_000_000
+    assert len(part.states) == 3 * 30 and len(part.worlds) == 1
+    assert len(log.between(-np.inf, np.inf).states) == len(log.states)
+    with pytest.raises(ValueError, match="begin is 1 s and end 1 s"):
+        log.between(1, 1)
+
+
 def test_kinds_have_names(log):
     assert log.messages("states") is log.messages("state")
     assert log.bodies is log.messages("bodies")

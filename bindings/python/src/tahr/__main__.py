@@ -66,6 +66,10 @@ def _plot(options: argparse.Namespace) -> int:
     if len(log.runs) > 1:
         print(f"tahr: {options.file} holds {len(log.runs)} runs; this is the last one", file=sys.stderr)
         log = log.runs[-1]
+    if options.begin is not None or options.end is not None:
+        log = log.between(
+            -np.inf if options.begin is None else options.begin, np.inf if options.end is None else options.end
+        )
     figure = overview(log, options.level, options.characters, options.up)
     figure.savefig(options.output, dpi=options.dpi)
     return 0
@@ -202,6 +206,10 @@ def _parser() -> argparse.ArgumentParser:
     _add_log(plot)
     plot.add_argument("-o", dest="output", metavar="FILE", required=True, help=", ".join(_PICTURES))
     plot.add_argument("--characters", metavar="IDS", type=_ids, help="only these: 0,3,5-8")
+    plot.add_argument(
+        "--from", dest="begin", metavar="S", type=float, help="only what happened after S simulated seconds"
+    )
+    plot.add_argument("--to", dest="end", metavar="S", type=float, help="and up to S")
     _add_level(plot)
     plot.set_defaults(run=_plot)
 

@@ -13,7 +13,6 @@ from ..telemetry import Log
 from ..telemetry._log import Characters
 from . import _relief, _scene, panels
 from ._level import Level, load_triangles
-from ._paths import seconds
 
 # Of the page, inches.
 _WIDTH, _HEIGHT = 16.0, 10.0
@@ -29,9 +28,10 @@ def _title(log: Log) -> str:
     level = str(log.worlds["level"][-1]) if len(log.worlds) else ""
     backend = str(log.worlds["backend"][-1]) if len(log.worlds) else ""
     count = len(log.characters)
-    length = float(seconds(log.states).max()) if len(log.states) else 0.0
+    begin, end = (round(time, 1) for time in panels.time_span(log.states))
     who = f"character {log.characters[0]}" if count == 1 else f"{count} characters"
-    return f"{level or 'movement'}: {who} for {length:.4g} s" + (f" on {backend}" if backend else "")
+    when = f"for {end:.4g} s" if begin == 0 else f"from {begin:.4g} to {end:.4g} s"
+    return f"{level or 'movement'}: {who} {when}" + (f" on {backend}" if backend else "")
 
 
 def _caption(log: Log, flat: bool, has_level: bool) -> str:

@@ -21,11 +21,11 @@ _LEAP = 1.0
 
 
 def by_character(messages: Array) -> Iterator[Tuple[int, Array]]:
-    """Id and messages of each character, in order."""
+    """Id of each character, and the indices of its messages, in order."""
     order = np.argsort(messages["character"], kind="stable")
     ids, begins = np.unique(messages["character"][order], return_index=True)
     for number, part in zip(ids, np.split(order, begins[1:])):
-        yield int(number), messages[part]
+        yield int(number), part
 
 
 def seconds(messages: Array) -> Floats:

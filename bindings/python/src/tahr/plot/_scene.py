@@ -29,8 +29,11 @@ _FINEST = 80.0
 # Beside the ways so much is shown, m and part of their extent.
 _MARGIN, _MARGIN_PART = 2.0, 0.08
 
-# Ways that are drawn thinner and paler when there are more of them.
-_CROWD = 12
+# Width of lines in points, as long as all of them together are no longer than so many times the picture.
+_WIDTH, _SPARSE = 1.4, 6.0
+
+# Marks that are drawn as large as in the legend.
+_FEW = 120
 
 # Numbers at the beginnings of more ways would lie on each other; from the south they do so earlier.
 _NUMBERED, _NUMBERED_SOUTH = 40, 4
@@ -124,30 +127,27 @@ def _beside(triangles: Floats, states: Array) -> Floats:
 
 
 def draw_lines(ax: Axes, states: Array, points: Floats, spans: Tuple[float, float]) -> None:
-    """Everybody's lines through points (n, 2), coloured by mode."""
+    """Everybody's lines through points (n, 2), coloured by mode; the more there is to see, the thinner."""
     collected: "dict[int, list[Floats]]" = {}
-    count = 0
-    for character, _ in by_character(states):
-        whose = states["character"] == character
-        count += 1
+    for _, whose in by_character(states):
         for number, lines in polylines(states[whose], points[whose], spans).items():
             collected.setdefault(number, []).extend(lines)
-    crowded = count > _CROWD
+    every = [np.diff(line / spans, axis=0) for lines in collected.values() for line in lines]
+    length = sum(float(np.hypot(*way.T).sum()) for way in every)
+    width = float(np.clip(_WIDTH * (_SPARSE / max(length, _SPARSE)) ** 0.35, 0.35, _WIDTH))
     for mode in modes_of(states["mode"]):
-        style: Dict[str, Any] = {
-            "colors": mode.colour,
-            "linestyles": mode.dashes,
-            "linewidths": 0.9 if crowded else 1.4,
-        }
-        ax.add_collection(LineCollection(collected[mode.number], alpha=0.75 if crowded else 0.95, zorder=2, **style))
+        style: Dict[str, Any] = {"colors": mode.colour, "linestyles": mode.dashes, "linewidths": width}
+        ax.add_collection(LineCollection(collected[mode.number], alpha=0.85, zorder=2, **style))
 
 
-def draw_marks(ax: Axes, events: Array, points: Floats, factor: float = 1.0) -> None:
-    """A mark for each event at points (n, 2); factor: of their size."""
+def draw_marks(ax: Axes, events: Array, points: Floats) -> None:
+    """A mark for each event at points (n, 2); the more, the smaller."""
+    factor = float(np.clip((_FEW / max(len(events), _FEW)) ** 0.35, 0.3, 1))
     for mark, _ in find_marks(events):
         chosen = points[events["type"] == _number_of(mark.event)]
         style = mark_style(mark)
         style["markersize"] *= factor
+        style["markeredgewidth"] *= factor
         ax.plot(chosen[:, 0], chosen[:, 1], zorder=3, **style)
 
 
@@ -158,7 +158,7 @@ def _number_of(name: str) -> int:
 def draw_dots(ax: Axes, states: Array, points: Floats, view: View, last: bool) -> None:
     """A dot where each way begins (last: ends), with the character's number if there are several."""
     most = _NUMBERED_SOUTH if view is _relief.SOUTH else _NUMBERED
-    where = {number: np.flatnonzero(states["character"] == number) for number, _ in by_character(states)}
+    where = dict(by_character(states))
     halo = [withStroke(linewidth=2.2, foreground="white")]
     for number, indices in where.items():
         x, y = points[indices[-1 if last else 0]]

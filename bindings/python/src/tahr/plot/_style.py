@@ -89,6 +89,13 @@ def mark_style(mark: Mark) -> Dict[str, Any]:
     }
 
 
+def marked(events: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Those events that have a mark."""
+    names = {mark.event for mark in MARKS}
+    kinds = [number for number, name in EVENTS.items() if name in names]
+    return np.asarray(events[np.isin(events["type"], kinds)])
+
+
 def find_marks(events: npt.NDArray[Any]) -> "list[tuple[Mark, npt.NDArray[Any]]]":
     """The kinds of marks that occur, each with its events."""
     names = {name: number for number, name in EVENTS.items()}

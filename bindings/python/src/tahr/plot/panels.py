@@ -17,7 +17,7 @@ from ..telemetry._log import Characters
 from . import _relief, _scene
 from ._level import Level, load_triangles
 from ._paths import by_character, seconds
-from ._style import MARKS, find_marks, mark_style, modes_of
+from ._style import MARKS, find_marks, mark_style, marked, modes_of
 
 Floats = npt.NDArray[np.float64]
 Array = npt.NDArray[Any]
@@ -44,17 +44,24 @@ def _tell(ax: Axes, text: str) -> None:
     ax.text(0.5, 0.5, text, transform=ax.transAxes, ha="center", va="center", color="#737373")
 
 
+def time_span(messages: Array) -> Tuple[float, float]:
+    """When the first of these steps began and the last one ended, s, simulated."""
+    if len(messages) == 0:
+        return 0.0, 0.0
+    return _begin(seconds(messages)), float(seconds(messages).max())
+
+
 def _time_axis(ax: Axes, messages: Array) -> None:
     ax.set_xlabel("simulated time in s")
     ax.grid(alpha=0.25)
-    if len(messages):
-        begin = _begin(seconds(messages))
-        ax.set_xlim(begin, max(float(seconds(messages).max()), begin + 1e-3))
+    begin, end = time_span(messages)
+    if end > begin:
+        ax.set_xlim(begin, end)
 
 
 def ways(ax: Axes, log: Log, behind: Optional[_scene.Backdrop], view: _relief.View, dots_last: bool = False) -> None:
     """The ways of the feet before what is behind them, each with a dot where it begins or (dots_last) ends."""
-    states, events = log.states, log.events
+    states, events = log.states, marked(log.events)
     _scene.draw_backdrop(ax, behind)
     if len(states) == 0:
         _tell(ax, "no states in this log")
@@ -64,7 +71,7 @@ def ways(ax: Axes, log: Log, behind: Optional[_scene.Backdrop], view: _relief.Vi
         left, right, bottom, top = _scene.bounds(states, view)
         _scene.draw_lines(ax, states, points, (right - left, top - bottom))
         _scene.draw_dots(ax, states, points, view, dots_last)
-        _scene.draw_marks(ax, events, _feet_at(events, states, view), 0.8 if len(log.characters) > 12 else 1.0)
+        _scene.draw_marks(ax, events, _feet_at(events, states, view))
     _scene.set_limits(ax, view, states)
 
 
@@ -73,8 +80,8 @@ def _feet_at(events: Array, states: Array, view: _relief.View) -> Floats:
     drop = np.zeros((len(events), 3))
     for number, own in by_character(states):
         whose = events["character"] == number
-        index = np.searchsorted(own["step"], events["step"][whose]).clip(0, len(own) - 1)
-        drop[whose] = own["up"][index] * own["half_height"][index][:, None]
+        index = own[np.searchsorted(states["step"][own], events["step"][whose]).clip(0, len(own) - 1)]
+        drop[whose] = states["up"][index] * states["half_height"][index][:, None]
     return view.project(events["position"] - drop)[:, :2]
 
 
@@ -107,7 +114,7 @@ def _over_time(ax: Axes, states: Array, values: Floats) -> None:
 def height(ax: Axes, log: Log, characters: Characters = None) -> None:
     """Height of the feet over time, with the marks of events; along z, of a world of two dimensions along y."""
     log = log.of(characters)
-    states, events = log.states, log.events
+    states, events = log.states, marked(log.events)
     _time_axis(ax, states)
     ax.set_ylabel("height of\nthe feet in m")
     if len(states) == 0:
@@ -117,7 +124,7 @@ def height(ax: Axes, log: Log, characters: Characters = None) -> None:
     _over_time(ax, states, _scene.feet(states)[:, axis])
     view = _relief.ABOVE if axis == 1 else _relief.SOUTH
     points = np.stack([seconds(events), _feet_at(events, states, view)[:, 1]], axis=1)
-    _scene.draw_marks(ax, events, points, 0.7 if len(log.characters) > 4 else 1.0)
+    _scene.draw_marks(ax, events, points)
 
 
 def speed(ax: Axes, log: Log, characters: Characters = None) -> None:
@@ -174,11 +181,12 @@ def modes(ax: Axes, log: Log, characters: Characters = None) -> None:
     rows = {int(number): row for row, number in enumerate(log.characters)}
     styles = {mode.number: mode for mode in modes_of(states["mode"])}
     for number, own in by_character(states):
-        spells = _spells(own)
+        spells = _spells(states[own])
         colours = [styles[mode].colour for mode, _, _ in spells]
         ax.broken_barh([(a, b) for _, a, b in spells], (rows[number] - 0.36, 0.72), facecolors=colours, alpha=0.75)
-    at = np.array([rows[int(number)] for number in log.events["character"]], np.float64)
-    _scene.draw_marks(ax, log.events, np.stack([seconds(log.events), at], axis=1), 0.75 if len(rows) > 4 else 1.0)
+    events = marked(log.events)
+    at = np.array([rows[int(number)] for number in events["character"]], np.float64)
+    _scene.draw_marks(ax, events, np.stack([seconds(events), at], axis=1))
     ax.set_ylabel("character")
     ax.set_ylim(len(rows) - 0.4, -0.6)
     step = 1 if len(rows) <= 20 else 5

@@ -103,6 +103,15 @@ class Log:
             raise ValueError(f"no message of character {', '.join(missing)}; there are {ranges(known)}")
         return self._cut({k: np.isin(self.messages(k)["character"], wanted) for k in KINDS if _is_personal(self, k)})
 
+    def between(self, begin: float, end: float) -> "Log":
+        """The same log with only what happened after begin up to end (s, simulated), and what has no such time (bodies,
+        worlds). Raises ValueError where begin is not before end."""
+        if not begin < end:
+            raise ValueError(f"Log.between: begin is {begin!r} s and end {end!r} s, expected one before the other")
+        timed = [kind for kind in KINDS if "time_ns" in (self.messages(kind).dtype.names or ())]
+        times = {kind: self.messages(kind)["time_ns"] * 1e-9 for kind in timed}
+        return self._cut({kind: (begin < at) & (at <= end) for kind, at in times.items()})
+
     @property
     def runs(self) -> "List[Log]":
         """The log cut where another run began, by what its worlds say; the whole log where there is only one."""
