@@ -294,6 +294,27 @@ static void sink_that_hangs_lives_until_it_returns(void **)
     std::lock_guard<std::mutex> held(g.lock);
 }
 
+/* After the two seconds of tahr_telemetry_destroy, and without a word in what another call is told. */
+static void destructor_lets_a_sink_go_that_hangs(void **)
+{
+    gate g;
+    tahr::world world = open_floor();
+    tahr::status failed;
+    {
+        const tahr_config configs[] = {precise()};
+        tahr::telemetry telemetry = tahr::telemetry::create(world, configs, 1, stuck(&g)).value();
+        g.wait_for(g.entered);
+        failed = telemetry.stop(7, 1);
+    }
+    assert_says(failed, TAHR_E_ARGUMENT, "how is 7");
+    tahr_state state = standing();
+    tahr::status other = tahr::telemetry().begin({}, state);
+    assert_null(strstr(other.message(), "does not return"));
+    g.set(g.open);
+    g.wait_for(g.gone);
+    std::lock_guard<std::mutex> held(g.lock);
+}
+
 static void sink_ends_with_its_telemetry(void **)
 {
     int alive = 0;
@@ -453,6 +474,7 @@ int main()
         cmocka_unit_test(custom_mode_is_told_of),
         cmocka_unit_test(sink_that_throws_is_counted_and_heard_of),
         cmocka_unit_test(sink_that_hangs_lives_until_it_returns),
+        cmocka_unit_test(destructor_lets_a_sink_go_that_hangs),
         cmocka_unit_test(sink_ends_with_its_telemetry),
         cmocka_unit_test(sinks_of_c_and_functions_will_do),
         cmocka_unit_test(present_is_answered),
