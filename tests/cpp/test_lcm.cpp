@@ -56,6 +56,9 @@ static void walk_is_published(void **)
     tahr_lcm_desc desc = tahr::make_lcm_desc();
     desc.lcm = l.lcm;
     desc.prefix = "A_";
+    budget memory{9};
+    const tahr_allocator allocator = {&memory, budget::alloc, budget::free};
+    desc.allocator = &allocator;
     tahr::telemetry telemetry;
     {
         tahr::lcm lcm = tahr::lcm::open(desc).value();
@@ -67,6 +70,7 @@ static void walk_is_published(void **)
     }
     const double x = walk_told(telemetry, world);
     assert_int_equal(telemetry.stop().value(), TAHR_OK);
+    assert_true(memory.taken >= 2); /* ours and the library's, which takes more when it publishes */
     const tahr_telemetry_counts counts = telemetry.counts().value();
     assert_int_equal(counts.delivered[TAHR_MESSAGE_STATE], STEPS);
     assert_int_equal(counts.failed[TAHR_MESSAGE_STATE], 0);
@@ -76,6 +80,8 @@ static void walk_is_published(void **)
     assert_near(l.x, x, 0);
     assert_true(x > 1);
     assert_string_equal(l.channel.c_str(), "A_TAHR_STATE");
+    telemetry = tahr::telemetry();
+    assert_int_equal(memory.taken, 0);
 }
 
 static void url_is_enough(void **)
