@@ -70,8 +70,8 @@ tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t char
     tahr__character *c = claim(t, lane, character);
     if (!c) return TAHR_E_ARGUMENT;
     const int is_first = atomic_load_explicit(&c->slot.turn, memory_order_relaxed) == 0;
-    const uint64_t edited = tahr__slot_compare(&c->slot, state);
-    if (edited || is_first || config != c->config) {
+    if (!tahr__slot_holds(&c->slot, state) || is_first || config != c->config) {
+        const uint64_t edited = tahr__slot_compare(&c->slot, state);
         c->config = config;
         c->standing |= edited;
         c->snapshot = 1;
@@ -113,24 +113,34 @@ static void count_parts(tahr__tally *tally, uint32_t parts, uint32_t events)
 
 static const uint32_t WITH_STATE = 1u << TAHR_MESSAGE_STATE | 1u << TAHR_MESSAGE_REPORT; /* its hash */
 
+static uint64_t *copy(uint64_t *to, const void *from, uint64_t words)
+{
+    memcpy(to, from, words * 8);
+    return to + words;
+}
+
+static uint64_t *write_input(uint64_t *to, const tahr_input *input)
+{
+    return input->flags ? copy(to, input, TAHR__INPUT_WORDS) : copy(to, input, TAHR__PLAIN_INPUT_WORDS);
+}
+
 /* Returns 0: there is no room for the parts. */
 static int write_step(tahr__lane *l, const pushed *p)
 {
     const tahr_telemetry_step *s = p->step;
     const uint32_t fixed = sizeof(tahr__record_step) / 8;
-    uint64_t most = fixed + TAHR__PACKED_INPUT + (uint64_t)p->events * TAHR__EVENT_WORDS;
-    if (p->parts & WITH_STATE) most += TAHR__PACKED_STATE + TAHR__PACKED_REPORT;
+    uint64_t most = fixed + TAHR__INPUT_WORDS + (uint64_t)p->events * TAHR__EVENT_WORDS;
+    if (p->parts & WITH_STATE) most += TAHR__PACKED_STATE + TAHR__REPORT_WORDS;
     uint64_t *words = tahr__ring_reserve(&l->ring, most);
     if (!words) return 0;
     uint64_t *end = words + fixed;
-    if (p->parts & bit(TAHR_MESSAGE_INPUT)) end = tahr__words_pack_used(end, s->input, sizeof *s->input);
+    if (p->parts & bit(TAHR_MESSAGE_INPUT)) end = write_input(end, s->input);
     if (p->parts & WITH_STATE) {
         end = tahr__words_pack(end, s->state, p->character->standing);
         p->character->standing = 0;
     }
-    if (p->parts & bit(TAHR_MESSAGE_REPORT)) end = tahr__words_pack_used(end, s->report, sizeof *s->report);
-    if (p->events > 0) memcpy(end, s->report->events, p->events * sizeof(tahr_event));
-    end += (uint64_t)p->events * TAHR__EVENT_WORDS;
+    if (p->parts & bit(TAHR_MESSAGE_REPORT)) end = copy(end, s->report, TAHR__REPORT_WORDS);
+    if (p->events > 0) end = copy(end, s->report->events, (uint64_t)p->events * TAHR__EVENT_WORDS);
     const uint64_t *sequence = p->character->sequence;
     *(tahr__record_step *)(void *)words =
         (tahr__record_step){.head = {(uint64_t)(end - words), p->stamp.epoch, TAHR__RECORD_STEP, p->parts},
