@@ -57,9 +57,21 @@ static tahr_status push_snapshot(tahr_telemetry *t, tahr__lane *l, tahr__charact
                                 .sequence = sequence,
                                 .time_ns = c->time_ns};
     c->standing = 0;
+    c->gap = 0;
     c->snapshot_ns = c->time_ns + t->snapshot_ns;
     tahr__ring_commit(&l->ring, (uint64_t)(end - words));
     return TAHR_OK;
+}
+
+static int has_room(tahr__lane *l)
+{
+    return tahr__ring_room(&l->ring) >= l->ring.size / 4;
+}
+
+/* After a gap it waits for room: what made the gap would make the next one. */
+static int wants_snapshot(const tahr__character *c, tahr__lane *l)
+{
+    return c->snapshot || c->time_ns >= c->snapshot_ns || (c->gap && has_room(l));
 }
 
 tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t character, uint32_t config,
@@ -78,7 +90,7 @@ tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t char
         const tahr_stamp stamp = stamp_of(t, c);
         tahr__slot_write(&c->slot, state, edited, &stamp);
     }
-    if (!(t->wants & bit(TAHR_MESSAGE_SNAPSHOT)) || !(c->snapshot || c->time_ns >= c->snapshot_ns)) return TAHR_OK;
+    if (!(t->wants & bit(TAHR_MESSAGE_SNAPSHOT)) || !wants_snapshot(c, &t->lanes[lane])) return TAHR_OK;
     return push_snapshot(t, &t->lanes[lane], c, state);
 }
 
@@ -165,7 +177,7 @@ static uint32_t write_what_fits(tahr__lane *l, pushed *p)
 {
     const uint32_t all = p->parts;
     if (!(all & WITH_STATE)) return all && !write_step(l, p) ? all : 0;
-    if (tahr__ring_room(&l->ring) >= l->ring.size / 4 && write_step(l, p)) return 0;
+    if (has_room(l) && write_step(l, p)) return 0;
     p->parts &= ~WITH_STATE;
     return p->parts && !write_step(l, p) ? all : all & WITH_STATE;
 }
@@ -221,6 +233,7 @@ tahr_status tahr_telemetry_push(tahr_telemetry *t, uint32_t lane, const tahr_tel
     c->sequence[TAHR_MESSAGE_INPUT] += due >> TAHR_MESSAGE_INPUT & 1;
     c->sequence[TAHR_MESSAGE_REPORT] += due >> TAHR_MESSAGE_REPORT & 1;
     if (!dropped) return TAHR_OK;
+    c->gap |= dropped >> TAHR_MESSAGE_INPUT & 1;
     count_parts(&l->dropped, dropped, p.events);
     return TAHR_TRUNCATED;
 }

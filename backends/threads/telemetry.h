@@ -5,7 +5,7 @@
 
 #include <pthread.h>
 
-#include "bodies.h"
+#include "places.h"
 #include "lane.h"
 
 /* Of the thread that drains: what it told the sink, and what it was told. Others read the tallies. */
@@ -39,8 +39,8 @@ struct tahr_telemetry {
     /* By who has exclusive access to the world. */
     _Alignas(64) _Atomic uint64_t epoch;
     _Atomic uint64_t revision; /* stored before the epoch that it belongs to */
-    tahr__bodies bodies;
-    double bodies_time, bodies_due; /* s, sum of dt */
+    tahr__places places;
+    double places_time, places_due; /* s, sum of dt */
 
     _Alignas(64) tahr__drain drain;
 
