@@ -61,8 +61,8 @@ static uint64_t first_epoch(tahr_telemetry *t)
 }
 
 /* Tells what was written until now, epoch by epoch. All records of an epoch were written before the next one began, and
- * an epoch is read before the rings are looked at: of those before it nothing is still to come. Returns how many eighths
- * of a ring were filled. */
+ * an epoch is read before the rings are looked at: of those before it nothing is still to come. Returns how many
+ * eighths of a ring were filled. */
 static uint64_t pass(tahr_telemetry *t)
 {
     const uint64_t epoch = atomic_load_explicit(&t->epoch, memory_order_acquire);

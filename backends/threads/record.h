@@ -17,8 +17,8 @@ typedef struct tahr__record {
     uint32_t parts; /* STEP: which messages, 1 << TAHR_MESSAGE_*; CHANGE: TAHR_CHANGE_* */
 } tahr__record;
 
-/* After it, as far as parts says so: the input, without its optional fields if its flags are 0; if there is a state or a
- * report: the words of the state that changed since the last record of this character which has any (words.h); the
+/* After it, as far as parts says so: the input, without its optional fields if its flags are 0; if there is a state or
+ * a report: the words of the state that changed since the last record of this character which has any (words.h); the
  * report; the events. */
 typedef struct tahr__record_step {
     tahr__record head;

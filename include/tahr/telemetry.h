@@ -69,8 +69,8 @@ TAHR_API tahr_status tahr_telemetry_desc_init(tahr_telemetry_desc *desc, size_t 
 TAHR_API tahr_status tahr_telemetry_create(const tahr_telemetry_desc *desc, tahr_telemetry **telemetry);
 
 /* Before a step. If the sink has a function for it, sends a snapshot where the state is not what the last step of this
- * character left (its first step; you wrote to it), where its config is another one, every snapshot_period, and, as soon
- * as there is room again, where an input was dropped. Who never calls it has telemetry, but no recording that can be
+ * character left (its first step; you wrote to it), where its config is another one, every snapshot_period, and where
+ * an input was dropped, as soon as there is room again. Who never calls it has telemetry, but no recording that can be
  * repeated.
  * [in] lane below desc.lanes, always the same for one character, and used by one thread at a time; character, config;
  * state. Returns TAHR_OK, TAHR_TRUNCATED (there was no room: counted, and the snapshot is sent before the next step),
@@ -115,9 +115,9 @@ TAHR_API tahr_status tahr_telemetry_change(tahr_telemetry *telemetry, uint32_t k
 
 /* The present of a character, whatever the rings and the sink do: its state after the last step that was pushed, or as
  * tahr_telemetry_begin saw it since then, if it was written to (the stamp is then of the step that begins with it).
- * [out] state; stamp (its sequence is that of the state, sent or not; wall_ns 0) or NULL; untouched on error. May run on
- * any thread, also while the character steps: then it looks again, which a thread that steps without a pause could keep
- * up for as long as it likes; after 1000 looks it is TAHR_UNKNOWN. Returns TAHR_OK, TAHR_UNKNOWN, TAHR_E_NULL,
+ * [out] state; stamp (its sequence is that of the state, sent or not; wall_ns 0) or NULL; untouched on error. May run
+ * on any thread, also while the character steps: then it looks again, which a thread that steps without a pause could
+ * keep up for as long as it likes; after 1000 looks it is TAHR_UNKNOWN. Returns TAHR_OK, TAHR_UNKNOWN, TAHR_E_NULL,
  * TAHR_E_ARGUMENT (character), TAHR_E_NOT_FOUND (it has not been seen yet). Allocates nothing, never waits.
  * Since 0.1. */
 TAHR_API tahr_status tahr_telemetry_latest(const tahr_telemetry *telemetry, uint32_t character, tahr_state *state,

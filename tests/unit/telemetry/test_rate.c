@@ -26,8 +26,9 @@ static void see_state(void *test, const tahr_stamp *stamp, const tahr_state *sta
     d->steps[d->count++] = (uint32_t)stamp->step;
 }
 
-/* Takes steps of dt; returns the counts. */
-static tahr_telemetry_counts run(due *d, const tahr_telemetry_desc *desc, uint32_t steps, double dt)
+/* Takes steps of dt after some slow ones of 0.1 s; returns the counts. */
+static tahr_telemetry_counts run_after(due *d, const tahr_telemetry_desc *desc, uint32_t slow, uint32_t steps,
+                                       double dt)
 {
     tahr_telemetry_counts c = {.struct_size = sizeof c};
     tahr_telemetry *t;
@@ -41,7 +42,7 @@ static tahr_telemetry_counts run(due *d, const tahr_telemetry_desc *desc, uint32
         made_up_step(&m);
         m.report.event_count = 1;
         tahr_telemetry_step s = made_up_pushed(&m, 0);
-        s.dt = dt;
+        s.dt = i < slow ? 0.1 : dt;
         assert_int_equal(tahr_telemetry_push(t, 0, &s), TAHR_OK);
     }
     assert_int_equal(tahr_telemetry_stop(t, TAHR_STOP_DRAIN, 100), TAHR_OK);
@@ -54,6 +55,11 @@ static tahr_telemetry_counts run(due *d, const tahr_telemetry_desc *desc, uint32
     for (int k = 0; k < TAHR_MESSAGE_COUNT; k++)
         assert_int_equal(d->ear.missed[k], 0); /* what was not due has no number */
     return c;
+}
+
+static tahr_telemetry_counts run(due *d, const tahr_telemetry_desc *desc, uint32_t steps, double dt)
+{
+    return run_after(d, desc, 0, steps, dt);
 }
 
 static void due_init(due *d, tahr_telemetry_desc *desc)
@@ -100,6 +106,8 @@ static void a_rate_is_kept_on_average_and_never_made_up_for(void **unused)
     }
     run(&d, &desc, 100, 0.1); /* slower than the rate: all */
     assert_int_equal(d.count, 100);
+    run_after(&d, &desc, 100, 700, 1.0 / 60); /* and then no more than the rate */
+    assert_true(d.count >= 100 + 499 && d.count <= 100 + 502);
     desc.every = 6; /* the scarcer of the two */
     desc.state_rate = 25;
     run(&d, &desc, 600, 1.0 / 60);

@@ -26,9 +26,9 @@ cmocka=$(pkg-config --cflags --libs cmocka 2>/dev/null) || skip "pkg-config does
 # gcc warns of the fences.
 flags="-std=c11 -O1 -g -fsanitize=thread -D_POSIX_C_SOURCE=200809L -DTAHR_HAVE_THREADS"
 case $("$compiler" --version) in *"Free Software Foundation"*) flags="$flags -Wno-tsan" ;; esac
-for test in telemetry/test_steps telemetry/test_order telemetry/test_latest telemetry/test_stop crowd/test_threads; do
+for test in telemetry/test_ring telemetry/test_steps telemetry/test_order telemetry/test_latest telemetry/test_stop crowd/test_threads; do
     # shellcheck disable=SC2086
-    "$compiler" $flags -Iinclude -Itests/unit "tests/unit/$test.c" tests/unit/listener.c backends/threads/*.c \
+    "$compiler" $flags -Iinclude -Itests/unit -Ibackends "tests/unit/$test.c" tests/unit/listener.c backends/threads/*.c \
         "$BUILD/lib/libtahr.a" $cmocka -lm -ldl -pthread -o "$folder/test"
     "$folder/test" >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
     grep -E 'PASSED' "$folder/log" | sed "s|^|$compiler: $test: |"
