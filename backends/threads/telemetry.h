@@ -59,8 +59,10 @@ tahr_telemetry *tahr__telemetry_lay_out(const tahr_telemetry_desc *desc);
 void tahr__telemetry_free_memory(tahr_telemetry *telemetry); /* before it has a lock */
 void tahr__telemetry_free(tahr_telemetry *telemetry);
 
-/* drain.c: what the thread does. */
+/* drain.c: what the thread does; and of that, once: tells the sink what was written until now. Returns how many eighths
+ * of a ring were filled. */
 void *tahr__drain_live(void *telemetry);
+uint64_t tahr__drain_pass(tahr_telemetry *telemetry);
 
 /* deliver.c: tells the sink what a record tells, or counts it as dropped once all is abandoned. */
 void tahr__deliver(tahr_telemetry *telemetry, const void *record);

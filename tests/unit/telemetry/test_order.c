@@ -12,8 +12,9 @@
 
 #ifdef TAHR_HAVE_THREADS
 #include "listener.h"
+#include "threads/telemetry.h"
 
-enum { LANES = 3, EACH = 4, EPOCHS = 300 };
+enum { LANES = 3, EACH = 4, EPOCHS = 2000 };
 
 typedef struct order {
     listener ear;
@@ -111,6 +112,36 @@ static void changes_come_before_the_steps_that_see_them(void **unused)
     listener_end(&o.ear);
 }
 
+/* Without its thread: what a pass does that read the epoch just before a change, and looked at the rings after it. */
+static void a_step_of_a_later_epoch_waits_for_the_next_pass(void **unused)
+{
+    listener ear;
+    tahr_telemetry_desc desc;
+    made_up m;
+    (void)unused;
+    listener_init(&ear, NULL);
+    listener_describe(&ear, 2, &desc);
+    desc.lanes = 2;
+    tahr_telemetry *t = tahr__telemetry_lay_out(&desc);
+    assert_non_null(t);
+    made_up_init(&m, 1);
+    const tahr_telemetry_step first = made_up_pushed(&m, 0), second = made_up_pushed(&m, 1);
+    assert_int_equal(tahr_telemetry_push(t, 1, &second), TAHR_OK);
+    assert_int_equal(tahr_telemetry_change(t, TAHR_CHANGE_TOUCH, NULL, 0, 0, 1), TAHR_OK);
+    assert_int_equal(tahr_telemetry_push(t, 0, &first), TAHR_OK);
+    assert_int_equal(tahr_telemetry_push(t, 1, &second), TAHR_OK);
+    atomic_store(&t->epoch, 0);
+    tahr__drain_pass(t);
+    assert_int_equal(ear.got[TAHR_MESSAGE_STATE], 1);
+    assert_int_equal(ear.got[TAHR_MESSAGE_BODY], 0);
+    atomic_store(&t->epoch, 1);
+    tahr__drain_pass(t);
+    assert_int_equal(ear.got[TAHR_MESSAGE_STATE], 3);
+    assert_int_equal(ear.got[TAHR_MESSAGE_BODY], 1);
+    tahr__telemetry_free_memory(t);
+    listener_end(&ear);
+}
+
 static void a_character_keeps_to_its_lane(void **unused)
 {
     listener ear;
@@ -139,6 +170,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(changes_come_before_the_steps_that_see_them),
+        cmocka_unit_test(a_step_of_a_later_epoch_waits_for_the_next_pass),
         cmocka_unit_test(a_character_keeps_to_its_lane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
