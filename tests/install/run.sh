@@ -96,19 +96,23 @@ if [ -e "$prefix/$LIBDIR/libtahr.so" ]; then
     echo "install: every plugin loads by its path"
 fi
 
-# The pool of threads, by pkg-config, with the example that a new user would begin with.
+# The pool of threads and telemetry, by pkg-config, with the examples that a new user would begin with.
 if [ -e "$prefix/$LIBDIR/libtahr_threads.a" ]; then
     # shellcheck disable=SC2046
     ${CC:-cc} -std=c11 -DTAHR_HAVE_THREADS tests/examples/crowd.c $(pc_static tahr_threads) -o "$folder/crowd"
     meet=$("$folder/crowd")
     echo "install: a crowd runs on threads: $meet"
+    # shellcheck disable=SC2046
+    ${CC:-cc} -std=c11 tests/examples/telemetry.c $(pc_static tahr_threads) -o "$folder/telemetry"
+    told=$("$folder/telemetry")
+    echo "install: telemetry tells of $(printf '%s\n' "$told" | wc -l) events"
 fi
 
 # find_package: every exported target, in a project without C++ and in one with it; the backends beside the library, all
 # static, all shared, and mixed, whose shared code must not clash.
 cp -r tests/install/project "$folder/project"
 cp "$folder/program.c" "$folder/project/program.c"
-cp tests/examples/crowd.c "$folder/project/crowd.c"
+cp tests/examples/crowd.c tests/examples/telemetry.c "$folder/project"
 with_cxx=
 if command -v "${CXX:-c++}" >/dev/null 2>&1; then with_cxx=ON; fi
 for cxx in OFF $with_cxx; do
@@ -124,6 +128,10 @@ for cxx in OFF $with_cxx; do
     done
     if [ -e "$prefix/$LIBDIR/libtahr_threads.a" ]; then
         [ "$("$made/crowd")" = "$meet" ] || { echo "install: the crowd by find_package goes elsewhere"; exit 1; }
+        for kind in tahr tahr_static; do
+            [ "$("$made/telemetry_$kind")" = "$told" ] ||
+                { echo "install: the telemetry by find_package, on $kind, tells something else"; exit 1; }
+        done
     fi
 done
 
