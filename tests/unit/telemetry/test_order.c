@@ -81,7 +81,8 @@ static void changes_come_before_the_steps_that_see_them(void **unused)
     listener_describe(&o.ear, LANES * EACH, &desc);
     desc.lanes = LANES;
     desc.bodies = 2;
-    desc.drain_period = 1e-5; /* looks while others write */
+    desc.ring_bytes = 16 << 20; /* room for all, however late the thread comes */
+    desc.drain_period = 1e-5;   /* looks while others write */
     assert_int_equal(tahr_telemetry_create(&desc, &o.telemetry), TAHR_OK);
     assert_int_equal(pthread_barrier_init(&o.begins, NULL, LANES + 1), 0);
     assert_int_equal(pthread_barrier_init(&o.ends, NULL, LANES + 1), 0);
