@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * bench_telemetry.c: two crowds of the same wanderers take their ticks by turns, one with telemetry and one without,
- * so that both see the same machine. */
+ * bench_telemetry.c: one crowd of wanderers, some ticks with telemetry and then as many without, so that both see the
+ * same machine and the same memory. */
 #include "bench_telemetry.h"
 
 #include <stdio.h>
@@ -14,7 +14,7 @@
 #include "bench_clock.h"
 #include "bench_crowd.h"
 
-enum { STEPS = 60000, WARM_UP = 4000, EVENTS = 16, BATCH = 64, BATCHES = 2001 };
+enum { STEPS = 64000, BLOCK = 32, SETTLE = 2, EVENTS = 16, BATCH = 64, BATCHES = 2001 };
 
 static const double DT = 1.0 / 60;
 
@@ -84,36 +84,35 @@ static tahr_status open_telemetry(const bench_crowd *c, uint64_t *taken, tahr_te
     return tahr_telemetry_create(&desc, telemetry);
 }
 
-/* One of the two crowds. */
-typedef struct side {
+typedef struct trial {
     bench_crowd crowd;
-    tahr_telemetry *telemetry; /* or NULL */
-    uint32_t *times;
-    uint64_t taken; /* of times */
-} side;
+    tahr_telemetry *telemetry;
+    uint32_t *times[2]; /* of steps without and with it */
+    uint64_t taken[2];
+} trial;
 
-static uint64_t timed_step(side *s, uint32_t i, const tahr_input *input)
+static uint64_t timed_step(trial *l, uint32_t i, const tahr_input *input, int on)
 {
     tahr_event events[EVENTS];
     tahr_report report = {.struct_size = sizeof report, .events = events, .event_capacity = EVENTS};
-    tahr_state *state = &s->crowd.states[i];
+    tahr_state *state = &l->crowd.states[i];
     const uint64_t before = bench_nanoseconds(CLOCK_MONOTONIC);
-    if (s->telemetry) tahr_telemetry_begin(s->telemetry, 0, i, 0, state);
-    const tahr_status status = tahr_mover_step(s->crowd.movers[i], input, DT, state, &report);
-    if (s->telemetry) {
+    if (on) tahr_telemetry_begin(l->telemetry, 0, i, 0, state);
+    const tahr_status status = tahr_mover_step(l->crowd.movers[i], input, DT, state, &report);
+    if (on) {
         const tahr_telemetry_step step = {
             .character = i, .status = status, .input = input, .state = state, .report = &report, .dt = DT};
-        tahr_telemetry_push(s->telemetry, 0, &step);
+        tahr_telemetry_push(l->telemetry, 0, &step);
     }
     return bench_nanoseconds(CLOCK_MONOTONIC) - before;
 }
 
-static int tick(side *s, const bench_opened *opened, const bench_world *world)
+static int tick(trial *l, const bench_opened *opened, const bench_world *world, int on, int counts)
 {
-    bench_crowd *c = &s->crowd;
+    bench_crowd *c = &l->crowd;
     for (uint32_t i = 0; i < c->count; i++) {
-        const uint64_t ns = timed_step(s, i, bench_world_wish(world, &c->wanderers[i], DT));
-        s->times[s->taken++] = ns < UINT32_MAX ? (uint32_t)ns : UINT32_MAX;
+        const uint64_t ns = timed_step(l, i, bench_world_wish(world, &c->wanderers[i], DT), on);
+        if (counts) l->times[on][l->taken[on]++] = ns < UINT32_MAX ? (uint32_t)ns : UINT32_MAX;
         if (bench_crowd_is_lost(c, world, i) &&
             !scene_wander_spawn(opened->world, &c->config, &world->spawn, &c->seed, &c->states[i]))
             return 0;
@@ -121,19 +120,24 @@ static int tick(side *s, const bench_opened *opened, const bench_world *world)
     return 1;
 }
 
-/* A frame has time to spare after its steps: the thread that drains is not left behind for ever, but it does work while
- * others step. */
-static void let_drain(const tahr_telemetry *t)
+static void nap(void)
 {
     const struct timespec pause = {0, 200000};
-    for (;;) {
+    nanosleep(&pause, NULL);
+}
+
+/* A frame has time to spare after its steps: the thread that drains is not left behind for ever, but it does work while
+ * others step. Returns how many naps that took. */
+static int let_drain(const tahr_telemetry *t)
+{
+    for (int naps = 0;; naps++) {
         tahr_telemetry_counts c = {.struct_size = sizeof c};
         uint64_t waiting = 0;
         tahr_telemetry_get_counts(t, &c);
         for (int k = 0; k < TAHR_MESSAGE_COUNT; k++)
             waiting += c.offered[k] - c.dropped[k] - c.delivered[k];
-        if (waiting < 4000) return;
-        nanosleep(&pause, NULL);
+        if (waiting < 4000) return naps;
+        nap();
     }
 }
 
@@ -154,36 +158,36 @@ typedef struct replay {
     tahr_event events[BATCH][EVENTS];
 } replay;
 
-static void record(side *s, replay *r, const bench_world *world)
+static void record(trial *l, replay *r, const bench_world *world)
 {
     const uint32_t i = 0;
-    r->states[0] = s->crowd.states[i];
+    r->states[0] = l->crowd.states[i];
     for (int k = 0; k < BATCH; k++) {
-        r->inputs[k] = *bench_world_wish(world, &s->crowd.wanderers[i], DT);
+        r->inputs[k] = *bench_world_wish(world, &l->crowd.wanderers[i], DT);
         r->reports[k] =
             (tahr_report){.struct_size = sizeof(tahr_report), .events = r->events[k], .event_capacity = EVENTS};
-        tahr_mover_step(s->crowd.movers[i], &r->inputs[k], DT, &s->crowd.states[i], &r->reports[k]);
-        r->states[k + 1] = s->crowd.states[i];
+        tahr_mover_step(l->crowd.movers[i], &r->inputs[k], DT, &l->crowd.states[i], &r->reports[k]);
+        r->states[k + 1] = l->crowd.states[i];
     }
 }
 
 /* The two calls alone, on what the first character of the crowd does, as if each of the characters did it. */
-static double time_alone(side *s, const bench_world *world)
+static double time_alone(trial *l, const bench_world *world)
 {
     replay *r = malloc(sizeof *r);
     uint32_t *times = malloc(BATCHES * sizeof *times);
     double ns = -1;
     for (uint32_t b = 0; r && times && b < BATCHES; b++) {
-        const uint32_t i = b % s->crowd.count;
-        record(s, r, world);
-        let_drain(s->telemetry);
-        tahr_telemetry_begin(s->telemetry, 0, i, 0, &r->states[0]); /* a snapshot: it was elsewhere */
+        const uint32_t i = b % l->crowd.count;
+        record(l, r, world);
+        let_drain(l->telemetry);
+        tahr_telemetry_begin(l->telemetry, 0, i, 0, &r->states[0]); /* a snapshot: it was elsewhere */
         const uint64_t before = bench_nanoseconds(CLOCK_MONOTONIC);
         for (int k = 0; k < BATCH; k++) {
-            tahr_telemetry_begin(s->telemetry, 0, i, 0, &r->states[k]);
+            tahr_telemetry_begin(l->telemetry, 0, i, 0, &r->states[k]);
             const tahr_telemetry_step step = {
                 .character = i, .input = &r->inputs[k], .state = &r->states[k + 1], .report = &r->reports[k], .dt = DT};
-            tahr_telemetry_push(s->telemetry, 0, &step);
+            tahr_telemetry_push(l->telemetry, 0, &step);
         }
         times[b] = (uint32_t)(bench_nanoseconds(CLOCK_MONOTONIC) - before);
     }
@@ -196,12 +200,17 @@ static double time_alone(side *s, const bench_world *world)
     return ns;
 }
 
-static int take_turns(side *off, side *on, bench_opened *opened, const bench_world *world)
+/* The first ticks of a block do not count: they send snapshots of what happened meanwhile. Blocks without telemetry take
+ * the naps of those with it: who slept finds less of his own in the caches. */
+static int take_turns(trial *l, const bench_opened *opened, const bench_world *world)
 {
-    const uint64_t steps = STEPS + WARM_UP;
-    for (int t = 0; on->taken + on->crowd.count <= steps; t++) {
-        if (!tick(t % 2 ? on : off, opened, world) || !tick(t % 2 ? off : on, opened, world)) return 0;
-        let_drain(on->telemetry);
+    int naps[BLOCK] = {0};
+    for (int t = 0; l->taken[0] + l->crowd.count <= STEPS || l->taken[1] + l->crowd.count <= STEPS; t++) {
+        const int on = t / BLOCK % 2, has_room = l->taken[on] + l->crowd.count <= STEPS;
+        if (!tick(l, opened, world, on, t >= 2 * BLOCK && t % BLOCK >= SETTLE && has_room)) return 0;
+        if (on) naps[t % BLOCK] = let_drain(l->telemetry);
+        for (int i = 0; !on && i < naps[t % BLOCK]; i++)
+            nap();
     }
     return 1;
 }
@@ -210,31 +219,27 @@ int bench_telemetry_run(bench_opened *opened, const bench_world *world, uint32_t
                         bench_telemetry_result *result, char *error)
 {
     static uint64_t taken; /* by the sink, until the telemetry has ended */
-    const size_t most = STEPS + WARM_UP;
-    side off = {.crowd = {.count = characters, .seed = 17}, .times = malloc(most * sizeof(uint32_t))};
-    side on = {.crowd = {.count = characters, .seed = 17}, .times = malloc(most * sizeof(uint32_t))};
+    uint32_t *times = malloc(2 * STEPS * sizeof *times);
+    trial l = {.crowd = {.count = characters, .seed = 17}, .times = {times, times + STEPS}};
     memset(result, 0, sizeof *result);
     result->characters = characters;
-    int ok = off.times && on.times && bench_crowd_make(&off.crowd, opened, world, error) &&
-             bench_crowd_make(&on.crowd, opened, world, error) &&
-             open_telemetry(&on.crowd, &taken, &on.telemetry) == TAHR_OK && take_turns(&off, &on, opened, world);
+    int ok = times && characters <= STEPS && bench_crowd_make(&l.crowd, opened, world, error) &&
+             open_telemetry(&l.crowd, &taken, &l.telemetry) == TAHR_OK && take_turns(&l, opened, world);
     if (ok) {
         tahr_telemetry_counts counts = {.struct_size = sizeof counts};
-        const uint64_t steps = result->steps = on.taken - WARM_UP;
-        quantiles(off.times + WARM_UP, steps, &result->off_median, &result->off_p99, &result->off_p999);
-        quantiles(on.times + WARM_UP, steps, &result->on_median, &result->on_p99, &result->on_p999);
-        result->alone = time_alone(&on, world);
-        tahr_telemetry_get_counts(on.telemetry, &counts);
+        result->steps = l.taken[1];
+        quantiles(l.times[0], l.taken[0], &result->off_median, &result->off_p99, &result->off_p999);
+        quantiles(l.times[1], l.taken[1], &result->on_median, &result->on_p99, &result->on_p999);
+        result->alone = time_alone(&l, world);
+        tahr_telemetry_get_counts(l.telemetry, &counts);
         for (int k = 0; k < TAHR_MESSAGE_COUNT; k++)
             result->dropped += counts.dropped[k];
     } else if (!error[0]) {
-        snprintf(error, 256, "out of memory, or a character was lost");
+        snprintf(error, 256, "out of memory, too many characters, or one was lost");
     }
-    tahr_telemetry_destroy(on.telemetry);
-    bench_crowd_free(&on.crowd);
-    bench_crowd_free(&off.crowd);
-    free(on.times);
-    free(off.times);
+    tahr_telemetry_destroy(l.telemetry);
+    bench_crowd_free(&l.crowd);
+    free(times);
     return ok;
 }
 #else

@@ -5,7 +5,7 @@
 
 #include "bench_run.h"
 
-/* ns of single steps by the monotonic clock less its own cost, off and on taken by turns. */
+/* ns of single steps by the monotonic clock less its own cost, some ticks off and some on by turns. */
 typedef struct bench_telemetry_result {
     uint32_t characters;
     uint64_t steps;                       /* of each */
