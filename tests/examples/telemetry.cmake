@@ -1,4 +1,3 @@
-# Needs libtahr_threads.
 if(NOT with_threads)
     set(example_left_out "there are no threads")
 endif()
