@@ -98,7 +98,7 @@ typedef struct tahr_telemetry_step {
  * Returns TAHR_OK, TAHR_TRUNCATED (something was dropped and counted), TAHR_E_NULL (also: events are counted, but not
  * there), TAHR_E_STRUCT_SIZE (input, report), TAHR_E_UNSUPPORTED (flags), TAHR_E_ARGUMENT (lane, character, a character
  * of another lane, dt, reserved); on error nothing is sent or counted, and the step was not taken as far as the
- * telemetry knows. Allocates nothing, never waits, calls nobody: some 70 ns (backends/threads/README.md). Since 0.1. */
+ * telemetry knows. Allocates nothing, never waits, calls nobody: some 80 ns (backends/threads/README.md). Since 0.1. */
 TAHR_API tahr_status tahr_telemetry_push(tahr_telemetry *telemetry, uint32_t lane, const tahr_telemetry_step *step);
 
 /* After a change of the world, on the thread that has exclusive access to it (nobody may begin or push meanwhile). SET
