@@ -1,0 +1,26 @@
+#!/bin/sh
+# namespace.sh NAME COMMAND...: runs a test in a network of its own, which has nothing but a loopback that takes
+# multicast, so that no message leaves it. What the test leaves running ends with it.
+set -eu
+name=$1
+shift
+skip() {
+    echo "SKIP: $name: $1"
+    exit 77
+}
+for tool in unshare ip; do
+    command -v $tool >/dev/null 2>&1 || skip "$tool is missing"
+done
+as_root=
+[ "$(id -u)" -eq 0 ] || as_root=-r
+# shellcheck disable=SC2086
+unshare $as_root -n -p -f --kill-child ip link set lo up 2>/dev/null ||
+    skip "network namespaces are not permitted here"
+# shellcheck disable=SC2086,SC2016
+TAHR_OWN_NETWORK=1 exec unshare $as_root -n -p -f --kill-child sh -c '
+    set -eu
+    ip link set lo up
+    ip link set lo multicast on
+    ip route add 224.0.0.0/4 dev lo
+    "$@"
+' sh "$@"
