@@ -85,6 +85,7 @@ for folder in tests/*/; do
         pattern='"((\.\./)?support/)?[a-z0-9_]+\.h"|<(bt[A-Z]|Bullet|Jolt/)[A-Za-z/]*\.h>' ;;
     unit) pattern='"[a-z0-9_/.]+\.(h|inc)"' ;;
     fcl) pattern='<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>|"[a-z0-9_]+\.h"' ;;
+    lcm) pattern='"(\.\./)?[a-z0-9_]+\.h"' ;;
     cli) pattern='"((\.\./)?support/|\.\./\.\./bindings/cli/)?[a-z0-9_]+\.h"' ;;
     *) pattern='"((\.\./)?support/)?[a-z0-9_]+\.h"' ;;
     esac
