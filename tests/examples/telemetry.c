@@ -21,10 +21,17 @@ static void say(void *user, int32_t level, const char *message)
 }
 
 /* A listener: it knows LCM and the types of the messages, and need not know Tahr. */
+typedef struct listener {
+    tahr_state_t_subscription_t *states;
+    tahr_event_t_subscription_t *events;
+    tahr_state_t state; /* the last one */
+} listener;
+
 static void hear_state(const lcm_recv_buf_t *buffer, const char *channel, const tahr_state_t *state, void *user)
 {
+    listener *l = user;
     (void)buffer, (void)channel;
-    *(tahr_state_t *)user = *state;
+    l->state = *state;
 }
 
 static void hear_event(const lcm_recv_buf_t *buffer, const char *channel, const tahr_event_t *event, void *user)
@@ -32,6 +39,15 @@ static void hear_event(const lcm_recv_buf_t *buffer, const char *channel, const 
     (void)buffer, (void)channel, (void)user;
     if (event->type == TAHR_EVENT_T_JUMPED || event->type == TAHR_EVENT_T_LANDED)
         printf("%.3f s: %s\n", (double)event->time_ns * 1e-9, event->type == TAHR_EVENT_T_JUMPED ? "jumped" : "landed");
+}
+
+static void subscribe(listener *l, lcm_t *lcm)
+{
+    enum { ROOM = 1000 }; /* a subscription holds 30 messages, unless it is told to hold more */
+    l->states = tahr_state_t_subscribe(lcm, "TAHR_STATE", hear_state, l);
+    l->events = tahr_event_t_subscribe(lcm, "TAHR_EVENT", hear_event, l);
+    tahr_state_t_subscription_set_queue_capacity(l->states, ROOM);
+    tahr_event_t_subscription_set_queue_capacity(l->events, ROOM);
 }
 
 /* What a game does, and beside each step what tells of it. */
@@ -93,16 +109,12 @@ int main(int argc, char **argv)
     const tahr_log log = {NULL, say};
     const tahr_lcm_desc desc = {.struct_size = sizeof desc, .url = url, .lcm = own, .log = &log};
     tahr_world *world = open_world();
-    tahr_state_t heard = {.step = -1};
+    listener heard = {.state.step = -1};
     tahr_config config;
     tahr_state state;
     tahr_lcm *lcm;
 
-    if (own) { /* a subscription holds 30 messages, unless it is told to hold more */
-        tahr_state_t_subscription_set_queue_capacity(tahr_state_t_subscribe(own, "TAHR_STATE", hear_state, &heard),
-                                                     1000);
-        tahr_event_t_subscription_set_queue_capacity(tahr_event_t_subscribe(own, "TAHR_EVENT", hear_event, NULL), 1000);
-    }
+    if (own) subscribe(&heard, own);
     tahr_config_init(&config, sizeof config, TAHR_PRESET_PRECISE);
     tahr_state_init(&state, &config, &(tahr_vec3){0, 0, 0.9});
     if (!world || tahr_lcm_open(&desc, &lcm) < 0) return 1;
@@ -113,7 +125,9 @@ int main(int argc, char **argv)
 
     while (lcm_handle_timeout(own, 0) > 0) {
     }
+    tahr_state_t_unsubscribe(own, heard.states);
+    tahr_event_t_unsubscribe(own, heard.events);
     lcm_destroy(own);
-    printf("heard of step %d: at %.3f m\n", (int)heard.step, heard.position[0]);
-    return heard.position[0] == state.position.x ? 0 : 1;
+    printf("heard of step %d: at %.3f m\n", (int)heard.state.step, heard.state.position[0]);
+    return heard.state.position[0] == state.position.x ? 0 : 1;
 }

@@ -138,6 +138,7 @@ static void subscribers_hear_a_log(void **unused)
     inbox_open(&box, player, "", "");
     assert_true(inbox_wait(&box, TAHR_MESSAGE_STATE, 10));
     assert_int_equal(box.state.step, 9);
+    inbox_close(&box);
     lcm_destroy(player);
 }
 

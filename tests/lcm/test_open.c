@@ -305,6 +305,7 @@ static void an_lcm_that_was_given_stays(void **unused)
     assert_int_equal(sink->change(sink->user, &change), TAHR_OK);
     tahr_lcm_close(lcm);
     assert_true(inbox_wait(&box, TAHR_MESSAGE_BODY, 1));
+    inbox_close(&box);
     lcm_destroy(own);
 }
 

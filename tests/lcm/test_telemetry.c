@@ -160,21 +160,6 @@ static void hear_world(const lcm_recv_buf_t *buffer, const char *channel, const 
                     m->config_count == 1 && m->size == (int32_t)sizeof(tahr_config));
 }
 
-static void listen_to(lcm_t *lcm, ledger *l)
-{
-#define HEAR(kind, NAME)                                                                                          \
-    tahr_##kind##_t_subscription_set_queue_capacity(tahr_##kind##_t_subscribe(lcm, "TAHR_" NAME, hear_##kind, l), \
-                                                    1 << 20)
-    HEAR(state, "STATE");
-    HEAR(event, "EVENT");
-    HEAR(input, "INPUT");
-    HEAR(report, "REPORT");
-    HEAR(snapshot, "SNAPSHOT");
-    HEAR(body, "BODY");
-    HEAR(world, "WORLD");
-#undef HEAR
-}
-
 /* A floor, and a lift upon it. */
 static tahr_world *open_world(void)
 {
@@ -266,6 +251,29 @@ static void run(ledger *l, const tahr_sink *sink)
     tahr_world_close(world);
 }
 
+#define EACH_KIND(X)             \
+    X(state, "TAHR_STATE")       \
+    X(event, "TAHR_EVENT")       \
+    X(input, "TAHR_INPUT")       \
+    X(report, "TAHR_REPORT")     \
+    X(snapshot, "TAHR_SNAPSHOT") \
+    X(body, "TAHR_BODY")         \
+    X(world, "TAHR_WORLD")
+
+/* Hears what a run tells a sink of that lcm_t; or, without a sink, all that a log holds. */
+static void listen_to(lcm_t *lcm, ledger *l, const tahr_sink *sink)
+{
+#define BEGIN(kind, channel)                                                                             \
+    tahr_##kind##_t_subscription_t *of_##kind = tahr_##kind##_t_subscribe(lcm, channel, hear_##kind, l); \
+    tahr_##kind##_t_subscription_set_queue_capacity(of_##kind, 1 << 20);
+    EACH_KIND(BEGIN)
+    if (sink) run(l, sink);
+    while (lcm_handle_timeout(lcm, sink ? 0 : 5000) > 0) {
+    }
+#define END(kind, channel) tahr_##kind##_t_unsubscribe(lcm, of_##kind);
+    EACH_KIND(END)
+}
+
 static void check_heard(const ledger *l)
 {
     uint64_t events = 0;
@@ -312,12 +320,9 @@ static void what_is_heard_over_memq_is_what_was_stepped(void **unused)
     (void)unused;
     assert_non_null(l);
     assert_non_null(own);
-    listen_to(own, l);
     tahr_lcm *lcm = open_sink(NULL, own);
-    run(l, tahr_lcm_sink(lcm));
+    listen_to(own, l, tahr_lcm_sink(lcm));
     tahr_lcm_close(lcm);
-    while (lcm_handle_timeout(own, 0) > 0) {
-    }
     check_heard(l);
     lcm_destroy(own);
     free(l);
@@ -339,9 +344,7 @@ static void what_is_read_from_a_log_is_what_was_stepped(void **unused)
     snprintf(url, sizeof url, "file://%s?speed=0", path);
     lcm_t *player = lcm_create(url);
     assert_non_null(player);
-    listen_to(player, l);
-    while (lcm_handle_timeout(player, 5000) > 0) {
-    }
+    listen_to(player, l, NULL);
     check_heard(l);
     lcm_destroy(player);
     unlink(path);

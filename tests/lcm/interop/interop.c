@@ -54,6 +54,7 @@ static int hear(const char *url)
     const tahr_state_t *s = &box.state;
     printf("%d %lld %.17g %.17g %.17g %d %d %d\n", (int)s->character, (long long)s->step, s->position[0],
            s->position[1], s->position[2], (int)s->mode, (int)s->floor_walkable, (int)s->base_body);
+    inbox_close(&box);
     lcm_destroy(lcm);
     return 0;
 }

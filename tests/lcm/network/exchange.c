@@ -54,28 +54,34 @@ static void expect_steps(inbox *box, uint32_t count)
 }
 
 /* Subscribes before anything is sent: lcm_get_fileno returns when the socket has joined the group. */
-static lcm_t *open_listener(inbox *box, const char *url)
+static void open_listener(inbox *box, const char *url)
 {
     lcm_t *lcm = lcm_create(url);
     assert_non_null(lcm);
     inbox_open(box, lcm, "", "");
     assert_true(lcm_get_fileno(lcm) >= 0);
-    return lcm;
+}
+
+static void close_listener(inbox *box)
+{
+    inbox_close(box);
+    lcm_destroy(box->lcm);
 }
 
 static void two_listeners_hear_the_same(void **unused)
 {
     inbox one, two;
-    lcm_t *first = open_listener(&one, URL), *second = open_listener(&two, URL);
     tahr_lcm *lcm = open_sink(URL);
     (void)unused;
+    open_listener(&one, URL);
+    open_listener(&two, URL);
     for (uint64_t i = 0; i < 100; i++)
         publish_step(tahr_lcm_sink(lcm), 3, i);
     expect_steps(&one, 100);
     expect_steps(&two, 100);
     tahr_lcm_close(lcm);
-    lcm_destroy(first);
-    lcm_destroy(second);
+    close_listener(&one);
+    close_listener(&two);
 }
 
 static void the_usual_group_is_taken_where_nothing_is_said(void **unused)
@@ -86,28 +92,29 @@ static void the_usual_group_is_taken_where_nothing_is_said(void **unused)
     for (int i = 0; i < 3; i++) {
         if (places[i]) assert_int_equal(setenv("LCM_DEFAULT_URL", places[i], 1), 0);
         if (!places[i]) assert_int_equal(unsetenv("LCM_DEFAULT_URL"), 0);
-        lcm_t *listener = open_listener(&box, URL);
+        open_listener(&box, URL);
         tahr_lcm *lcm = open_sink(NULL);
         publish_step(tahr_lcm_sink(lcm), 1, 0);
         expect_steps(&box, 1);
         tahr_lcm_close(lcm);
-        lcm_destroy(listener);
+        close_listener(&box);
     }
 }
 
 static void another_group_and_port_are_another_network(void **unused)
 {
     inbox here, there;
-    lcm_t *first = open_listener(&here, URL), *second = open_listener(&there, "udpm://239.1.2.3:0x1eee?ttl=0");
     tahr_lcm *lcm = open_sink("udpm://239.1.2.3:7918?recv_buf_size=65536&ttl=0");
     (void)unused;
+    open_listener(&here, URL);
+    open_listener(&there, "udpm://239.1.2.3:0x1eee?ttl=0");
     publish_step(tahr_lcm_sink(lcm), 1, 0);
     expect_steps(&there, 1);
-    assert_int_equal(lcm_handle_timeout(first, 0), 0);
+    assert_int_equal(lcm_handle_timeout(here.lcm, 0), 0);
     assert_int_equal(here.count[TAHR_MESSAGE_STATE], 0);
     tahr_lcm_close(lcm);
-    lcm_destroy(first);
-    lcm_destroy(second);
+    close_listener(&here);
+    close_listener(&there);
 }
 
 /* Longer than a packet of UDP may be: LCM sends it in pieces. */
@@ -116,7 +123,7 @@ static void a_long_world_arrives_whole(void **unused)
     enum { COUNT = 150 };
     static tahr_config configs[COUNT];
     inbox box;
-    lcm_t *listener = open_listener(&box, URL);
+    open_listener(&box, URL);
     tahr_lcm *lcm = open_sink(URL);
     const tahr_sink *sink = tahr_lcm_sink(lcm);
     const tahr_sink_world world = {.level = "long", .configs = configs, .config_count = COUNT};
@@ -129,7 +136,7 @@ static void a_long_world_arrives_whole(void **unused)
     assert_int_equal(box.world.size, sizeof configs);
     assert_string_equal(box.world.level, "long");
     tahr_lcm_close(lcm);
-    lcm_destroy(listener);
+    close_listener(&box);
 }
 
 /* A process that has joined the group and then reads nothing. */
@@ -160,26 +167,26 @@ static void who_has_stopped_does_not_hold_up_the_others(void **unused)
     enum { COUNT = 3000 };
     inbox box;
     const pid_t deaf = start_deaf();
-    lcm_t *listener = open_listener(&box, URL);
+    open_listener(&box, URL);
     tahr_lcm *lcm = open_sink(URL);
     (void)unused;
     for (uint64_t i = 0; i < COUNT; i++) {
         publish_step(tahr_lcm_sink(lcm), 0, i);
-        while (i % 32 == 0 && lcm_handle_timeout(listener, 0) > 0) {
+        while (i % 32 == 0 && lcm_handle_timeout(box.lcm, 0) > 0) {
         }
     }
     expect_steps(&box, COUNT);
     kill(deaf, SIGKILL);
     waitpid(deaf, NULL, 0);
     tahr_lcm_close(lcm);
-    lcm_destroy(listener);
+    close_listener(&box);
 }
 
 /* A child that was forked while a sink is open may close its copy, and one that ends does no harm. */
 static void forks_are_left_in_peace(void **unused)
 {
     inbox box;
-    lcm_t *listener = open_listener(&box, URL);
+    open_listener(&box, URL);
     tahr_lcm *lcm = open_sink(URL);
     int status;
     (void)unused;
@@ -196,7 +203,7 @@ static void forks_are_left_in_peace(void **unused)
     }
     expect_steps(&box, 10);
     tahr_lcm_close(lcm);
-    lcm_destroy(listener);
+    close_listener(&box);
 }
 
 int main(void)
