@@ -1,5 +1,5 @@
 # Installs the headers, tahr.pc and the package files for find_package(tahr).
-install(FILES ${public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tahr)
+install(FILES ${public_headers} ${cpp_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tahr)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Paths in tahr.pc are relative to the file, so that an installed tree can be moved as a whole.

@@ -1,3 +1,3 @@
-if(NOT with_lcm)
-    set(example_left_out "LCM was not found")
+if(NOT with_threads)
+    set(example_left_out "there are no threads")
 endif()
