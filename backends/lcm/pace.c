@@ -27,7 +27,7 @@ static void sleep_ns(int64_t ns)
 }
 
 /* A listener on this machine that the system has not let run for a while gets the time to read what waits for him. Who
- * is always too slow does not hold up the others: patience grows by an eighth of the time in which messages are sent. */
+ * is always too slow does not hold up the others: patience grows by an eighth of the time that messages take. */
 static void wait_for_listeners(tahr__lcm_pace *p)
 {
     p->patience_ns += (int64_t)p->unwatched * SECOND / p->rate / 8;
