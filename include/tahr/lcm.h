@@ -44,7 +44,7 @@ TAHR_API tahr_status tahr_lcm_desc_init(tahr_lcm_desc *desc, size_t size);
  * TAHR_E_MEMORY; the log says which. Since 0.1. */
 TAHR_API tahr_status tahr_lcm_open(const tahr_lcm_desc *desc, tahr_lcm **lcm);
 
-/* For tahr_telemetry_desc.sink. NULL for NULL. Valid until tahr_lcm_close. Since 0.1. */
+/* For tahr_telemetry_desc.sink, of one telemetry at a time. NULL for NULL. Valid until tahr_lcm_close. Since 0.1. */
 TAHR_API const tahr_sink *tahr_lcm_sink(tahr_lcm *lcm);
 
 /* Closes it; no telemetry may use it any more. NULL is allowed. Since 0.1. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * telemetry_lcm.c: a character walks and jumps for two seconds, and who listens to LCM can watch. Give a URL to be
- * heard by others (udpm://239.255.76.67:7667?ttl=0) or to write a log (file:///tmp/walk.lcmlog). Without one the program
- * listens to itself.
+ * heard by others (udpm://239.255.76.67:7667?ttl=0) or to write a log (file:///tmp/walk.lcmlog). Without one the
+ * program listens to itself.
  * By hand, with Tahr installed and PKG_CONFIG_PATH pointing to its lib/pkgconfig:
  *     cc -std=c11 telemetry_lcm.c $(pkg-config --cflags --libs tahr_lcm) -o telemetry */
 #include <tahr/tahr.h>

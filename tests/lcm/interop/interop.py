@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
-"""C to Python and Python to C, by PyPI's lcm and the generated types: interop.py PROGRAM FOLDER, in a network of its own."""
+"""C to Python and Python to C, by PyPI's lcm and the generated types.
+
+interop.py PROGRAM FOLDER, in a network of its own."""
 import os
 import subprocess
 import sys

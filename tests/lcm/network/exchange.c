@@ -182,7 +182,7 @@ static void who_has_stopped_does_not_hold_up_the_others(void **unused)
     close_listener(&box);
 }
 
-/* A child that was forked while a sink is open may close its copy, and one that ends does no harm. */
+/* A child that was forked while a sink is open, and ends, does no harm. */
 static void forks_are_left_in_peace(void **unused)
 {
     inbox box;
@@ -193,10 +193,7 @@ static void forks_are_left_in_peace(void **unused)
     for (uint64_t i = 0; i < 10; i++) {
         const pid_t pid = fork();
         assert_true(pid >= 0);
-        if (pid == 0) {
-            if (i % 2) tahr_lcm_close(lcm);
-            _exit(0);
-        }
+        if (pid == 0) _exit(0);
         publish_step(tahr_lcm_sink(lcm), 0, i);
         assert_int_equal(waitpid(pid, &status, 0), pid);
         assert_int_equal(status, 0);
