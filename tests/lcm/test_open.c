@@ -85,6 +85,7 @@ static void wrong_urls_are_refused_and_named(void **unused)
         {"udpm2://", TAHR_E_UNSUPPORTED, "unknown scheme 'udpm2'"},
         {"://", TAHR_E_UNSUPPORTED, "unknown scheme ''"},
         {"udpm://127.0.0.1:7667", TAHR_E_ARGUMENT, "'127.0.0.1' is no multicast group"},
+        {"udpm://223.255.255.255", TAHR_E_ARGUMENT, "'223.255.255.255' is no multicast group"},
         {"udpm://240.0.0.1", TAHR_E_ARGUMENT, "'240.0.0.1' is no multicast group"},
         {"udpm://239.255.76", TAHR_E_ARGUMENT, "'239.255.76' is no multicast group"},
         {"udpm://239.255.76.67.89.123.45", TAHR_E_ARGUMENT, "is no multicast group"},
