@@ -119,11 +119,25 @@ if [ -e "$prefix/$LIBDIR/libtahr_threads.a" ]; then
     echo "install: telemetry tells: $(printf '%s\n' "$told" | tail -n 1)"
 fi
 
+# The sink on LCM: the same, with the example that listens to itself; the types of the messages for C and for Python.
+if [ -e "$prefix/$LIBDIR/libtahr_lcm.a" ]; then
+    # shellcheck disable=SC2046
+    ${CC:-cc} -std=c11 tests/examples/telemetry_lcm.c $(pc_static tahr_lcm) -o "$folder/telemetry"
+    heard=$("$folder/telemetry")
+    echo "install: telemetry is heard over LCM: $(printf '%s\n' "$heard" | tail -n 1)"
+    for type in backends/lcm/types/*.lcm; do
+        name=$(basename "$type" .lcm)
+        cmp "$type" "$prefix/share/tahr/lcm/$name.lcm" && [ -e "$prefix/include/tahr_lcm/tahr_$name.h" ] &&
+            [ -e "$prefix/share/tahr/lcm/python/tahr/$name.py" ] ||
+            { echo "install: the type $name is not there for everybody"; exit 1; }
+    done
+fi
+
 # find_package: every exported target, in a project without C++ and in one with it; the backends beside the library, all
 # static, all shared, and mixed, whose shared code must not clash.
 cp -r tests/install/project "$folder/project"
 cp "$folder/program.c" "$folder/project/program.c"
-cp tests/examples/crowd.c tests/examples/telemetry.c "$folder/project"
+cp tests/examples/crowd.c tests/examples/telemetry.c tests/examples/telemetry_lcm.c "$folder/project"
 [ ! "$with_cxx" ] || cp "$folder/program.cpp" "$folder/project/program.cpp"
 for cxx in OFF $with_cxx; do
     made=$folder/project/build_$cxx
@@ -143,6 +157,9 @@ for cxx in OFF $with_cxx; do
             [ "$("$made/telemetry_$kind")" = "$told" ] ||
                 { echo "install: the telemetry by find_package, on $kind, tells something else"; exit 1; }
         done
+    fi
+    if [ -e "$prefix/$LIBDIR/libtahr_lcm.a" ]; then
+        [ "$("$made/telemetry")" = "$heard" ] || { echo "install: other telemetry by find_package"; exit 1; }
     fi
 done
 
