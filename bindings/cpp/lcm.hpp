@@ -32,7 +32,8 @@ inline tahr_lcm_desc make_lcm_desc() noexcept
     return desc;
 }
 
-/* Owns a tahr_lcm; a telemetry on it keeps it open. Moves, does not copy. For tahr::telemetry::create as it is. */
+/* Owns a tahr_lcm. Moves, does not copy. For tahr::telemetry::create as it is: of one telemetry at a time, which keeps it
+ * open. */
 class lcm
 {
   public:
