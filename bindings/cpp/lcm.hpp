@@ -32,8 +32,8 @@ inline tahr_lcm_desc make_lcm_desc() noexcept
     return desc;
 }
 
-/* Owns a tahr_lcm. Moves, does not copy. For tahr::telemetry::create as it is: of one telemetry at a time, which keeps it
- * open. */
+/* Owns a tahr_lcm. Moves, does not copy. For tahr::telemetry::create as it is: of one telemetry at a time, which keeps
+ * it open. */
 class lcm
 {
   public:
@@ -56,7 +56,7 @@ class lcm
         if (!s) return s;
         return {s, std::move(opened)};
     }
-    /* "udpm://239.255.76.67:7667?ttl=0", "file://run.lcmlog"; NULL: LCM_DEFAULT_URL of the environment, or LCM's own. */
+    /* "udpm://239.255.76.67:7667?ttl=0", "file://run.lcmlog"; NULL: LCM_DEFAULT_URL of the environment, or udpm://. */
     static result<lcm> open(const char *url = nullptr) noexcept
     {
         tahr_lcm_desc desc = make_lcm_desc();
