@@ -176,8 +176,9 @@ template <class Call> tahr_status guarded(Call call) noexcept
 #endif
 }
 
-/* calls<E>: E has a member of that name that takes these arguments. names<E>: it has one member of that name. */
-#define TAHR_CPP_MEMBER(member, ...)                                                                            \
+/* calls<E>: E has a member of that name that takes these arguments, as the file named says. names<E>: it has one member
+ * of that name. */
+#define TAHR_CPP_MEMBER(file, member, ...)                                                                      \
     template <class E, class = void> struct calls_##member : std::false_type {                                  \
     };                                                                                                          \
     template <class E>                                                                                          \
@@ -190,16 +191,16 @@ template <class Call> tahr_status guarded(Call call) noexcept
     template <class E> constexpr bool has_##member() noexcept                                                   \
     {                                                                                                           \
         static_assert(calls_##member<E>::value || !names_##member<E>::value,                                    \
-                      "this engine's " #member " does not take the arguments that callbacks.hpp says");         \
+                      "this object's " #member " does not take the arguments that " file " says");              \
         return calls_##member<E>::value;                                                                        \
     }
-TAHR_CPP_MEMBER(sweep, std::declval<const tahr_sweep &>(), std::declval<tahr_hit &>())
-TAHR_CPP_MEMBER(contacts, std::declval<const tahr_contact_query &>(), std::declval<answers<tahr_contact> &>())
-TAHR_CPP_MEMBER(ray, std::declval<const tahr_ray &>(), std::declval<tahr_hit &>())
-TAHR_CPP_MEMBER(sensors, std::declval<const tahr_sweep &>(), std::declval<answers<tahr_hit> &>())
-TAHR_CPP_MEMBER(body, std::uint32_t{}, std::declval<tahr_body_motion &>())
-TAHR_CPP_MEMBER(fluid, std::declval<const tahr_fluid_query &>(), std::declval<tahr_fluid &>())
-#undef TAHR_CPP_MEMBER
+TAHR_CPP_MEMBER("callbacks.hpp", sweep, std::declval<const tahr_sweep &>(), std::declval<tahr_hit &>())
+TAHR_CPP_MEMBER("callbacks.hpp", contacts, std::declval<const tahr_contact_query &>(),
+                std::declval<answers<tahr_contact> &>())
+TAHR_CPP_MEMBER("callbacks.hpp", ray, std::declval<const tahr_ray &>(), std::declval<tahr_hit &>())
+TAHR_CPP_MEMBER("callbacks.hpp", sensors, std::declval<const tahr_sweep &>(), std::declval<answers<tahr_hit> &>())
+TAHR_CPP_MEMBER("callbacks.hpp", body, std::uint32_t{}, std::declval<tahr_body_motion &>())
+TAHR_CPP_MEMBER("callbacks.hpp", fluid, std::declval<const tahr_fluid_query &>(), std::declval<tahr_fluid &>())
 
 /* The functions that the library calls, with an E behind user. */
 template <class E> struct trampoline {

@@ -145,6 +145,11 @@ class mover
         if (s) mode_ = {};
         return s;
     }
+    /* Whether it was given one, by this class. */
+    bool has_custom_mode() const noexcept
+    {
+        return static_cast<bool>(mode_);
+    }
 
   private:
     template <class Function>

@@ -94,7 +94,7 @@ template <class T, class... Arguments> ref<T> make(const tahr_allocator *from, A
 {
     static_assert(alignof(T) <= 64, "a tahr_allocator is asked for alignments of up to 64");
     static_assert(std::is_nothrow_constructible_v<T, Arguments &&...>,
-                  "what a world keeps must move without throwing: hand over a pointer to it instead");
+                  "what is kept here must move without throwing: hand over a pointer to it instead");
     const tahr_allocator allocator =
         from && from->alloc && from->free ? *from : tahr_allocator{nullptr, new_memory, delete_memory};
     void *memory = allocator.alloc(allocator.user, sizeof(T), alignof(T));
@@ -111,6 +111,23 @@ template <class T> struct kept : shared {
     {
     }
     T value;
+};
+
+/* What has a log: errors are kept for the call that they end, everything goes on to the user's log. */
+struct logged : shared {
+    tahr_log users{};
+    tahr_log log() noexcept
+    {
+        return {this, write};
+    }
+
+  private:
+    static void write(void *user, std::int32_t level, const char *message) noexcept
+    {
+        const tahr_log &users = static_cast<logged *>(user)->users;
+        if (level == TAHR_LOG_ERROR) say(message);
+        if (users.write) users.write(users.user, level, message);
+    }
 };
 
 inline status no_memory(const char *function) noexcept

@@ -19,21 +19,13 @@ namespace detail
 
 /* What a world and its movers own together. It is closed when the last of them is gone, and what it was opened on
  * after it. */
-struct world_block : shared {
+struct world_block : logged {
     ref<shared> below; /* engine, plugin, or function that gathers */
-    tahr_log log{};    /* the user's */
     tahr_world *world = nullptr;
     const void *recorder = nullptr; /* whoever of this binding watches it */
     ~world_block()
     {
         tahr_world_close(world);
-    }
-    /* The world's log: errors are kept for the call that they end. */
-    static void write(void *user, std::int32_t level, const char *message) noexcept
-    {
-        const tahr_log &log = static_cast<world_block *>(user)->log;
-        if (level == TAHR_LOG_ERROR) say(message);
-        if (log.write) log.write(log.user, level, message);
     }
 };
 
@@ -254,8 +246,8 @@ class world
         if (!opened.block_) return detail::no_memory("tahr::world::open");
         detail::world_block &block = *opened.block_.get();
         block.below = std::move(below);
-        if (desc.log) block.log = *desc.log;
-        const tahr_log log = {&block, detail::world_block::write};
+        if (desc.log) block.users = *desc.log;
+        const tahr_log log = block.log();
         tahr_world_desc logged = desc;
         logged.log = &log;
         status s = opener(logged, &block.world);

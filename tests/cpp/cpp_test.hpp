@@ -141,4 +141,22 @@ struct counted {
     }
 };
 
+/* Counts blocks, and gives no more of them than it may. */
+struct budget {
+    int left, taken = 0;
+    static void *alloc(void *user, size_t size, size_t alignment) noexcept
+    {
+        budget &b = *static_cast<budget *>(user);
+        if (b.left == 0) return nullptr;
+        b.left--;
+        b.taken++;
+        return ::operator new(size, std::align_val_t(alignment));
+    }
+    static void free(void *user, void *memory, size_t, size_t alignment) noexcept
+    {
+        static_cast<budget *>(user)->taken--;
+        ::operator delete(memory, std::align_val_t(alignment));
+    }
+};
+
 #endif

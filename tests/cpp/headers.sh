@@ -34,15 +34,18 @@ for compiler in "$CXX" $other; do
 done
 
 # Both files use everything; one of them may be without exceptions.
-flags=
+flags= threads= libraries=
+if [ -e "$BUILD/lib/libtahr_threads.a" ]; then
+    threads=-DTAHR_HAVE_THREADS libraries="$BUILD/lib/libtahr_threads.a -pthread"
+fi
 if nm "$BUILD/lib/libtahr.a" | grep -q '__asan_'; then flags=-fsanitize=address,undefined; fi
 # shellcheck disable=SC2086
-"$CXX" -std=c++17 $warnings $flags $include -DONE -c tests/cpp/two_files.cpp -o "$folder/one.o"
+"$CXX" -std=c++17 $warnings $flags $include $threads -DONE -c tests/cpp/two_files.cpp -o "$folder/one.o"
 for kind in "" -fno-exceptions; do
     # shellcheck disable=SC2086
-    "$CXX" -std=c++17 $kind $warnings $flags $include -DTWO -c tests/cpp/two_files.cpp -o "$folder/two.o"
+    "$CXX" -std=c++17 $kind $warnings $flags $include $threads -DTWO -c tests/cpp/two_files.cpp -o "$folder/two.o"
     # shellcheck disable=SC2086
-    "$CXX" $flags "$folder/one.o" "$folder/two.o" "$BUILD/lib/libtahr.a" -lm -ldl -o "$folder/program"
+    "$CXX" $flags "$folder/one.o" "$folder/two.o" $libraries "$BUILD/lib/libtahr.a" -lm -ldl -o "$folder/program"
     "$folder/program"
 done
 echo "headers: no warning, no symbol, and two files link"

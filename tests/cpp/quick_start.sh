@@ -1,6 +1,7 @@
 #!/bin/sh
 # quick_start.sh: the C++ blocks of bindings/cpp/README.md: each is a program, compiled as it stands, and run; the first
-# is the quick start, whose output the README shows. Usage: quick_start.sh FOLDER, that of <tahr/tahr.hpp>
+# is the quick start, whose output the README shows. Those with telemetry.hpp need libtahr_threads. Usage:
+# quick_start.sh FOLDER, that of <tahr/tahr.hpp>
 set -eu
 readme=bindings/cpp/README.md
 folder=$(mktemp -d)
@@ -11,9 +12,18 @@ block=1
 while :; do
     awk -v code=cpp -v block=$block -f tests/support/quick_start.awk $readme >"$folder/block_$block.cpp"
     [ -s "$folder/block_$block.cpp" ] || break
+    libraries=
+    if grep -q '<tahr/telemetry.hpp>' "$folder/block_$block.cpp"; then
+        libraries="$BUILD/lib/libtahr_threads.a -pthread"
+        if [ ! -e "$BUILD/lib/libtahr_threads.a" ]; then
+            echo "quick start: block $block is left out: libtahr_threads is not built"
+            block=$((block + 1))
+            continue
+        fi
+    fi
     # shellcheck disable=SC2086
     "${CXX:-c++}" -std=c++17 -Wall -Wextra -Wpedantic -Werror $flags -I"$1" -Iinclude "$folder/block_$block.cpp" \
-        "$BUILD/lib/libtahr.a" -lm -ldl -o "$folder/program"
+        $libraries "$BUILD/lib/libtahr.a" -lm -ldl -o "$folder/program"
     "$folder/program" >"$folder/out"
     if [ $block = 1 ]; then README=$readme CODE=cpp sh tests/support/quick_start_check.sh <"$folder/out"; fi
     cat "$folder/out"

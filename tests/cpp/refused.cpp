@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <tahr/tahr.hpp>
+#include <tahr/telemetry.hpp>
 
 struct engine {
     void sweep(const tahr_sweep &, tahr_hit &)
@@ -15,6 +16,17 @@ struct engine {
 #endif
 };
 
+struct sink {
+    void state(const tahr_stamp &, const tahr_state &)
+    {
+    }
+#if MISTAKE == 8 /* nobody would ever call it */
+    void event(const tahr_event &)
+    {
+    }
+#endif
+};
+
 int main()
 {
     tahr::world world = tahr::world::open(engine{}).value();
@@ -22,6 +34,7 @@ int main()
     const std::vector<double> vertices(9);
     tahr_body_desc body = tahr::mesh_body(vertices, corners).value();
     world.touch().value();
+    tahr::telemetry telemetry = tahr::telemetry::create(tahr::make_telemetry_desc(), sink{}).value();
 #if MISTAKE == 2 /* true would be TAHR_TRUNCATED */
     tahr::world other = tahr::world::open([](const tahr_sweep &, tahr_hit &) { return true; }).value();
 #elif MISTAKE == 3 /* the vertices are gone before a world is opened */
@@ -34,6 +47,11 @@ int main()
     body = tahr::mesh_body(vertices, std::vector<int>{0, 1, 2}).value();
 #elif MISTAKE == 7
     tahr::world other = tahr::world::open(tahr::gathering([](const tahr_bounds &) {})).value();
+#elif MISTAKE == 9 /* false would be TAHR_OK */
+    auto hear = [](const tahr_stamp &, const tahr_state &) { return false; };
+    telemetry = tahr::telemetry::create(tahr::make_telemetry_desc(), hear).value();
+#elif MISTAKE == 10
+    telemetry = tahr::telemetry::create(tahr::make_telemetry_desc(), [](int) {}).value();
 #endif
     return static_cast<int>(body.vertex_count) - 3;
 }

@@ -22,5 +22,8 @@ deleted|a copy of a world
 unused-result|a status that is dropped
 view|a mesh of signed indices
 what gathers takes|a function that gathers without a place to put things
+event does not take the arguments that sink.hpp says|a sink whose event lacks the stamp
+tahr_status, tahr::status or nothing, no bool|a sink that returns bool
+no matching function|a sink that no message fits
 END
 echo "refused: $number mistakes"

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT
  * two_files.cpp: one program of two files, this one compiled as ONE and as TWO; both use what the headers define. */
 #include <tahr/tahr.hpp>
+#ifdef TAHR_HAVE_THREADS
+#include <tahr/telemetry.hpp>
+#endif
 
 namespace
 {
@@ -31,6 +34,26 @@ bool walks()
     return failed && x > 1 && crowd.step(1.0 / 60, {&input, 1}, {&state, 1}).ok() && state.position.x > x;
 }
 
+#ifdef TAHR_HAVE_THREADS
+bool tells()
+{
+    int states = 0;
+    const tahr_config config = tahr::make_config().value();
+    tahr::world world = tahr::world::open([](const tahr_sweep &, tahr_hit &) {}).value();
+    tahr::mover mover = tahr::mover::create(world, config).value();
+    tahr_state state = tahr::make_state(config, {0, 0, 1}).value();
+    auto count = [&states](const tahr_stamp &, const tahr_state &) { states++; };
+    tahr::telemetry telemetry = tahr::telemetry::create(world, {&config, 1}, 1, count).value();
+    telemetry.step({}, mover, tahr::make_input(), 1.0 / 60, state).value();
+    return telemetry.stop().value() == TAHR_OK && states == 1;
+}
+#else
+bool tells()
+{
+    return true;
+}
+#endif
+
 } // namespace
 
 #ifdef ONE
@@ -38,13 +61,13 @@ bool other_walks();
 
 int main()
 {
-    return walks() && other_walks() ? 0 : 1;
+    return walks() && tells() && other_walks() ? 0 : 1;
 }
 #else
 bool other_walks();
 
 bool other_walks()
 {
-    return walks();
+    return walks() && tells();
 }
 #endif
