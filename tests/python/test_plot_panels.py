@@ -253,11 +253,32 @@ def test_the_relief_shows_the_nearest_of_two_floors_and_the_edge_of_a_drop():
     assert np.array_equal(image, same)
 
 
+TWO_FLOORS = [[0, 0, 0], [2, 0, 0], [2, 4, 0], [0, 4, 0], [2, 0, 2], [4, 0, 2], [4, 4, 2], [2, 4, 2]]
+UP = [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]
+
+
 def test_ceilings_do_not_hide_floors():
-    floor = [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]]
-    ceiling = [[x, y, 3] for x, y, _ in floor]
-    room = relief(floor + ceiling, [[0, 1, 2], [0, 2, 3], [6, 5, 4], [7, 6, 4]])
-    assert np.array_equal(room, relief(floor, [[0, 1, 2], [0, 2, 3]]))
+    ceiling = [[0, 0, 3], [4, 0, 3], [4, 4, 3], [0, 4, 3]]
+    room = relief(TWO_FLOORS + ceiling, [*UP, [10, 9, 8], [11, 10, 8]])
+    assert np.array_equal(room, relief(TWO_FLOORS, UP))
+
+
+def test_faces_that_look_away_are_ground_where_nothing_else_is():
+    down = [triangle[::-1] for triangle in UP]
+    assert np.array_equal(relief(TWO_FLOORS, down), relief(TWO_FLOORS, UP))
+
+
+def test_from_the_south_only_what_is_beside_the_ways_is_seen(log):
+    def wall(y):
+        return [[-9, y, 0], [9, y, 0], [9, y, 3]]
+
+    middle = log.states["position"][:, 1].mean()
+    walls = np.array([wall(-30), wall(middle), wall(30)], float)
+    assert np.array_equal(_scene._beside(walls, log.states), walls[1:2])
+    behind = _scene.level_behind(walls[1:2], _relief.SOUTH, log.states)
+    assert (behind.image[..., 3] == 255).mean() > 0.3
+    away = _scene.level_behind(walls[1:2, ::-1], _relief.SOUTH, log.states)
+    assert (away.image[..., 3] == 255).mean() < 0.1
 
 
 def test_the_level_lies_where_it_is(log, ax):

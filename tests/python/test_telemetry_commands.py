@@ -63,11 +63,16 @@ def test_plot_writes_a_picture(capsys, log, level, tmp_path, kind):
     assert path.read_bytes().startswith(begin)
 
 
-def test_plot_shows_the_last_of_several_runs_and_says_so(capsys, tmp_path):
+def test_plot_shows_the_last_of_several_runs_and_says_so(capsys, tmp_path, monkeypatch):
+    import tahr.plot
+
+    drawn, overview = [], tahr.plot.overview
+    monkeypatch.setattr(tahr.plot, "overview", lambda log, *rest: drawn.append(log) or overview(log, *rest))
     told = walk(characters=1, steps=20)
     path = write(tmp_path / "two.lcmlog", [*told, (CHANNELS["world"], world_message(run=7)), *told[1:]])
     code, _, err = run(capsys, "plot", path, "-o", tmp_path / "two.png", "--dpi", 50)
     assert code == 0 and "holds 2 runs; this is the last one" in err
+    assert drawn[0].worlds["run"].tolist() == [7] and len(drawn[0].states) == 20
 
 
 def test_watch_draws_what_it_hears(capsys, log, level, tmp_path):
