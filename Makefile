@@ -131,7 +131,7 @@ clean:
 
 format:
 	@command -v clang-format >/dev/null || { echo "format: clang-format is not installed"; exit 1; }
-	clang-format -i $$(find include src backends bindings tests fuzz -name '*.[ch]' -o -name '*.cpp' 2>/dev/null)
+	clang-format -i $$(find include src backends bindings tests fuzz -name '*.[ch]' -o -name '*.[ch]pp' 2>/dev/null)
 
 help:
 	@echo "make              build the library and the shell into $(BUILD)/"

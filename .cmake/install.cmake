@@ -1,5 +1,5 @@
 # Installs the headers, tahr.pc and the package files for find_package(tahr).
-install(FILES ${public_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tahr)
+install(FILES ${public_headers} ${cpp_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tahr)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # Paths in tahr.pc are relative to the file, so that an installed tree can be moved as a whole.
@@ -43,13 +43,20 @@ foreach(backend ${backends})
     tahr_pc(tahr_${backend} "Backend ${backend} of tahr" tahr "${private} ${pc_libm}")
 endforeach()
 
+# Archives alone: who links one needs what it needs.
+set(shared ${TAHR_SHARED})
+set(TAHR_SHARED OFF)
 if(with_threads)
-    # An archive alone: who links it needs what it needs.
-    set(shared ${TAHR_SHARED})
-    set(TAHR_SHARED OFF)
-    tahr_pc(tahr_threads "Pool of threads for the crowds of tahr" tahr "-pthread")
-    set(TAHR_SHARED ${shared})
+    tahr_pc(tahr_threads "Pool of threads for the crowds of tahr, and telemetry" tahr "-pthread")
 endif()
+if(with_lcm)
+    tahr_pc(tahr_lcm "Telemetry of tahr over LCM" "tahr_threads tahr" "-llcm")
+    set(lcm_data_dir ${CMAKE_INSTALL_DATADIR}/tahr/lcm)
+    install(FILES ${lcm_type_headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tahr_lcm)
+    install(FILES ${lcm_types} DESTINATION ${lcm_data_dir})
+    install(FILES ${lcm_type_modules} DESTINATION ${lcm_data_dir}/python/tahr)
+endif()
+set(TAHR_SHARED ${shared})
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tahr)
 configure_package_config_file(.cmake/tahr-config.cmake.in tahr-config.cmake INSTALL_DESTINATION ${package_dir})
@@ -60,6 +67,9 @@ install(FILES ${PROJECT_BINARY_DIR}/tahr-config.cmake ${PROJECT_BINARY_DIR}/tahr
 install(EXPORT tahr-targets NAMESPACE tahr:: DESTINATION ${package_dir})
 if(with_threads)
     install(EXPORT tahr-threads-targets NAMESPACE tahr:: DESTINATION ${package_dir})
+endif()
+if(with_lcm)
+    install(EXPORT tahr-lcm-targets NAMESPACE tahr:: DESTINATION ${package_dir})
 endif()
 foreach(backend ${backends})
     install(EXPORT tahr-${backend}-targets NAMESPACE tahr:: DESTINATION ${package_dir})

@@ -1,6 +1,6 @@
-# The pool of threads: libtahr_threads.a, which needs no other part of Tahr. A static library alone: who brings a
-# scheduler of his own needs none.
-set(TAHR_THREADS AUTO CACHE STRING "The pool of threads, libtahr_threads (pthreads): AUTO, ON, OFF")
+# The pool of threads, and telemetry: libtahr_threads.a. A static library alone: who brings a scheduler of his own needs
+# none. The pool needs no other part of Tahr; telemetry needs libtahr, shared or not: its user names both.
+set(TAHR_THREADS AUTO CACHE STRING "The pool of threads and telemetry, libtahr_threads (pthreads): AUTO, ON, OFF")
 set(found OFF)
 find_package(Threads QUIET)
 if(CMAKE_USE_PTHREADS_INIT)
@@ -8,7 +8,8 @@ if(CMAKE_USE_PTHREADS_INIT)
 endif()
 tahr_decide(TAHR_THREADS ${found} "there are no POSIX threads" with_threads)
 if(with_threads)
-    add_library(tahr_threads_core OBJECT backends/threads/threads.c)
+    file(GLOB threads_sources CONFIGURE_DEPENDS backends/threads/*.c)
+    add_library(tahr_threads_core OBJECT ${threads_sources})
     tahr_defaults(tahr_threads_core)
     target_include_directories(tahr_threads_core PRIVATE include)
     target_compile_definitions(tahr_threads_core PRIVATE TAHR_BUILD _POSIX_C_SOURCE=200809L)

@@ -4,7 +4,7 @@
 #   src/         include/ and src/, libc; plugin_file.c also <sys/stat.h> and <link.h>
 #   backends/X/  include/, backends/common/ and X's own third party; never src/, never another backend
 #   bindings/, fuzz/, tests/: include/, their own folder and tests/support/; tests/unit also src/, backends/ and
-#   tests/bench/, tests/cli and fuzz also bindings/cli/
+#   tests/bench/, tests/cli and fuzz also bindings/cli/; bindings/cpp/ of C++ a few small headers, its tests its headers
 set -eu
 
 libc='assert|ctype|dlfcn|errno|fenv|float|inttypes|limits|math|stdalign|stdarg|stdatomic|stdbool|stddef|stdint|stdio|stdlib|string'
@@ -22,7 +22,7 @@ includes() {
 # rule NAME FOLDER PATTERN: every include in the C files below FOLDER matches the extended regular expression.
 rule() {
     [ -d "$2" ] || return 0
-    files=$(find "$2" -name '*.[ch]' -o -name '*.cpp' | sort)
+    files=$(find "$2" -name '*.[ch]' -o -name '*.[ch]pp' | sort)
     [ -n "$files" ] || return 0
     # shellcheck disable=SC2086
     bad=$(includes $files | grep -vE ":($3)\$" || true)
@@ -36,7 +36,7 @@ resolve() {
     folder=$1
     shift
     [ -d "$folder" ] || return 0
-    files=$(find "$folder" -name '*.[ch]' -o -name '*.cpp' | sort)
+    files=$(find "$folder" -name '*.[ch]' -o -name '*.[ch]pp' | sort)
     [ -n "$files" ] || return 0
     # shellcheck disable=SC2086
     includes $files | grep ':"' | while IFS=: read -r file line name; do
@@ -67,19 +67,30 @@ for backend in backends/*/; do
     ccd) third='|<ccd/[a-z0-9_]+\.h>' ;;
     fcl) third='|<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>' ;;
     box2d) third='|<box2d/[a-z0-9_]+\.h>|<[a-z_]+>' ;;
-    threads) third='|<(pthread|unistd)\.h>' ;;
+    threads) third='|<(pthread|signal|time|unistd)\.h>' ;;
+    lcm) third='|<(lcm|tahr_lcm)/[a-z0-9_]+\.h>|<((arpa|netinet|sys)/[a-z]+|time|unistd)\.h>' ;;
     native | common) third='|<[ei]mmintrin\.h>' ;; # the processor's own vectors
     *) third= ;;
     esac
     check "backends/$name" "backends/$name" \
         "<($libc)\\.h>|<tahr/[a-z0-9_]+\\.h>|\"((\\.\\./)?common/)?[a-z0-9_]+\\.h\"$third"
 done
-check "bindings/" bindings "<(tahr/)?[a-z0-9_/-]+\\.h>|$own"
+for binding in bindings/*/; do
+    name=$(basename "$binding")
+    case $name in
+    cpp) # of C++ what is quickly read
+        pattern='<(atomic|cstddef|cstdint|cstdio|cstdlib|cstring|exception|new|stdexcept|type_traits|utility)>'
+        pattern="$pattern|<tahr/[a-z0-9_]+\\.h>|\"[a-z_]+\\.hpp\"" ;;
+    *) pattern="<(tahr/)?[a-z0-9_/-]+\\.h>|$own" ;;
+    esac
+    check "bindings/$name" "bindings/$name" "$pattern"
+done
 check "fuzz/" fuzz "<(tahr/)?[a-z0-9_/-]+\\.h>|\"(\\.\\./(tests/support|bindings/cli)/)?[a-z0-9_]+\\.h\""
 for folder in tests/*/; do
     name=$(basename "$folder")
     case $name in
-    examples) pattern='"[a-z0-9_]+\.h"|<bt[A-Za-z]+\.h>' ;; # programs of users of other engines
+    cpp) pattern='<tahr/[a-z]+\.hpp>|"cpp_test\.hpp"' ;;
+    examples) pattern='"[a-z0-9_]+\.h"|<bt[A-Za-z]+\.h>|<tahr/[a-z]+\.hpp>' ;; # programs of users of other engines
     bench) # peers/ are users of other engines
         pattern='"((\.\./)?support/)?[a-z0-9_]+\.h"|<(bt[A-Z]|Bullet|Jolt/)[A-Za-z/]*\.h>' ;;
     unit) pattern='"[a-z0-9_/.]+\.(h|inc)"' ;;

@@ -34,7 +34,7 @@ exported=$(nm -D --defined-only "$library" | awk '{ print $NF }' | grep -vE '^_(
 report "exported, but in no public header" "$(printf '%s\n' "$exported" | grep -vxF "$declarations" || true)"
 # The entries of other backends, and what belongs to one of them, are in libraries of their own.
 report "declared, but not exported" "$(printf '%s\n' "$declarations" | grep -vxF "$exported" |
-    grep -vE '^tahr_(backend_v1|trace|threads)_' || true)"
+    grep -vE '^tahr_((backend_v1|trace|threads|telemetry|lcm)_|message_name$)' || true)"
 
 for plugin in "$BUILD"/lib/libtahr_*.so; do
     [ -e "$plugin" ] || continue

@@ -52,7 +52,8 @@ extern "C" {
     X(TAHR_E_FLOAT_MODE, -9, "float_mode", "the floating-point environment contracts, flushes or rounds differently") \
     X(TAHR_E_GEOMETRY, -10, "geometry", "a mesh or shape is malformed")                                               \
     X(TAHR_E_NOT_FOUND, -11, "not_found", "no such body, file or backend")                                            \
-    X(TAHR_E_FILE, -12, "file", "a file cannot be written or read, or is not what it should be")
+    X(TAHR_E_FILE, -12, "file", "a file cannot be written or read, or is not what it should be")                      \
+    X(TAHR_E_TIMEOUT, -13, "timeout", "something did not end in the time given")
 
 typedef int32_t tahr_status;
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh: installs into an empty folder, moves it elsewhere, and uses it there as a stranger would: the README's quick
-# start and every backend, by hand with pkg-config (shared and static), in a CMake project with find_package(tahr) (with
-# and without C++), and as plugins. BUILD is the build.
+# start, in C and in C++, and every backend, by hand with pkg-config (shared and static), in a CMake project with
+# find_package(tahr) (with and without C++), and as plugins. BUILD is the build.
 set -eu
 root=$PWD
 folder=$(mktemp -d)
@@ -10,8 +10,8 @@ trap 'rm -rf "$folder"' EXIT
 cmake --install "$BUILD" --prefix "$folder/first" >/dev/null
 mv "$folder/first" "$folder/prefix"
 prefix=$folder/prefix
-for header in include/tahr/*.h; do
-    cmp "$header" "$prefix/$header" || { echo "install: $header is missing or differs"; exit 1; }
+for header in include/tahr/*.h bindings/cpp/*.hpp; do
+    cmp "$header" "$prefix/include/tahr/${header##*/}" || { echo "install: $header is missing or differs"; exit 1; }
 done
 if grep -rlF "$root" "$prefix/lib"*/pkgconfig "$prefix"/lib*/*/pkgconfig "$prefix"/lib*/cmake 2>/dev/null; then
     echo "install: these files name the folder of the sources"
@@ -96,6 +96,17 @@ if [ -e "$prefix/$LIBDIR/libtahr.so" ]; then
     echo "install: every plugin loads by its path"
 fi
 
+# The C++ headers, which come with the library, and the quick start of their README.
+with_cxx=
+if command -v "${CXX:-c++}" >/dev/null 2>&1; then
+    with_cxx=ON
+    awk -v code=cpp -f tests/support/quick_start.awk bindings/cpp/README.md >"$folder/program.cpp"
+    # shellcheck disable=SC2046
+    "${CXX:-c++}" -std=c++17 "$folder/program.cpp" $(pc_static tahr) -o "$folder/cpp_static"
+    cpp_checker="env README=bindings/cpp/README.md CODE=cpp sh tests/support/quick_start_check.sh"
+    "$folder/cpp_static" | $cpp_checker
+fi
+
 # The pool of threads, by pkg-config, with the example that a new user would begin with.
 if [ -e "$prefix/$LIBDIR/libtahr_threads.a" ]; then
     # shellcheck disable=SC2046
@@ -109,8 +120,7 @@ fi
 cp -r tests/install/project "$folder/project"
 cp "$folder/program.c" "$folder/project/program.c"
 cp tests/examples/crowd.c "$folder/project/crowd.c"
-with_cxx=
-if command -v "${CXX:-c++}" >/dev/null 2>&1; then with_cxx=ON; fi
+[ ! "$with_cxx" ] || cp "$folder/program.cpp" "$folder/project/program.cpp"
 for cxx in OFF $with_cxx; do
     made=$folder/project/build_$cxx
     cmake -S "$folder/project" -B "$made" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="${CC:-cc}" \
@@ -121,6 +131,7 @@ for cxx in OFF $with_cxx; do
     done
     for kind in tahr tahr_static; do
         "$made/program_$kind" | $checker
+        [ $cxx = OFF ] || "$made/program_cpp_$kind" | $cpp_checker
     done
     if [ -e "$prefix/$LIBDIR/libtahr_threads.a" ]; then
         [ "$("$made/crowd")" = "$meet" ] || { echo "install: the crowd by find_package goes elsewhere"; exit 1; }

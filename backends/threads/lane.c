@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: MIT
+ * lane.c: what a thread that steps does: it compares the state with the one that it last wrote, and writes what is
+ * different. A record that is left out leaves those words standing, so that the next one has them too. */
+#include "lane.h"
+
+#include "record.h"
+#include "telemetry.h"
+#include "words.h"
+
+_Static_assert(sizeof(tahr_input) % 8 == 0 && sizeof(tahr_report) % 8 == 0, "they are packed by words");
+
+/* Longest step that any config allows (config.h: max_dt). */
+static const double LONGEST_DT = 10;
+
+static uint32_t bit(uint32_t message)
+{
+    return 1u << message;
+}
+
+/* The character, if the lane may step it; else NULL. */
+static tahr__character *claim(tahr_telemetry *t, uint32_t lane, uint32_t character)
+{
+    if (lane >= t->lane_count || character >= t->character_count) return NULL;
+    tahr__character *c = &t->characters[character];
+    const uint32_t owner = atomic_load_explicit(&c->lane, memory_order_relaxed);
+    if (owner == 0) atomic_store_explicit(&c->lane, lane + 1, memory_order_relaxed);
+    return owner == 0 || owner == lane + 1 ? c : NULL;
+}
+
+static tahr_stamp stamp_of(tahr_telemetry *t, const tahr__character *c)
+{
+    return (tahr_stamp){.config = c->config,
+                        .step = c->step,
+                        .sequence = c->sequence[TAHR_MESSAGE_STATE],
+                        .epoch = atomic_load_explicit(&t->epoch, memory_order_relaxed),
+                        .time_ns = c->time_ns};
+}
+
+static tahr_status push_snapshot(tahr_telemetry *t, tahr__lane *l, tahr__character *c, const tahr_state *state)
+{
+    const tahr_stamp stamp = stamp_of(t, c);
+    const uint32_t fixed = sizeof(tahr__record_snapshot) / 8;
+    const uint64_t sequence = c->sequence[TAHR_MESSAGE_SNAPSHOT]++;
+    uint64_t *words = tahr__ring_reserve(&l->ring, fixed + TAHR__PACKED_STATE);
+    tahr__tally_add(&l->offered, TAHR_MESSAGE_SNAPSHOT, 1);
+    c->snapshot = words == NULL;
+    if (!words) {
+        tahr__tally_add(&l->dropped, TAHR_MESSAGE_SNAPSHOT, 1);
+        return TAHR_TRUNCATED;
+    }
+    const uint64_t *end = tahr__words_pack(words + fixed, state, c->standing);
+    *(tahr__record_snapshot *)(void *)words =
+        (tahr__record_snapshot){.head = {(uint64_t)(end - words), stamp.epoch, TAHR__RECORD_SNAPSHOT, 0},
+                                .character = (uint32_t)(c - t->characters),
+                                .config = c->config,
+                                .step = c->step,
+                                .sequence = sequence,
+                                .time_ns = c->time_ns};
+    c->standing = 0;
+    c->snapshot_ns = c->time_ns + t->snapshot_ns;
+    tahr__ring_commit(&l->ring, (uint64_t)(end - words));
+    return TAHR_OK;
+}
+
+tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t character, uint32_t config,
+                                 const tahr_state *state)
+{
+    if (!t || !state) return TAHR_E_NULL;
+    if (config >= t->config_count) return TAHR_E_ARGUMENT;
+    tahr__character *c = claim(t, lane, character);
+    if (!c) return TAHR_E_ARGUMENT;
+    const int is_first = atomic_load_explicit(&c->slot.turn, memory_order_relaxed) == 0;
+    const uint64_t edited = tahr__slot_compare(&c->slot, state);
+    if (edited || is_first || config != c->config) {
+        c->config = config;
+        c->standing |= edited;
+        c->snapshot = 1;
+        const tahr_stamp stamp = stamp_of(t, c);
+        tahr__slot_write(&c->slot, state, edited, &stamp);
+    }
+    if (!(t->wants & bit(TAHR_MESSAGE_SNAPSHOT)) || !(c->snapshot || c->time_ns >= c->snapshot_ns)) return TAHR_OK;
+    return push_snapshot(t, &t->lanes[lane], c, state);
+}
+
+/* Whether the state of this step is due, which ends at the character's time. */
+static int is_due(const tahr_telemetry *t, tahr__character *c)
+{
+    const int by_step = c->state_step == 0;
+    c->state_step = (by_step ? t->every : c->state_step) - 1;
+    if (!by_step || (double)c->time_ns < c->state_ns) return 0;
+    /* From the time at which it was due, so that the rate is kept on average; but what was missed is not made good. */
+    c->state_ns += t->state_period;
+    if (c->state_ns < (double)c->time_ns) c->state_ns = (double)c->time_ns;
+    return 1;
+}
+
+/* A step on its way into the ring. */
+typedef struct pushed {
+    const tahr_telemetry_step *step;
+    tahr__character *character;
+    tahr_stamp stamp;
+    uint32_t parts; /* 1 << TAHR_MESSAGE_* */
+    uint32_t events;
+} pushed;
+
+static void count_parts(tahr__tally *tally, uint32_t parts, uint32_t events)
+{
+    if (parts & bit(TAHR_MESSAGE_STATE)) tahr__tally_add(tally, TAHR_MESSAGE_STATE, 1);
+    if (parts & bit(TAHR_MESSAGE_EVENT)) tahr__tally_add(tally, TAHR_MESSAGE_EVENT, events);
+    if (parts & bit(TAHR_MESSAGE_INPUT)) tahr__tally_add(tally, TAHR_MESSAGE_INPUT, 1);
+    if (parts & bit(TAHR_MESSAGE_REPORT)) tahr__tally_add(tally, TAHR_MESSAGE_REPORT, 1);
+}
+
+static const uint32_t WITH_STATE = 1u << TAHR_MESSAGE_STATE | 1u << TAHR_MESSAGE_REPORT; /* its hash */
+
+/* Returns 0: there is no room for the parts. */
+static int write_step(tahr__lane *l, const pushed *p)
+{
+    const tahr_telemetry_step *s = p->step;
+    const uint32_t fixed = sizeof(tahr__record_step) / 8;
+    uint64_t most = fixed + TAHR__PACKED_INPUT + (uint64_t)p->events * TAHR__EVENT_WORDS;
+    if (p->parts & WITH_STATE) most += TAHR__PACKED_STATE + TAHR__PACKED_REPORT;
+    uint64_t *words = tahr__ring_reserve(&l->ring, most);
+    if (!words) return 0;
+    uint64_t *end = words + fixed;
+    if (p->parts & bit(TAHR_MESSAGE_INPUT)) end = tahr__words_pack_used(end, s->input, sizeof *s->input);
+    if (p->parts & WITH_STATE) {
+        end = tahr__words_pack(end, s->state, p->character->standing);
+        p->character->standing = 0;
+    }
+    if (p->parts & bit(TAHR_MESSAGE_REPORT)) end = tahr__words_pack_used(end, s->report, sizeof *s->report);
+    if (p->events > 0) memcpy(end, s->report->events, p->events * sizeof(tahr_event));
+    end += (uint64_t)p->events * TAHR__EVENT_WORDS;
+    const uint64_t *sequence = p->character->sequence;
+    *(tahr__record_step *)(void *)words =
+        (tahr__record_step){.head = {(uint64_t)(end - words), p->stamp.epoch, TAHR__RECORD_STEP, p->parts},
+                            .character = s->character,
+                            .config = p->stamp.config,
+                            .step = p->stamp.step,
+                            .sequence = {sequence[0], sequence[1], sequence[2], sequence[3]},
+                            .time_ns = p->stamp.time_ns,
+                            .wall_ns = s->wall_ns,
+                            .dt = s->dt,
+                            .ns = s->ns,
+                            .status = s->status,
+                            .flags = s->flags,
+                            .events = p->events};
+    tahr__ring_commit(&l->ring, (uint64_t)(end - words));
+    return 1;
+}
+
+/* Inputs and events outlive states and reports: those are left out where the ring is three quarters full. Returns what
+ * found no room. */
+static uint32_t write_what_fits(tahr__lane *l, pushed *p)
+{
+    const uint32_t all = p->parts;
+    if (!(all & WITH_STATE)) return all && !write_step(l, p) ? all : 0;
+    if (tahr__ring_room(&l->ring) >= l->ring.size / 4 && write_step(l, p)) return 0;
+    p->parts &= ~WITH_STATE;
+    return p->parts && !write_step(l, p) ? all : all & WITH_STATE;
+}
+
+/* Splits what the sink wants of a step into what is due and what is thinned out, and counts it. */
+static void choose_parts(const tahr_telemetry *t, tahr__lane *l, pushed *p)
+{
+    const uint32_t thinnable =
+        bit(TAHR_MESSAGE_STATE) |
+        (t->flags & TAHR_TELEMETRY_THIN_ALL ? bit(TAHR_MESSAGE_INPUT) | bit(TAHR_MESSAGE_REPORT) : 0);
+    uint32_t all = t->wants & (bit(TAHR_MESSAGE_STATE) | bit(TAHR_MESSAGE_INPUT));
+    if (p->step->report) all |= t->wants & bit(TAHR_MESSAGE_REPORT);
+    if (p->events > 0) all |= bit(TAHR_MESSAGE_EVENT);
+    const uint32_t thinned = is_due(t, p->character) ? 0 : all & thinnable;
+    count_parts(&l->offered, all, p->events);
+    if (thinned) count_parts(&l->thinned, thinned, 0);
+    p->parts = all & ~thinned;
+}
+
+static tahr_status check_step(const tahr_telemetry *t, const tahr_telemetry_step *s)
+{
+    if (!s->input || !s->state) return TAHR_E_NULL;
+    if (!(s->dt >= 0 && s->dt <= LONGEST_DT)) return TAHR_E_ARGUMENT;
+    if (s->character >= t->character_count || s->reserved != 0) return TAHR_E_ARGUMENT;
+    if (s->flags & ~(uint32_t)(TAHR_STEP_CUSTOM | TAHR_STEP_CROWD)) return TAHR_E_UNSUPPORTED;
+    if (s->input->struct_size < sizeof *s->input) return TAHR_E_STRUCT_SIZE;
+    if (!s->report) return TAHR_OK;
+    if (s->report->struct_size < sizeof *s->report) return TAHR_E_STRUCT_SIZE;
+    return s->report->events || s->report->event_count == 0 ? TAHR_OK : TAHR_E_NULL;
+}
+
+tahr_status tahr_telemetry_push(tahr_telemetry *t, uint32_t lane, const tahr_telemetry_step *step)
+{
+    if (!t || !step) return TAHR_E_NULL;
+    const tahr_status wrong = check_step(t, step);
+    if (wrong < 0) return wrong;
+    tahr__character *c = claim(t, lane, step->character);
+    if (!c) return TAHR_E_ARGUMENT;
+    if (step->status < 0) return TAHR_OK;
+    tahr__lane *l = &t->lanes[lane];
+    c->time_ns += (int64_t)(step->dt * 1e9 + 0.5);
+    pushed p = {.step = step, .character = c, .stamp = stamp_of(t, c)};
+    if (step->report && t->wants & bit(TAHR_MESSAGE_EVENT)) p.events = step->report->event_count;
+    const uint64_t changed = tahr__slot_compare(&c->slot, step->state);
+    c->standing |= changed;
+    tahr__slot_write(&c->slot, step->state, changed, &p.stamp);
+    choose_parts(t, l, &p);
+    const uint32_t due = p.parts;
+    const uint32_t dropped = write_what_fits(l, &p);
+    c->step++;
+    c->sequence[TAHR_MESSAGE_STATE] += due >> TAHR_MESSAGE_STATE & 1;
+    c->sequence[TAHR_MESSAGE_EVENT] += p.events;
+    c->sequence[TAHR_MESSAGE_INPUT] += due >> TAHR_MESSAGE_INPUT & 1;
+    c->sequence[TAHR_MESSAGE_REPORT] += due >> TAHR_MESSAGE_REPORT & 1;
+    if (!dropped) return TAHR_OK;
+    count_parts(&l->dropped, dropped, p.events);
+    return TAHR_TRUNCATED;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT
+ * words.h: a struct as words of 8 bytes, of which only some are passed on: a mask with one bit for each, and then those
+ * whose bit is set. */
+#ifndef TAHR_THREADS_WORDS_H
+#define TAHR_THREADS_WORDS_H
+
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+static inline uint64_t tahr__word_of(const void *object, int i)
+{
+    uint64_t word;
+    memcpy(&word, (const char *)object + 8 * i, sizeof word);
+    return word;
+}
+
+/* mask: not 0. */
+static inline int tahr__lowest_bit(uint64_t mask)
+{
+#ifdef __GNUC__
+    return __builtin_ctzll(mask);
+#else
+    int i = 0;
+    for (; !(mask & 1); mask >>= 1)
+        i++;
+    return i;
+#endif
+}
+
+/* Writes the mask and the words of object that it names. Returns what comes after them. */
+uint64_t *tahr__words_pack(uint64_t *to, const void *object, uint64_t mask);
+
+/* The same with the words that are not zero, of an object of size bytes, up to 512. Uses one word more than it returns
+ * at most, and size / 8 + 2 in all. */
+uint64_t *tahr__words_pack_used(uint64_t *to, const void *object, size_t size);
+
+/* Writes the words that follow a mask over those of object; the others stay. Returns what comes after them. */
+const uint64_t *tahr__words_unpack(const uint64_t *from, void *object);
+
+#endif

@@ -1,0 +1,3 @@
+if(NOT with_threads)
+    set(example_left_out "there are no threads")
+endif()
