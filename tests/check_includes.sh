@@ -67,8 +67,8 @@ for backend in backends/*/; do
     ccd) third='|<ccd/[a-z0-9_]+\.h>' ;;
     fcl) third='|<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>' ;;
     box2d) third='|<box2d/[a-z0-9_]+\.h>|<[a-z_]+>' ;;
-    threads) third='|<(pthread|signal|time|unistd)\.h>' ;;
-    lcm) third='|<(lcm|tahr_lcm)/[a-z0-9_]+\.h>|<((arpa|netinet|sys)/[a-z]+|time|unistd)\.h>' ;;
+    threads) third='|<(emmintrin|pthread|signal|time|unistd)\.h>' ;;
+    lcm) third='|<(lcm|tahr_lcm)/[a-z0-9_]+\.h>|<((arpa|netinet|sys)/[a-z]+|fcntl|time|unistd)\.h>' ;;
     native | common) third='|<[ei]mmintrin\.h>' ;; # the processor's own vectors
     *) third= ;;
     esac
@@ -95,6 +95,7 @@ for folder in tests/*/; do
         pattern='"((\.\./)?support/)?[a-z0-9_]+\.h"|<(bt[A-Z]|Bullet|Jolt/)[A-Za-z/]*\.h>' ;;
     unit) pattern='"[a-z0-9_/.]+\.(h|inc)"' ;;
     fcl) pattern='<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>|"[a-z0-9_]+\.h"' ;;
+    lcm) pattern='"(\.\./)?[a-z0-9_]+\.h"' ;;
     cli) pattern='"((\.\./)?support/|\.\./\.\./bindings/cli/)?[a-z0-9_]+\.h"' ;;
     *) pattern='"((\.\./)?support/)?[a-z0-9_]+\.h"' ;;
     esac

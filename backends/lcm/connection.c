@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * connection.c: opens what a URL names, sends, and holds back what would run over a listener's buffer.
+ * connection.c: opens what a URL names, and sends.
  *
  * liblcm prints when it cannot connect; so everything that may fail is tried before it is asked. */
 #include "connection.h"
@@ -52,8 +52,8 @@ static tahr_status open_log(tahr__lcm_connection *c, const char *path)
 {
     c->log = lcm_eventlog_create(path, "w");
     if (c->log) return TAHR_OK;
-    return tahr__lcm_complain(&c->complaints, TAHR_E_FILE, "tahr_lcm_open: %s cannot be written: %s", path,
-                              strerror(errno));
+    return tahr__lcm_complain(&c->complaints, TAHR_E_FILE, "tahr_lcm_open: cannot be written: %s: %s", strerror(errno),
+                              path);
 }
 
 static tahr_status open_lcm(tahr__lcm_connection *c, const char *text, const tahr__lcm_url *url)
@@ -63,8 +63,10 @@ static tahr_status open_lcm(tahr__lcm_connection *c, const char *text, const tah
     if (status < 0) return status;
     c->lcm = lcm_create(text);
     c->is_own = 1;
+    if (c->lcm && c->is_paced) tahr__lcm_listeners_open(&c->pace.listeners, url->group, url->port);
     if (c->lcm) return TAHR_OK;
-    return tahr__lcm_complain(&c->complaints, TAHR_E_NOT_FOUND, "tahr_lcm_open: LCM cannot be set up for '%s'", text);
+    return tahr__lcm_complain(&c->complaints, TAHR_E_NOT_FOUND, "tahr_lcm_open: LCM cannot be set up for '%.200s'",
+                              text);
 }
 
 tahr_status tahr__lcm_connect(tahr__lcm_connection *c, const tahr_lcm_desc *desc)
@@ -73,8 +75,8 @@ tahr_status tahr__lcm_connect(tahr__lcm_connection *c, const tahr_lcm_desc *desc
     tahr__lcm_url url;
 
     memset(c, 0, sizeof *c);
+    tahr__lcm_pace_open(&c->pace, desc->burst, desc->rate);
     if (desc->log) c->complaints = *desc->log;
-    c->burst = desc->burst ? desc->burst : TAHR__LCM_BURST;
     if (desc->lcm) {
         c->lcm = desc->lcm;
         c->is_paced = 1; /* it may be a network */
@@ -87,38 +89,21 @@ tahr_status tahr__lcm_connect(tahr__lcm_connection *c, const tahr_lcm_desc *desc
     }
     tahr_status status = tahr__lcm_url_read(text, &url);
     if (status < 0)
-        return tahr__lcm_complain(&c->complaints, status, "tahr_lcm_open: %s '%s': %s", from, text, url.problem);
+        return tahr__lcm_complain(&c->complaints, status, "tahr_lcm_open: %s '%.200s': %s", from, text, url.problem);
     return url.scheme == TAHR__LCM_FILE ? open_log(c, url.path) : open_lcm(c, text, &url);
 }
 
-static int64_t now_ns(clockid_t clock)
+static int64_t now_us(void)
 {
     struct timespec t;
-    clock_gettime(clock, &t);
-    return (int64_t)t.tv_sec * 1000000000 + t.tv_nsec;
-}
-
-/* Lets `burst` through in each millisecond. A long message counts once for each kilobyte, as it does in the buffer of a
- * socket. A window that follows another begins where that ended, so that what the system slept too long is made good;
- * but not much more, or a listener would get at once what was held up for him. */
-static void pace(tahr__lcm_connection *c, uint32_t size)
-{
-    enum { WINDOW = 1000000, SLACK = WINDOW / 2 }; /* ns */
-    if (c->sent == 0) {
-        const int64_t now = now_ns(CLOCK_MONOTONIC), end = c->window_ns + WINDOW;
-        c->window_ns = now >= end && now < end + SLACK ? end : now;
-    }
-    c->sent += 1 + size / 1024;
-    if (c->sent < c->burst) return;
-    c->sent = 0;
-    const int64_t left = c->window_ns + WINDOW - now_ns(CLOCK_MONOTONIC);
-    if (left > 0) nanosleep(&(struct timespec){.tv_nsec = (long)left}, NULL);
+    clock_gettime(CLOCK_REALTIME, &t);
+    return (int64_t)t.tv_sec * 1000000 + t.tv_nsec / 1000;
 }
 
 static int write_event(lcm_eventlog_t *log, const char *channel, const void *bytes, uint32_t size)
 {
     /* liblcm takes pointers that it could write to, and does not. */
-    lcm_eventlog_event_t event = {.timestamp = now_ns(CLOCK_REALTIME) / 1000,
+    lcm_eventlog_event_t event = {.timestamp = now_us(),
                                   .channellen = (int32_t)strlen(channel),
                                   .datalen = (int32_t)size,
                                   .channel = (char *)channel,
@@ -142,7 +127,7 @@ tahr_status tahr__lcm_send(tahr__lcm_connection *c, const char *channel, const v
         return TAHR_E_FILE;
     }
     c->is_failing = 0;
-    if (c->is_paced) pace(c, size);
+    if (c->is_paced) tahr__lcm_pace_keep(&c->pace, size);
     return TAHR_OK;
 }
 
@@ -154,6 +139,7 @@ void tahr__lcm_flush(tahr__lcm_connection *c)
 void tahr__lcm_disconnect(tahr__lcm_connection *c)
 {
     tahr__lcm_flush(c);
+    tahr__lcm_listeners_close(&c->pace.listeners);
     if (c->log) lcm_eventlog_destroy(c->log);
     if (c->lcm && c->is_own) lcm_destroy(c->lcm);
 }

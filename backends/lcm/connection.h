@@ -3,23 +3,20 @@
 #ifndef TAHR_LCM_CONNECTION_H
 #define TAHR_LCM_CONNECTION_H
 
+#include "pace.h"
+
 #include <tahr/lcm.h>
 
 #include <lcm/lcm.h>
-
-/* What 256 characters send at 60 Hz, states, inputs and reports, is 46 in a millisecond. */
-enum { TAHR__LCM_BURST = 64 };
 
 typedef struct tahr__lcm_connection {
     lcm_t *lcm;          /* or NULL: */
     lcm_eventlog_t *log; /* liblcm's own provider of files does not tell when a write fails */
     tahr_log complaints;
-    int is_own;     /* lcm is destroyed with it */
-    int is_paced;   /* burst counts */
+    int is_own; /* lcm is destroyed with it */
+    int is_paced;
     int is_failing; /* the last message did not go out; of a log: one, and so none any more */
-    uint32_t burst; /* at most so much in a millisecond, */
-    uint32_t sent;  /* and so much in the one that began, on the monotonic clock, at */
-    int64_t window_ns;
+    tahr__lcm_pace pace;
 } tahr__lcm_connection;
 
 /* Complains with the format's text, "tahr_lcm_open: ...", and returns status. log may be NULL. */

@@ -64,11 +64,13 @@ static tahr_status check(const tahr_lcm_desc *desc)
     if (desc->flags & ~(uint32_t)TAHR_LCM_ID_SUFFIX)
         return tahr__lcm_complain(desc->log, TAHR_E_UNSUPPORTED, "tahr_lcm_open: desc.flags 0x%x has unknown ones",
                                   (unsigned)desc->flags);
-    if (desc->reserved)
-        return tahr__lcm_complain(desc->log, TAHR_E_UNSUPPORTED, "tahr_lcm_open: desc.reserved is not 0");
     if (desc->burst > MOST_BURST)
         return tahr__lcm_complain(desc->log, TAHR_E_ARGUMENT, "tahr_lcm_open: desc.burst %u is not within 1 to %d",
                                   (unsigned)desc->burst, MOST_BURST);
+    if (desc->rate && desc->burst > desc->rate)
+        return tahr__lcm_complain(desc->log, TAHR_E_ARGUMENT,
+                                  "tahr_lcm_open: desc.burst %u is more than desc.rate %u, what goes out in a second",
+                                  (unsigned)desc->burst, (unsigned)desc->rate);
     if (desc->prefix && !is_channel_name(desc->prefix))
         return tahr__lcm_complain(desc->log, TAHR_E_ARGUMENT,
                                   "tahr_lcm_open: desc.prefix is not of up to %d printable letters without spaces",

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * url.h: the URLs of LCM that can be published to, taken apart and checked before liblcm sees them, which prints what it
- * does not like. */
+ * url.h: the URLs of LCM that can be published to, taken apart and checked before liblcm sees them, which prints what
+ * it does not like. */
 #ifndef TAHR_LCM_URL_H
 #define TAHR_LCM_URL_H
 

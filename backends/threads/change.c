@@ -34,15 +34,15 @@ static tahr_status push_change(tahr_telemetry *t, const tahr__record_change *cha
 }
 
 /* Where all bodies are, when it is time for that, and nobody was named for the first time by the motion under way. */
-static tahr_status push_bodies(tahr_telemetry *t, tahr__record_change change)
+static tahr_status push_places(tahr_telemetry *t, tahr__record_change change)
 {
-    const tahr__bodies *b = &t->bodies;
-    if (b->count == 0 || b->unknown || t->bodies_time < t->bodies_due) return TAHR_OK;
+    const tahr__places *b = &t->places;
+    if (b->count == 0 || b->unknown || t->places_time < t->places_due) return TAHR_OK;
     change.head.parts = TAHR_CHANGE_SNAPSHOT;
     change.count = b->count;
     change.dt = b->dt;
     const tahr_status status = push_change(t, &change, b->now, b->before);
-    if (status == TAHR_OK) t->bodies_due = t->bodies_time + 1e-9 * (double)t->snapshot_ns;
+    if (status == TAHR_OK) t->places_due = t->places_time + 1e-9 * (double)t->snapshot_ns;
     return status;
 }
 
@@ -66,12 +66,13 @@ tahr_status tahr_telemetry_change(tahr_telemetry *t, uint32_t kind, const tahr_b
     if (t->wants & 1u << TAHR_MESSAGE_BODY) {
         const tahr__record_change change = {{0, epoch, TAHR__RECORD_CHANGE, kind}, count, revision, dt};
         status = push_change(t, &change, poses, NULL);
+        if (status != TAHR_OK) t->places_due = t->places_time; /* who missed it gets all of it soon */
         int all = 1;
-        if (kind == TAHR_CHANGE_SET) all = tahr__bodies_set(&t->bodies, poses, count);
-        if (kind == TAHR_CHANGE_MOVE) all = tahr__bodies_move(&t->bodies, poses, count, dt, epoch);
+        if (kind == TAHR_CHANGE_SET) all = tahr__places_set(&t->places, poses, count);
+        if (kind == TAHR_CHANGE_MOVE) all = tahr__places_move(&t->places, poses, count, dt, epoch);
         if (!all) status = TAHR_TRUNCATED;
-        t->bodies_time += dt;
-        const tahr_status also = push_bodies(t, change);
+        t->places_time += dt;
+        const tahr_status also = push_places(t, change);
         if (status == TAHR_OK) status = also;
     }
     atomic_store_explicit(&t->revision, revision, memory_order_relaxed);

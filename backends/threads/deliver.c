@@ -46,6 +46,7 @@ static void deliver_events(tahr_telemetry *t, const uint64_t *words, const tahr_
 static void deliver_report(tahr_telemetry *t, tahr_report *report, const tahr__record_step *r, tahr_stamp stamp)
 {
     if (!may_tell(t, TAHR_MESSAGE_REPORT)) return;
+    report->struct_size = sizeof *report;
     report->events = NULL;
     report->decisions = NULL;
     report->queries = NULL;
@@ -64,6 +65,15 @@ static void deliver_input(tahr_telemetry *t, tahr_input *input, const tahr__reco
     tahr__deliver_count(t, TAHR_MESSAGE_INPUT, t->sink.input(t->sink.user, &stamp, &told));
 }
 
+/* Returns what comes after it. */
+static const uint64_t *read_input(const uint64_t *words, tahr_input *input)
+{
+    memcpy(input, words, TAHR__PLAIN_INPUT_WORDS * 8);
+    if (input->flags == 0) return words + TAHR__PLAIN_INPUT_WORDS;
+    memcpy(input, words, sizeof *input);
+    return words + TAHR__INPUT_WORDS;
+}
+
 static void deliver_step(tahr_telemetry *t, const tahr__record_step *r)
 {
     const uint32_t parts = r->head.parts;
@@ -77,9 +87,12 @@ static void deliver_step(tahr_telemetry *t, const tahr__record_step *r)
                         .wall_ns = r->wall_ns ? r->wall_ns : wall_clock()};
     tahr_input input = {0};
     tahr_report report = {0};
-    if (parts & 1u << TAHR_MESSAGE_INPUT) words = tahr__words_unpack(words, &input);
+    if (parts & 1u << TAHR_MESSAGE_INPUT) words = read_input(words, &input);
     if (parts & (1u << TAHR_MESSAGE_STATE | 1u << TAHR_MESSAGE_REPORT)) words = tahr__words_unpack(words, state);
-    if (parts & 1u << TAHR_MESSAGE_REPORT) words = tahr__words_unpack(words, &report);
+    if (parts & 1u << TAHR_MESSAGE_REPORT) {
+        memcpy(&report, words, sizeof report);
+        words += TAHR__REPORT_WORDS;
+    }
     if (parts & 1u << TAHR_MESSAGE_INPUT) deliver_input(t, &input, r, stamp);
     deliver_events(t, words, r, stamp);
     if (parts & 1u << TAHR_MESSAGE_STATE && may_tell(t, TAHR_MESSAGE_STATE)) {

@@ -60,10 +60,10 @@ static uint64_t first_epoch(tahr_telemetry *t)
     return first;
 }
 
-/* Tells what was written until now, epoch by epoch. All records of an epoch were written before the next one began, and
- * an epoch is read before the rings are looked at: of those before it nothing is still to come. Returns how many eighths
- * of a ring were filled. */
-static uint64_t pass(tahr_telemetry *t)
+/* Epoch by epoch. All records of an epoch were written before the next one began, and the epoch is read before the rings
+ * are looked at: of those before it nothing is still to come. What belongs to a later one waits, for its change may lie
+ * in a ring that was looked at too early. */
+uint64_t tahr__drain_pass(tahr_telemetry *t)
 {
     const uint64_t epoch = atomic_load_explicit(&t->epoch, memory_order_acquire);
     uint64_t most = 0;
@@ -131,7 +131,7 @@ void *tahr__drain_live(void *user)
     for (;;) {
         const uint32_t ending = atomic_load_explicit(&t->ending, memory_order_acquire);
         tell_world_in_time(t);
-        const uint64_t filled = pass(t);
+        const uint64_t filled = tahr__drain_pass(t);
         flush(t);
         if (ending) break; /* nobody writes any more: that was all */
         if (filled == 0) rest(t);

@@ -57,9 +57,21 @@ static tahr_status push_snapshot(tahr_telemetry *t, tahr__lane *l, tahr__charact
                                 .sequence = sequence,
                                 .time_ns = c->time_ns};
     c->standing = 0;
+    c->gap = 0;
     c->snapshot_ns = c->time_ns + t->snapshot_ns;
     tahr__ring_commit(&l->ring, (uint64_t)(end - words));
     return TAHR_OK;
+}
+
+static int has_room(tahr__lane *l)
+{
+    return tahr__ring_room(&l->ring) >= l->ring.size / 4;
+}
+
+/* After a gap it waits for room: what made the gap would make the next one. */
+static int wants_snapshot(const tahr__character *c, tahr__lane *l)
+{
+    return c->snapshot || c->time_ns >= c->snapshot_ns || (c->gap && has_room(l));
 }
 
 tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t character, uint32_t config,
@@ -70,15 +82,15 @@ tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t char
     tahr__character *c = claim(t, lane, character);
     if (!c) return TAHR_E_ARGUMENT;
     const int is_first = atomic_load_explicit(&c->slot.turn, memory_order_relaxed) == 0;
-    const uint64_t edited = tahr__slot_compare(&c->slot, state);
-    if (edited || is_first || config != c->config) {
+    if (!tahr__slot_holds(&c->slot, state) || is_first || config != c->config) {
+        const uint64_t edited = tahr__slot_compare(&c->slot, state);
         c->config = config;
         c->standing |= edited;
         c->snapshot = 1;
         const tahr_stamp stamp = stamp_of(t, c);
         tahr__slot_write(&c->slot, state, edited, &stamp);
     }
-    if (!(t->wants & bit(TAHR_MESSAGE_SNAPSHOT)) || !(c->snapshot || c->time_ns >= c->snapshot_ns)) return TAHR_OK;
+    if (!(t->wants & bit(TAHR_MESSAGE_SNAPSHOT)) || !wants_snapshot(c, &t->lanes[lane])) return TAHR_OK;
     return push_snapshot(t, &t->lanes[lane], c, state);
 }
 
@@ -113,24 +125,34 @@ static void count_parts(tahr__tally *tally, uint32_t parts, uint32_t events)
 
 static const uint32_t WITH_STATE = 1u << TAHR_MESSAGE_STATE | 1u << TAHR_MESSAGE_REPORT; /* its hash */
 
+static uint64_t *copy(uint64_t *to, const void *from, uint64_t words)
+{
+    memcpy(to, from, words * 8);
+    return to + words;
+}
+
+static uint64_t *write_input(uint64_t *to, const tahr_input *input)
+{
+    return input->flags ? copy(to, input, TAHR__INPUT_WORDS) : copy(to, input, TAHR__PLAIN_INPUT_WORDS);
+}
+
 /* Returns 0: there is no room for the parts. */
 static int write_step(tahr__lane *l, const pushed *p)
 {
     const tahr_telemetry_step *s = p->step;
     const uint32_t fixed = sizeof(tahr__record_step) / 8;
-    uint64_t most = fixed + TAHR__PACKED_INPUT + (uint64_t)p->events * TAHR__EVENT_WORDS;
-    if (p->parts & WITH_STATE) most += TAHR__PACKED_STATE + TAHR__PACKED_REPORT;
+    uint64_t most = fixed + TAHR__INPUT_WORDS + (uint64_t)p->events * TAHR__EVENT_WORDS;
+    if (p->parts & WITH_STATE) most += TAHR__PACKED_STATE + TAHR__REPORT_WORDS;
     uint64_t *words = tahr__ring_reserve(&l->ring, most);
     if (!words) return 0;
     uint64_t *end = words + fixed;
-    if (p->parts & bit(TAHR_MESSAGE_INPUT)) end = tahr__words_pack_used(end, s->input, sizeof *s->input);
+    if (p->parts & bit(TAHR_MESSAGE_INPUT)) end = write_input(end, s->input);
     if (p->parts & WITH_STATE) {
         end = tahr__words_pack(end, s->state, p->character->standing);
         p->character->standing = 0;
     }
-    if (p->parts & bit(TAHR_MESSAGE_REPORT)) end = tahr__words_pack_used(end, s->report, sizeof *s->report);
-    if (p->events > 0) memcpy(end, s->report->events, p->events * sizeof(tahr_event));
-    end += (uint64_t)p->events * TAHR__EVENT_WORDS;
+    if (p->parts & bit(TAHR_MESSAGE_REPORT)) end = copy(end, s->report, TAHR__REPORT_WORDS);
+    if (p->events > 0) end = copy(end, s->report->events, (uint64_t)p->events * TAHR__EVENT_WORDS);
     const uint64_t *sequence = p->character->sequence;
     *(tahr__record_step *)(void *)words =
         (tahr__record_step){.head = {(uint64_t)(end - words), p->stamp.epoch, TAHR__RECORD_STEP, p->parts},
@@ -155,7 +177,7 @@ static uint32_t write_what_fits(tahr__lane *l, pushed *p)
 {
     const uint32_t all = p->parts;
     if (!(all & WITH_STATE)) return all && !write_step(l, p) ? all : 0;
-    if (tahr__ring_room(&l->ring) >= l->ring.size / 4 && write_step(l, p)) return 0;
+    if (has_room(l) && write_step(l, p)) return 0;
     p->parts &= ~WITH_STATE;
     return p->parts && !write_step(l, p) ? all : all & WITH_STATE;
 }
@@ -187,6 +209,19 @@ static tahr_status check_step(const tahr_telemetry *t, const tahr_telemetry_step
     return s->report->events || s->report->event_count == 0 ? TAHR_OK : TAHR_E_NULL;
 }
 
+/* Who steps many takes them in order, as a rule: the next one's lines are on their way while the step is taken. */
+static void expect(const tahr_telemetry *t, uint32_t character)
+{
+#ifdef __GNUC__
+    if (character >= t->character_count) return;
+    const char *at = (const char *)&t->characters[character];
+    for (size_t line = 0; line < offsetof(tahr__character, last); line += 64)
+        __builtin_prefetch(at + line);
+#else
+    (void)t, (void)character;
+#endif
+}
+
 tahr_status tahr_telemetry_push(tahr_telemetry *t, uint32_t lane, const tahr_telemetry_step *step)
 {
     if (!t || !step) return TAHR_E_NULL;
@@ -210,7 +245,9 @@ tahr_status tahr_telemetry_push(tahr_telemetry *t, uint32_t lane, const tahr_tel
     c->sequence[TAHR_MESSAGE_EVENT] += p.events;
     c->sequence[TAHR_MESSAGE_INPUT] += due >> TAHR_MESSAGE_INPUT & 1;
     c->sequence[TAHR_MESSAGE_REPORT] += due >> TAHR_MESSAGE_REPORT & 1;
+    expect(t, step->character + 1);
     if (!dropped) return TAHR_OK;
+    c->gap |= dropped >> TAHR_MESSAGE_INPUT & 1;
     count_parts(&l->dropped, dropped, p.events);
     return TAHR_TRUNCATED;
 }

@@ -43,6 +43,7 @@ typedef struct tahr__character {
     uint32_t config;
     _Atomic uint32_t lane; /* and 1; 0: not seen yet */
     uint32_t snapshot;     /* 1: one is owed */
+    uint32_t gap;          /* 1: an input was dropped since the last snapshot */
     /* Of the thread that drains: the state as of the last record that has any of it. */
     _Alignas(64) tahr_state last;
 } tahr__character;

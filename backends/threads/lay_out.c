@@ -33,17 +33,17 @@ static void *take(block *b, uint64_t count, size_t size)
     return at;
 }
 
-static void take_bodies(block *b, tahr__bodies *bodies, uint32_t count)
+static void take_places(block *b, tahr__places *places, uint32_t count)
 {
-    bodies->capacity = count;
-    bodies->bucket_count = 2;
-    while (bodies->bucket_count < 2 * count)
-        bodies->bucket_count *= 2;
-    bodies->before = take(b, count, sizeof *bodies->before);
-    bodies->now = take(b, count, sizeof *bodies->now);
-    bodies->moved = take(b, count, sizeof *bodies->moved);
-    bodies->last = take(b, count, sizeof *bodies->last);
-    bodies->buckets = take(b, bodies->bucket_count, sizeof *bodies->buckets);
+    places->capacity = count;
+    places->bucket_count = 2;
+    while (places->bucket_count < 2 * count)
+        places->bucket_count *= 2;
+    places->before = take(b, count, sizeof *places->before);
+    places->now = take(b, count, sizeof *places->now);
+    places->moved = take(b, count, sizeof *places->moved);
+    places->last = take(b, count, sizeof *places->last);
+    places->buckets = take(b, places->bucket_count, sizeof *places->buckets);
 }
 
 static char *take_text(block *b, const char *text)
@@ -62,7 +62,7 @@ static void take_all(block *b, tahr_telemetry *t, const tahr_telemetry_desc *d)
     t->lanes = take(b, t->lane_count, sizeof *t->lanes);
     t->characters = take(b, d->characters, sizeof *t->characters);
     t->configs = take(b, d->config_count, d->configs->struct_size);
-    take_bodies(b, &t->bodies, d->bodies);
+    take_places(b, &t->places, d->bodies);
     t->level = take_text(b, d->level);
     t->backend = take_text(b, d->backend);
     for (uint32_t i = 0; i < t->lane_count; i++) {

@@ -3,6 +3,8 @@
 #ifndef TAHR_THREADS_RECORD_H
 #define TAHR_THREADS_RECORD_H
 
+#include <stddef.h>
+
 #include <tahr/sink.h>
 
 enum { TAHR__RECORD_STEP = 1, TAHR__RECORD_SNAPSHOT = 2, TAHR__RECORD_CHANGE = 3 };
@@ -15,8 +17,9 @@ typedef struct tahr__record {
     uint32_t parts; /* STEP: which messages, 1 << TAHR_MESSAGE_*; CHANGE: TAHR_CHANGE_* */
 } tahr__record;
 
-/* After it, as far as parts says so: the input (used words); if there is a state or a report: the state (words changed
- * since the last record of this character that has any); the report (used words); the events, as they are. */
+/* After it, as far as parts says so: the input, without its optional fields if its flags are 0; if there is a state or
+ * a report: the words of the state that changed since the last record of this character which has any (words.h); the
+ * report; the events. */
 typedef struct tahr__record_step {
     tahr__record head;
     uint32_t character, config;
@@ -49,8 +52,9 @@ enum {
     TAHR__POSE_WORDS = sizeof(tahr_body_pose) / 8,
     TAHR__EVENT_WORDS = sizeof(tahr_event) / 8,
     TAHR__PACKED_STATE = sizeof(tahr_state) / 8 + 1, /* words, at most */
-    TAHR__PACKED_INPUT = sizeof(tahr_input) / 8 + 2,
-    TAHR__PACKED_REPORT = sizeof(tahr_report) / 8 + 2
+    TAHR__INPUT_WORDS = sizeof(tahr_input) / 8,
+    TAHR__PLAIN_INPUT_WORDS = offsetof(tahr_input, facing) / 8, /* where no flag makes one of the others count */
+    TAHR__REPORT_WORDS = sizeof(tahr_report) / 8
 };
 
 #endif

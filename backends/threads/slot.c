@@ -10,21 +10,15 @@ enum { LOOKS = 1000 }; /* of tahr_telemetry_latest; a write takes far less than 
 
 _Static_assert(sizeof(_Atomic uint64_t) == 8, "atomic words are copied as plain ones by their only writer");
 
-/* The writer may read what it alone writes as plain memory: whole lines at once. */
+/* The writer may read what it alone writes as plain memory, whole lines at once. */
 uint64_t tahr__slot_compare(const tahr__slot *slot, const tahr_state *state)
 {
-    uint64_t changed = 0;
-    for (int line = 0; line < TAHR__STATE_WORDS; line += 8) {
-        uint64_t old[8], now[8], any = 0;
-        memcpy(old, (const void *)&slot->words[line], sizeof old);
-        memcpy(now, (const char *)state + 8 * line, sizeof now);
-        for (int i = 0; i < 8; i++)
-            any |= old[i] ^ now[i];
-        if (any == 0) continue;
-        for (int i = 0; i < 8; i++)
-            changed |= (uint64_t)(old[i] != now[i]) << (line + i);
-    }
-    return changed;
+    return tahr__words_differ((const void *)slot->words, state);
+}
+
+int tahr__slot_holds(const tahr__slot *slot, const tahr_state *state)
+{
+    return memcmp((const void *)slot->words, state, sizeof *state) == 0;
 }
 
 static void put(_Atomic uint64_t *word, uint64_t value)

@@ -21,6 +21,9 @@ typedef struct tahr__slot {
 /* By the writer: which words of the slot are not those of state, one bit each. */
 uint64_t tahr__slot_compare(const tahr__slot *slot, const tahr_state *state);
 
+/* By the writer: whether they are the same, all of them. */
+int tahr__slot_holds(const tahr__slot *slot, const tahr_state *state);
+
 /* By the writer: the words of changed, and the stamp (but for its character and wall_ns). */
 void tahr__slot_write(tahr__slot *slot, const tahr_state *state, uint64_t changed, const tahr_stamp *stamp);
 

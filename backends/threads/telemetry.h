@@ -5,7 +5,7 @@
 
 #include <pthread.h>
 
-#include "bodies.h"
+#include "places.h"
 #include "lane.h"
 
 /* Of the thread that drains: what it told the sink, and what it was told. Others read the tallies. */
@@ -39,8 +39,8 @@ struct tahr_telemetry {
     /* By who has exclusive access to the world. */
     _Alignas(64) _Atomic uint64_t epoch;
     _Atomic uint64_t revision; /* stored before the epoch that it belongs to */
-    tahr__bodies bodies;
-    double bodies_time, bodies_due; /* s, sum of dt */
+    tahr__places places;
+    double places_time, places_due; /* s, sum of dt */
 
     _Alignas(64) tahr__drain drain;
 
@@ -59,8 +59,10 @@ tahr_telemetry *tahr__telemetry_lay_out(const tahr_telemetry_desc *desc);
 void tahr__telemetry_free_memory(tahr_telemetry *telemetry); /* before it has a lock */
 void tahr__telemetry_free(tahr_telemetry *telemetry);
 
-/* drain.c: what the thread does. */
+/* drain.c: what the thread does; and of that, once: tells the sink what was written until now. Returns how many eighths
+ * of a ring were filled. */
 void *tahr__drain_live(void *telemetry);
+uint64_t tahr__drain_pass(tahr_telemetry *telemetry);
 
 /* deliver.c: tells the sink what a record tells, or counts it as dropped once all is abandoned. */
 void tahr__deliver(tahr_telemetry *telemetry, const void *record);

@@ -31,9 +31,8 @@ static inline int tahr__lowest_bit(uint64_t mask)
 /* Writes the mask and the words of object that it names. Returns what comes after them. */
 uint64_t *tahr__words_pack(uint64_t *to, const void *object, uint64_t mask);
 
-/* The same with the words that are not zero, of an object of size bytes, up to 512. Uses one word more than it returns
- * at most, and size / 8 + 2 in all. */
-uint64_t *tahr__words_pack_used(uint64_t *to, const void *object, size_t size);
+/* Which of 64 words are not the same in both, one bit each. one begins on a line of 64 bytes, other anywhere. */
+uint64_t tahr__words_differ(const void *one, const void *other);
 
 /* Writes the words that follow a mask over those of object; the others stay. Returns what comes after them. */
 const uint64_t *tahr__words_unpack(const uint64_t *from, void *object);

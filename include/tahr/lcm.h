@@ -15,9 +15,11 @@ typedef struct tahr_lcm tahr_lcm;
 /* ID_SUFFIX: the channels of characters end in _ID: TAHR_STATE_3. */
 enum { TAHR_LCM_ID_SUFFIX = 1 << 0 };
 
-/* url: udpm://, file:// (to be written, unless it says otherwise) or memq://; NULL: the environment's LCM_DEFAULT_URL,
- * or else what LCM takes itself. burst: the most messages sent to a network at once; then it waits for a millisecond,
- * so that a listener's buffer of the usual size does not run over; files and memory need no such wait.
+/* url: udpm://, file:// (an event log, written anew) or memq:// (which nobody hears but subscribers of your own lcm);
+ * NULL: the environment's LCM_DEFAULT_URL, or else udpm://, LCM's usual group.
+ * burst, rate: to a network so many messages are sent at once, and so many in a second, so that a listener's buffer of
+ * the usual size does not run over; a message counts once more for each kilobyte. Files need no such wait, nor does
+ * memq://; an lcm of yours waits, for it may be a network.
  * [in] everything is copied, but lcm. Zero what you do not use. */
 typedef struct tahr_lcm_desc {
     uint32_t struct_size;
@@ -25,10 +27,10 @@ typedef struct tahr_lcm_desc {
     const char *url;
     const char *prefix; /* put before the names of the channels, up to 32 letters; NULL: none */
     void *lcm;          /* an lcm_t of yours, used instead of url; must stay valid until the sink is closed */
-    uint32_t burst;     /* [0: 64] 1..65536 */
-    uint32_t reserved;  /* 0 */
-    const tahr_allocator *allocator; /* NULL: malloc */
-    const tahr_log *log;             /* NULL: silent */
+    uint32_t burst;     /* [0: 16] 1..65536, not above rate */
+    uint32_t rate;      /* [0: 64000] per second; UINT32_MAX: as fast as it goes */
+    const tahr_allocator *allocator; /* NULL: malloc; asked again by the thread that tells of the first world */
+    const tahr_log *log; /* NULL: silent; that thread tells when messages begin to fail, once until one goes out */
 } tahr_lcm_desc;
 
 /* Sets every field to its default: zero, but struct_size. [out] desc of size bytes. Untouched on error. Allocates
@@ -42,7 +44,7 @@ TAHR_API tahr_status tahr_lcm_desc_init(tahr_lcm_desc *desc, size_t size);
  * TAHR_E_MEMORY; the log says which. Since 0.1. */
 TAHR_API tahr_status tahr_lcm_open(const tahr_lcm_desc *desc, tahr_lcm **lcm);
 
-/* For tahr_telemetry_desc.sink. NULL for NULL. Valid until tahr_lcm_close. Since 0.1. */
+/* For tahr_telemetry_desc.sink, of one telemetry at a time. NULL for NULL. Valid until tahr_lcm_close. Since 0.1. */
 TAHR_API const tahr_sink *tahr_lcm_sink(tahr_lcm *lcm);
 
 /* Closes it; no telemetry may use it any more. NULL is allowed. Since 0.1. */

@@ -28,7 +28,8 @@ typedef struct tahr_stamp {
     uint32_t character; /* id, below tahr_telemetry_desc.characters */
     uint32_t config;    /* index of its settings: tahr_sink_world.configs */
     uint64_t step;      /* of this character, from 0; SNAPSHOT: the step that begins with it */
-    uint64_t sequence;  /* of this kind of message of this character, from 0; who misses a number has lost a message */
+    uint64_t sequence;  /* of this kind of message of this character, from 0, without those that were thinned out: who
+                         * misses a number has lost a message */
     uint64_t epoch;     /* changes of the world before the step */
     int64_t time_ns; /* simulated, since the character's first step: at its end; of an event exactly; SNAPSHOT: at its
                          * begin */
@@ -41,9 +42,9 @@ enum { TAHR_STEP_CUSTOM = 1 << 0, TAHR_STEP_CROWD = 1 << 1 };
 
 /* What a step was given. Frozen. */
 typedef struct tahr_sink_input {
-    const tahr_input *input;
-    double dt;      /* s */
-    uint32_t flags; /* TAHR_STEP_* */
+    const tahr_input *input; /* with flags 0 the fields from facing on, which do not count then, are 0 */
+    double dt;               /* s */
+    uint32_t flags;          /* TAHR_STEP_* */
     uint32_t reserved;
 } tahr_sink_input;
 
@@ -60,7 +61,9 @@ typedef struct tahr_sink_report {
 enum { TAHR_CHANGE_SET = 1, TAHR_CHANGE_MOVE = 2, TAHR_CHANGE_TOUCH = 3, TAHR_CHANGE_SNAPSHOT = 4 };
 
 /* A change of the world: tahr_world_set, _move or _touch. To have the world of a SNAPSHOT: tahr_world_set to `before`,
- * and if dt > 0 tahr_world_move to `poses` within dt. Frozen. */
+ * and if dt > 0 tahr_world_move to `poses` within dt; a body that it does not name was never named (or
+ * found no place: tahr_telemetry_desc.bodies). A SNAPSHOT follows
+ * the change whose epoch it has. Frozen. */
 typedef struct tahr_sink_change {
     uint32_t kind;                /* TAHR_CHANGE_* */
     uint32_t count;               /* of poses */
@@ -83,16 +86,20 @@ typedef struct tahr_sink_world {
     int64_t run;              /* wall clock at the start, ns since 1970: tells one run from the next */
     int64_t wall_ns;          /* now */
     uint64_t sequence;        /* of this kind of message */
-    uint64_t epoch, revision; /* of the world */
+    uint64_t epoch, revision; /* of the world, at the moment */
     uint64_t dropped, failed; /* messages so far: for which a ring had no room; which the sink could not deliver */
     double state_rate;        /* Hz to which the states of a character are thinned out; 0: not */
 } tahr_sink_world;
 
 /* Called by one thread at a time, never by one that steps. What is pointed to is valid during the call. A negative
- * status is counted as a failed message, and nothing else. Functions may be NULL: nobody wants that. A function that
- * does not return holds up the others, but no step: what comes meanwhile is dropped when the rings are full.
- * world: first of all, then about once a second and after each change of what it tells of. flush: nothing more is there
- * at the moment. */
+ * status is counted as a failed message, and nothing else. Functions may be NULL: nobody wants that, and it is neither
+ * sent nor counted. A function that does not return holds up the others, but no step: what comes meanwhile is dropped
+ * when the rings are full.
+ * In order: of a step its input, its events, its state, its report; the steps of a character as they were taken; a
+ * change of the world before all steps that see it and after all that do not. Steps of different characters come in any
+ * order between two changes.
+ * world: first of all, then once in a world_period, and last of all, with the totals. flush: nothing more is there at
+ * the moment. */
 typedef struct tahr_sink {
     uint32_t struct_size;
     uint16_t abi_major; /* TAHR_ABI_MAJOR and _MINOR of the header it was compiled with */

@@ -11,19 +11,11 @@
 #include <string.h>
 
 #include "bench_clock.h"
+#include "bench_crowd.h"
 
 enum { WARM_UP_TICKS = 30 };
 
 static const double DT = 1.0 / 60;
-
-typedef struct crowd {
-    uint32_t count;
-    tahr_mover **movers;
-    tahr_state *states;
-    scene_wanderer *wanderers;
-    uint64_t seed;
-    tahr_config config;
-} crowd;
 
 static void *count_alloc(void *user, size_t size, size_t alignment)
 {
@@ -75,37 +67,6 @@ void bench_close(bench_opened *opened)
     opened->world = NULL;
 }
 
-static void crowd_free(crowd *c)
-{
-    for (uint32_t i = 0; c->movers && i < c->count; i++) {
-        tahr_mover_destroy(c->movers[i]);
-    }
-    free(c->movers);
-    free(c->states);
-    free(c->wanderers);
-}
-
-static int crowd_make(crowd *c, bench_opened *opened, const bench_world *world, char *error)
-{
-    c->movers = calloc(c->count, sizeof *c->movers);
-    c->states = calloc(c->count, sizeof *c->states);
-    c->wanderers = calloc(c->count, sizeof *c->wanderers);
-    if (!c->movers || !c->states || !c->wanderers) {
-        snprintf(error, 256, "out of memory");
-        return 0;
-    }
-    bench_world_config(world, &c->config);
-    for (uint32_t i = 0; i < c->count; i++) {
-        tahr_status status = tahr_mover_create(opened->world, &c->config, &c->movers[i]);
-        if (status < 0 || !scene_wander_spawn(opened->world, &c->config, &world->spawn, &c->seed, &c->states[i])) {
-            snprintf(error, 256, "character %u: %s", i, status < 0 ? tahr_status_name(status) : "no place to start at");
-            return 0;
-        }
-        scene_wander_start(&c->wanderers[i], 1, i);
-    }
-    return 1;
-}
-
 static void count(bench_result *r, const tahr_report *report, const tahr_state *state)
 {
     r->sweeps += report->sweeps;
@@ -120,9 +81,8 @@ static void count(bench_result *r, const tahr_report *report, const tahr_state *
 }
 
 /* One step of everybody. times may be NULL: not counted then. */
-static int tick(crowd *c, const bench_opened *opened, const bench_world *world, bench_result *r, uint32_t *times)
+static int tick(bench_crowd *c, const bench_opened *opened, const bench_world *world, bench_result *r, uint32_t *times)
 {
-    const tahr_bounds *spawn = &world->spawn;
     for (uint32_t i = 0; i < c->count; i++) {
         tahr_report report = {.struct_size = sizeof report};
         const tahr_input *input = bench_world_wish(world, &c->wanderers[i], DT);
@@ -136,10 +96,9 @@ static int tick(crowd *c, const bench_opened *opened, const bench_world *world, 
             times[i] = after - before < UINT32_MAX ? (uint32_t)(after - before) : UINT32_MAX;
             count(r, &report, &c->states[i]);
         }
-        tahr_vec3 at = c->states[i].position;
-        if (world->planar ? at.y < spawn->min.y - 10 : at.z < spawn->min.z - 10) {
+        if (bench_crowd_is_lost(c, world, i)) {
             r->lost++;
-            if (!scene_wander_spawn(opened->world, &c->config, spawn, &c->seed, &c->states[i])) {
+            if (!scene_wander_spawn(opened->world, &c->config, &world->spawn, &c->seed, &c->states[i])) {
                 return 0;
             }
         }
@@ -165,11 +124,11 @@ int bench_run(bench_opened *opened, const bench_world *world, uint32_t character
               char *error)
 {
     uint64_t held = opened->held;
-    crowd c = {.count = characters, .seed = 17};
+    bench_crowd c = {.count = characters, .seed = 17};
     uint32_t *times = malloc(sizeof *times * characters * ticks);
     memset(result, 0, sizeof *result);
     result->characters = characters;
-    int ok = times != NULL && crowd_make(&c, opened, world, error);
+    int ok = times != NULL && bench_crowd_make(&c, opened, world, error);
     result->bytes_per_mover = (opened->held - held) / characters;
     for (uint32_t t = 0; ok && t < WARM_UP_TICKS; t++) {
         ok = tick(&c, opened, world, result, NULL);
@@ -184,7 +143,7 @@ int bench_run(bench_opened *opened, const bench_world *world, uint32_t character
     } else if (!error[0]) {
         snprintf(error, 256, times ? "a step failed" : "out of memory");
     }
-    crowd_free(&c);
+    bench_crowd_free(&c);
     free(times);
     return ok;
 }

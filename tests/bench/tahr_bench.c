@@ -8,11 +8,13 @@
 #include "bench_quiet.h"
 #include "bench_query.h"
 #include "bench_run.h"
+#include "bench_telemetry.h"
 
 typedef struct options {
     const char *csv, *world, *backend;
     uint32_t characters; /* 0: all counts */
     int queries;         /* 1: single queries instead of steps */
+    int telemetry;       /* 1: what it adds to a step */
 } options;
 
 typedef struct plan {
@@ -26,7 +28,7 @@ static const plan NATIVE_PLANS[PLANS] = {{1, 20000}, {256, 300}, {10000, 20}};
 static const plan OTHER_PLANS[PLANS] = {{1, 600}, {16, 60}, {0, 0}};
 
 static const char OPTIONS[] =
-    "  --csv FILE (build/bench.csv)  --world NAME  --backend NAME  --characters N  --queries  --help\n";
+    "  --csv FILE (build/bench.csv)  --world NAME  --backend NAME  --characters N  --queries  --telemetry  --help\n";
 
 static int usage(const char *wrong)
 {
@@ -118,6 +120,8 @@ static int read_options(options *o, int argc, char **argv)
             o->characters = (uint32_t)n;
         } else if (strcmp(argv[i], "--queries") == 0) {
             o->queries = 1;
+        } else if (strcmp(argv[i], "--telemetry") == 0) {
+            o->telemetry = 1;
         } else {
             return usage(argv[i]);
         }
@@ -217,12 +221,42 @@ static int measure_queries(FILE *csv, const bench_world *w, const options *o)
     return ok;
 }
 
+/* Native alone: what telemetry adds does not depend on who answers the queries. */
+static int measure_telemetry(FILE *csv, const bench_world *w, const options *o)
+{
+    static bench_opened opened; /* the allocator points at it */
+    static const uint32_t counts[] = {1, 16, 256};
+    int ok = bench_open(&opened, w, bench_world_backend(w, 0)) == TAHR_OK;
+    for (int i = 0; ok && i < (o->characters ? 1 : 3); i++) {
+        bench_telemetry_result r;
+        char error[256] = "";
+        fprintf(stderr, "%s with telemetry ...\n", w->name);
+        if (bench_telemetry_run(&opened, w, o->characters ? o->characters : counts[i], &r, error)) {
+            printf("%-12s %6u %7.0f %7.0f %7.0f   %7.0f %7.0f %7.0f   %7.0f %7llu\n", w->name, r.characters,
+                   r.off_median, r.off_p99, r.off_p999, r.on_median, r.on_p99, r.on_p999, r.alone,
+                   (unsigned long long)r.dropped);
+            fflush(stdout);
+            fprintf(csv, "%s,%u,%llu,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%.1f,%llu\n", w->name, r.characters,
+                    (unsigned long long)r.steps, r.off_median, r.off_p99, r.off_p999, r.on_median, r.on_p99, r.on_p999,
+                    r.alone, (unsigned long long)r.dropped);
+        } else {
+            printf("%-12s failed: %s\n", w->name, error);
+            ok = 0;
+        }
+    }
+    bench_close(&opened);
+    return ok;
+}
+
 /* One world on the backends that were asked for. */
 static int measure_world(FILE *csv, const bench_world *w, const options *o)
 {
     int ok = 1;
     if (o->queries) {
         return measure_queries(csv, w, o);
+    }
+    if (o->telemetry) {
+        return measure_telemetry(csv, w, o);
     }
     const scene_backend *b;
     for (int i = 0; (b = bench_world_backend(w, i)) != NULL; i++) {
@@ -272,15 +306,29 @@ static int measure(FILE *csv, const options *o)
         ok = (world.missing[0] || measure_world(csv, &world, o)) && ok;
         bench_world_free(&world);
     }
-    if (!o->queries && (!o->backend || strcmp(o->backend, "native") == 0)) {
+    if (!o->queries && !o->telemetry && (!o->backend || strcmp(o->backend, "native") == 0)) {
         ok = measure_quiet(csv, o) && ok;
     }
     return ok;
 }
 
-static void print_heads(FILE *csv, int queries)
+static void print_telemetry_heads(FILE *csv)
 {
-    if (queries) {
+    printf("ns of a step at 60 Hz without and with telemetry to a sink that counts, by turns; reading the clock costs "
+           "%.0f ns, subtracted;\nalone: what is added, begin and push by themselves in batches\n",
+           bench_clock_cost());
+    printf("%-12s %6s %7s %7s %7s   %7s %7s %7s   %7s %7s\n", "world", "chars", "off p50", "p99", "p99.9", "on p50",
+           "p99", "p99.9", "alone", "dropped");
+    fprintf(csv, "world,characters,steps,off_p50,off_p99,off_p999,on_p50,on_p99,on_p999,alone,dropped\n");
+}
+
+static void print_heads(FILE *csv, const options *o)
+{
+    if (o->telemetry) {
+        print_telemetry_heads(csv);
+        return;
+    }
+    if (o->queries) {
         printf(
             "sweeps and contacts that 16 wanderers asked for, asked again one by one without a cache; gap: m, off the "
             "margin where a sweep stops;\nat 0: of the hits; overlap: the same half a margin deep, depth: m, off "
@@ -318,7 +366,7 @@ int main(int argc, char **argv)
         fprintf(stderr, "tahr_bench: '%s' cannot be written\n", o.csv);
         return 1;
     }
-    print_heads(csv, o.queries);
+    print_heads(csv, &o);
     int ok = measure(csv, &o);
     if (fclose(csv) != 0) {
         fprintf(stderr, "tahr_bench: '%s' could not be written in full\n", o.csv);

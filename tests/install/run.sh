@@ -107,19 +107,37 @@ if command -v "${CXX:-c++}" >/dev/null 2>&1; then
     "$folder/cpp_static" | $cpp_checker
 fi
 
-# The pool of threads, by pkg-config, with the example that a new user would begin with.
+# The pool of threads and telemetry, by pkg-config, with the examples that a new user would begin with.
 if [ -e "$prefix/$LIBDIR/libtahr_threads.a" ]; then
     # shellcheck disable=SC2046
     ${CC:-cc} -std=c11 -DTAHR_HAVE_THREADS tests/examples/crowd.c $(pc_static tahr_threads) -o "$folder/crowd"
     meet=$("$folder/crowd")
     echo "install: a crowd runs on threads: $meet"
+    # shellcheck disable=SC2046
+    ${CC:-cc} -std=c11 tests/examples/telemetry.c $(pc_static tahr_threads) -o "$folder/telemetry"
+    told=$("$folder/telemetry")
+    echo "install: telemetry tells: $(printf '%s\n' "$told" | tail -n 1)"
+fi
+
+# The sink on LCM: the same, with the example that listens to itself; the types of the messages for C and for Python.
+if [ -e "$prefix/$LIBDIR/libtahr_lcm.a" ]; then
+    # shellcheck disable=SC2046
+    ${CC:-cc} -std=c11 tests/examples/telemetry_lcm.c $(pc_static tahr_lcm) -o "$folder/telemetry"
+    heard=$("$folder/telemetry")
+    echo "install: telemetry is heard over LCM: $(printf '%s\n' "$heard" | tail -n 1)"
+    for type in backends/lcm/types/*.lcm; do
+        name=$(basename "$type" .lcm)
+        cmp "$type" "$prefix/share/tahr/lcm/$name.lcm" && [ -e "$prefix/include/tahr_lcm/tahr_$name.h" ] &&
+            [ -e "$prefix/share/tahr/lcm/python/tahr/$name.py" ] ||
+            { echo "install: the type $name is not there for everybody"; exit 1; }
+    done
 fi
 
 # find_package: every exported target, in a project without C++ and in one with it; the backends beside the library, all
 # static, all shared, and mixed, whose shared code must not clash.
 cp -r tests/install/project "$folder/project"
 cp "$folder/program.c" "$folder/project/program.c"
-cp tests/examples/crowd.c "$folder/project/crowd.c"
+cp tests/examples/crowd.c tests/examples/telemetry.c tests/examples/telemetry_lcm.c "$folder/project"
 [ ! "$with_cxx" ] || cp "$folder/program.cpp" "$folder/project/program.cpp"
 for cxx in OFF $with_cxx; do
     made=$folder/project/build_$cxx
@@ -135,6 +153,13 @@ for cxx in OFF $with_cxx; do
     done
     if [ -e "$prefix/$LIBDIR/libtahr_threads.a" ]; then
         [ "$("$made/crowd")" = "$meet" ] || { echo "install: the crowd by find_package goes elsewhere"; exit 1; }
+        for kind in tahr tahr_static; do
+            [ "$("$made/telemetry_$kind")" = "$told" ] ||
+                { echo "install: the telemetry by find_package, on $kind, tells something else"; exit 1; }
+        done
+    fi
+    if [ -e "$prefix/$LIBDIR/libtahr_lcm.a" ]; then
+        [ "$("$made/telemetry")" = "$heard" ] || { echo "install: other telemetry by find_package"; exit 1; }
     fi
 done
 

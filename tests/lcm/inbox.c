@@ -64,10 +64,10 @@ void inbox_open(inbox *box, lcm_t *lcm, const char *prefix, const char *suffix)
 
     memset(box, 0, sizeof *box);
     box->lcm = lcm;
-#define SUBSCRIBE(kind, NAME, end)                                                                             \
-    snprintf(channel, sizeof channel, "%sTAHR_" NAME "%s", prefix, end);                                       \
-    tahr_##kind##_t_subscription_set_queue_capacity(tahr_##kind##_t_subscribe(lcm, channel, take_##kind, box), \
-                                                    1 << 20 /* all */)
+#define SUBSCRIBE(kind, NAME, end)                                                       \
+    snprintf(channel, sizeof channel, "%sTAHR_" NAME "%s", prefix, end);                 \
+    box->subscriptions.kind = tahr_##kind##_t_subscribe(lcm, channel, take_##kind, box); \
+    tahr_##kind##_t_subscription_set_queue_capacity(box->subscriptions.kind, 1 << 20 /* all */)
     SUBSCRIBE(state, "STATE", suffix);
     SUBSCRIBE(event, "EVENT", suffix);
     SUBSCRIBE(input, "INPUT", suffix);
@@ -76,6 +76,17 @@ void inbox_open(inbox *box, lcm_t *lcm, const char *prefix, const char *suffix)
     SUBSCRIBE(body, "BODY", "");
     SUBSCRIBE(world, "WORLD", "");
 #undef SUBSCRIBE
+}
+
+void inbox_close(inbox *box)
+{
+    tahr_state_t_unsubscribe(box->lcm, box->subscriptions.state);
+    tahr_event_t_unsubscribe(box->lcm, box->subscriptions.event);
+    tahr_input_t_unsubscribe(box->lcm, box->subscriptions.input);
+    tahr_report_t_unsubscribe(box->lcm, box->subscriptions.report);
+    tahr_snapshot_t_unsubscribe(box->lcm, box->subscriptions.snapshot);
+    tahr_body_t_unsubscribe(box->lcm, box->subscriptions.body);
+    tahr_world_t_unsubscribe(box->lcm, box->subscriptions.world);
 }
 
 int inbox_wait(inbox *box, uint32_t kind, uint32_t n)

@@ -27,10 +27,22 @@ typedef struct inbox {
     unsigned char state_bytes[sizeof(tahr_state)];
     char level[64], backend[64], version[32];
     unsigned char configs[8192];
+    struct {
+        tahr_state_t_subscription_t *state;
+        tahr_event_t_subscription_t *event;
+        tahr_input_t_subscription_t *input;
+        tahr_report_t_subscription_t *report;
+        tahr_snapshot_t_subscription_t *snapshot;
+        tahr_body_t_subscription_t *body;
+        tahr_world_t_subscription_t *world;
+    } subscriptions;
 } inbox;
 
 /* Subscribes to the channels that the pattern fits, each kind decoded as its name says. */
 void inbox_open(inbox *box, lcm_t *lcm, const char *prefix, const char *suffix);
+
+/* Unsubscribes; the lcm_t stays. */
+void inbox_close(inbox *box);
 
 /* Takes messages until n of a kind have come. 0 if nothing came for five seconds. */
 int inbox_wait(inbox *box, uint32_t kind, uint32_t n);

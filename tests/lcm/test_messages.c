@@ -54,6 +54,7 @@ static void open_rig(rig *r, const char *prefix, uint32_t flags)
 static void close_rig(rig *r)
 {
     tahr_lcm_close(r->opened);
+    inbox_close(&r->box);
     lcm_destroy(r->lcm);
 }
 

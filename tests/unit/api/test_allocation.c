@@ -20,6 +20,9 @@
 #endif
 #include <tahr/native.h>
 
+#ifdef TAHR_HAVE_THREADS
+#include "listener.h"
+#endif
 #include "scene_backend.h"
 #include "scene_tiles.h"
 #include "scene_wander.h"
@@ -477,6 +480,50 @@ static void no_step_of_any_feature_touches_the_heap(void **unused)
 /* A height field of 500 x 500 cells, two triangles each. */
 enum { FIELD = 500 };
 
+#ifdef TAHR_HAVE_THREADS
+/* Neither by who steps nor by the thread that drains. */
+static void no_call_of_telemetry_but_create_and_destroy_touches_the_heap(void **unused)
+{
+    const tahr_body_pose pose = {3, 0, {{1, 2, 3}, {0, 0, 0, 1}}};
+    listener ear;
+    tahr_telemetry_desc desc;
+    tahr_telemetry *t;
+    tahr_telemetry_counts counts = {.struct_size = sizeof counts};
+    tahr_state state;
+    made_up m;
+    (void)unused;
+    if (!watch_heap()) {
+        print_message("SKIP: unit_api_allocation: no way to count this C library's allocations\n");
+        skip();
+    }
+    listener_init(&ear, NULL);
+    listener_describe(&ear, 1, &desc);
+    desc.bodies = 4;
+    desc.ring_bytes = 16384; /* full now and then */
+    listener_close(&ear);
+    assert_int_equal(tahr_telemetry_create(&desc, &t), TAHR_OK);
+    listener_wait_for_call(&ear); /* the thread is there, with all that the system gives it */
+    made_up_init(&m, 1);
+    const uint64_t before = heap_calls;
+    for (int i = 0; i < 2000; i++) {
+        if (i == 1000) listener_open(&ear);
+        tahr_telemetry_begin(t, 0, 0, 0, &m.state);
+        made_up_step(&m);
+        const tahr_telemetry_step step = made_up_pushed(&m, 0);
+        tahr_telemetry_push(t, 0, &step);
+        tahr_telemetry_change(t, TAHR_CHANGE_MOVE, &pose, 1, 0.1, (uint64_t)i);
+        tahr_telemetry_latest(t, 0, &state, NULL);
+        tahr_telemetry_get_counts(t, &counts);
+    }
+    while (counts.delivered[TAHR_MESSAGE_STATE] + counts.dropped[TAHR_MESSAGE_STATE] < 2000)
+        tahr_telemetry_get_counts(t, &counts);
+    assert_int_equal(heap_calls - before, 0);
+    assert_true(counts.delivered[TAHR_MESSAGE_STATE] > 0 && counts.dropped[TAHR_MESSAGE_STATE] > 0);
+    tahr_telemetry_destroy(t);
+    listener_end(&ear);
+}
+#endif
+
 static void a_large_mesh_stays_under_a_hundred_bytes_per_triangle(void **unused)
 {
     const uint32_t triangles = 2 * FIELD * FIELD, corners = (FIELD + 1) * (FIELD + 1);
@@ -581,6 +628,9 @@ int main(void)
                                        cmocka_unit_test(no_step_in_a_plane_touches_the_heap),
 #ifdef TAHR_HAVE_CCD
                                        cmocka_unit_test(no_query_of_any_convex_shape_touches_the_heap),
+#endif
+#ifdef TAHR_HAVE_THREADS
+                                       cmocka_unit_test(no_call_of_telemetry_but_create_and_destroy_touches_the_heap),
 #endif
                                        cmocka_unit_test(a_large_mesh_stays_under_a_hundred_bytes_per_triangle),
                                        cmocka_unit_test(a_movers_cache_costs_what_the_header_says),

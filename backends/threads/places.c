@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * bodies.c: a table of poses by id: open addressing, at most half full, nothing is ever taken out. The cost of a change
+ * places.c: a table of poses by id: open addressing, at most half full, nothing is ever taken out. The cost of a change
  * is that of what it names, not of all bodies. */
-#include "bodies.h"
+#include "places.h"
 
 /* The number of a body, or capacity: no room. */
-static uint32_t number_of(tahr__bodies *b, uint32_t body, int *is_new)
+static uint32_t number_of(tahr__places *b, uint32_t body, int *is_new)
 {
     const uint32_t mask = b->bucket_count - 1;
     uint32_t i = (body * 0x9E3779B1u) >> 7 & mask; /* 2^32 / golden ratio: spreads ids in a row */
@@ -17,7 +17,7 @@ static uint32_t number_of(tahr__bodies *b, uint32_t body, int *is_new)
     return b->count - 1;
 }
 
-int tahr__bodies_set(tahr__bodies *b, const tahr_body_pose *poses, uint32_t count)
+int tahr__places_set(tahr__places *b, const tahr_body_pose *poses, uint32_t count)
 {
     int all = 1, is_new;
     for (uint32_t i = 0; b->capacity > 0 && i < count; i++) {
@@ -31,7 +31,7 @@ int tahr__bodies_set(tahr__bodies *b, const tahr_body_pose *poses, uint32_t coun
 }
 
 /* Who is not named again rests where the last motion put him. */
-static void settle(tahr__bodies *b)
+static void settle(tahr__places *b)
 {
     for (uint32_t i = 0; i < b->last_count; i++) {
         const uint32_t k = b->last[i];
@@ -42,7 +42,7 @@ static void settle(tahr__bodies *b)
     b->unknown = 0;
 }
 
-int tahr__bodies_move(tahr__bodies *b, const tahr_body_pose *poses, uint32_t count, double dt, uint64_t epoch)
+int tahr__places_move(tahr__places *b, const tahr_body_pose *poses, uint32_t count, double dt, uint64_t epoch)
 {
     int all = 1, is_new;
     settle(b);

@@ -1,0 +1,3 @@
+if(NOT with_lcm)
+    set(example_left_out "LCM was not found")
+endif()
