@@ -66,13 +66,13 @@ def overview(log: Log, level: Level = None, characters: Characters = None, up: s
     rows = -(-len(labels) // _LEGEND_COLUMNS)
     engine = ConstrainedLayoutEngine(rect=(0.005, 0.02 + 0.025 * rows, 0.99, 0.92 - 0.025 * rows))
     figure = Figure(figsize=(_WIDTH, _HEIGHT), layout=engine)
-    above, side, over_time = _lay_out(figure, log, flat)
+    above, side, over_time, inner = _lay_out(figure, log, flat)
     panels.ways(above, log, _scene.level_behind(triangles, _relief.ABOVE, log.states), _relief.ABOVE)
     if side is not None:
         panels.ways(side, log, _scene.level_behind(triangles, _relief.SOUTH, log.states), _relief.SOUTH)
     for panel, ax in zip((panels.height, panels.speed, panels.modes, panels.queries), over_time):
         panel(ax, log)
-        if not ax.xaxis.get_tick_params()["labelbottom"]:  # the axes below have the same time
+        if ax in inner:  # the axes below have the same time
             ax.set_xlabel("")
     figure.text(0.01, 0.985, _title(log), fontsize=16, fontweight="bold", va="top")
     figure.text(0.01, 0.955, _caption(log, flat, triangles is not None), fontsize=10, va="top", color="#40444f")
@@ -82,9 +82,9 @@ def overview(log: Log, level: Level = None, characters: Characters = None, up: s
     return figure
 
 
-def _lay_out(figure: Figure, log: Log, flat: bool) -> Tuple[Axes, Optional[Axes], List[Axes]]:
-    """Axes for the ways from above and from the side (none in a flat world), and those over time: beside each other,
-    or, where the ways take up much more width than height, below each other."""
+def _lay_out(figure: Figure, log: Log, flat: bool) -> Tuple[Axes, Optional[Axes], List[Axes], List[Axes]]:
+    """Axes for the ways from above and from the side (none in a flat world), those over time, and which of these have
+    others below: beside each other, or, where the ways take up much more width than height, below each other."""
     left, right, bottom, top = _scene.bounds(log.states, _relief.ABOVE)
     wide = (right - left) / (top - bottom)
     halves: Any
@@ -93,7 +93,7 @@ def _lay_out(figure: Figure, log: Log, flat: bool) -> Tuple[Axes, Optional[Axes]
         halves = figure.subfigures(2, 1, height_ratios=(tall + 0.6, _HEIGHT - tall - 1.6))
         ways, rest = halves
         grid = rest.subplots(2, 2, sharex=True)
-        over_time = [grid[0, 0], grid[1, 0], grid[0, 1], grid[1, 1]]
+        over_time, inner = [grid[0, 0], grid[1, 0], grid[0, 1], grid[1, 1]], list(grid[0])
         ratios = (_WIDTH / wide, 1.6)
     else:
         halves = figure.subfigures(1, 2)
@@ -101,8 +101,9 @@ def _lay_out(figure: Figure, log: Log, flat: bool) -> Tuple[Axes, Optional[Axes]
         count = len(log.characters)
         rows = 1 + (min(max(count, 3), 24) if count <= panels.ROWS else 9) / 6
         over_time = list(rest.subplots(4, 1, sharex=True, height_ratios=(3, 2.4, rows, 2.4)))
+        inner = over_time[:-1]
         ratios = (3.6, 1)
     if flat:
-        return ways.subplots(), None, over_time
+        return ways.subplots(), None, over_time, inner
     above, side = ways.subplots(2, 1, height_ratios=ratios)
-    return above, side, over_time
+    return above, side, over_time, inner
