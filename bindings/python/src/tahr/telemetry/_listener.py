@@ -29,6 +29,10 @@ _WAIT_MS = 50
 _QUEUE = 1 << 16
 
 
+# What is none of ours, on a channel of ours and on another one.
+_FOREIGN, _OTHER = "foreign", "other"
+
+
 def _numbers(kind: str) -> Optional[struct.Struct]:
     """Reads character and sequence out of a message; None where a kind has none."""
     places: Mapping[str, Any] = layout(kind).wire.fields or {}
@@ -49,6 +53,12 @@ class _Ring:
         self._payloads: Deque[bytes] = collections.deque(maxlen=capacity)
         self._numbers = _numbers(kind)
         self._sequences: Dict[int, int] = {}
+        self._size = layout(kind).wire.itemsize
+        self._whole = layout(kind).whole
+
+    def fits(self, payload: bytes) -> bool:
+        """Whether a message is as long as those of this kind are."""
+        return len(payload) == self._size if self._whole else len(payload) > self._size
 
     def add(self, payload: bytes) -> None:
         """Takes one in; the oldest goes when the ring is full."""
@@ -94,8 +104,7 @@ class Listener:
         if capacity < 1:
             raise ValueError(f"Listener: capacity is {capacity}, expected at least 1")
         self._rings = {kind: _Ring(kind, capacity) for kind in KINDS}
-        self._by_fingerprint = {fingerprint(kind): (kind, self._rings[kind]) for kind in KINDS}
-        self._sizes = {kind: layout(kind).wire.itemsize for kind in KINDS}
+        self._known: "Dict[Tuple[str, bytes], _Ring | str]" = {}  # by channel and first bytes
         self._foreign = 0
         self._lock = threading.Lock()
         self._ends = threading.Event()
@@ -121,18 +130,22 @@ class Listener:
         return not self._thread.is_alive()
 
     def _receive(self, channel: str, data: bytes) -> None:
+        key = (channel, data[:FINGERPRINT])
+        known = self._known.get(key)
+        if known is None:
+            known = self._known[key] = self._recognize(*key)
+        with self._lock:
+            if known is _FOREIGN or (isinstance(known, _Ring) and not known.fits(data)):
+                self._foreign += 1
+            elif isinstance(known, _Ring):
+                known.add(data)
+
+    def _recognize(self, channel: str, first: bytes) -> "_Ring | str":
         match = CHANNEL.fullmatch(channel)
         if match is None:
-            return
-        kind, ring = self._by_fingerprint.get(data[:FINGERPRINT], ("", None))
-        with self._lock:
-            if ring is None or kind != match["kind"].lower() or not self._is_whole(kind, data):
-                self._foreign += 1
-            else:
-                ring.add(data)
-
-    def _is_whole(self, kind: str, data: bytes) -> bool:
-        return len(data) == self._sizes[kind] if layout(kind).whole else len(data) >= self._sizes[kind]
+            return _OTHER
+        ring = self._rings[match["kind"].lower()]
+        return ring if fingerprint(ring.kind) == first else _FOREIGN
 
     def _check(self) -> None:
         if os.getpid() != self._process:
