@@ -3,11 +3,12 @@
 
     python bench_steps.py --prefix PREFIX     # where Tahr is installed (make install PREFIX=...), for the C program
 
-Prints the medians of CPU time over blocks that take turns, in several launches, and their ratio. The states of both
-must have the same hash after each block.
+The crowd's also in a loop of C in this process, over the same memory. Prints the medians of CPU time over blocks that
+take turns, in several launches, and their ratio. The states of both must have the same hash after each block.
 """
 
 import argparse
+import ctypes
 import pathlib
 import statistics
 import subprocess
@@ -18,6 +19,7 @@ from typing import Any, Callable, List, Tuple
 import numpy as np
 
 import tahr
+from tahr._tahr import ffi, lib
 
 DT = 1 / 60
 
@@ -106,26 +108,74 @@ def measure(scene: Scene, other: Any, what: str, blocks: int, steps: int, times:
             raise SystemExit(f"{what}: the states of Python and of C differ")
 
 
-def launch(program: pathlib.Path, options: argparse.Namespace, threads: int, crowd: Times, mover: Times) -> None:
+class Loop:
+    """Steps the crowd of a scene in a loop of C, in this process."""
+
+    def __init__(self, library: pathlib.Path, scene: Scene) -> None:
+        self.loop = ctypes.CDLL(str(library)).bench_loop
+        self.loop.restype = ctypes.c_int64
+        self.loop.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int32]
+        states = ffi.from_buffer("tahr_state[]", scene.states)
+        inputs = ffi.from_buffer("tahr_input[]", scene.inputs)
+        tick = ffi.new("tahr_crowd_tick *", {"struct_size": ffi.sizeof("tahr_crowd_tick"), "dt": DT})
+        tick.count, tick.states, tick.inputs = len(scene.states), states, inputs
+        pointers = (ffi.addressof(lib, "glue_crowd_step"), scene.crowd._c, tick)
+        self.kept = (states, inputs, *pointers)
+        self.arguments = [int(ffi.cast("uintptr_t", pointer)) for pointer in pointers]
+
+    def step(self, steps: int) -> int:
+        return int(self.loop(*self.arguments, steps))
+
+
+def measure_in_one(scene: Scene, loop: Loop, blocks: int, steps: int, times: Times) -> None:
+    """As measure, of the crowd alone and in one process."""
+    mine, theirs = times
+
+    def ours() -> int:
+        begin = time.process_time_ns()
+        scene.crowd_steps(steps)
+        return time.process_time_ns() - begin
+
+    for block in range(blocks):
+        hashes = set()
+        for python in (bool(block % 2), not block % 2):
+            scene.states[:] = scene.begin
+            (mine if python else theirs).append((ours() if python else loop.step(steps)) / steps)
+            hashes.add(scene.hash())
+        if len(hashes) != 1:
+            raise SystemExit("the states of Python and of the loop of C differ")
+
+
+class Results:
+    """Of one number of threads."""
+
+    def __init__(self) -> None:
+        self.in_one: Times = ([], [])
+        self.crowd: Times = ([], [])
+        self.mover: Times = ([], [])
+
+
+def launch(folder: pathlib.Path, options: argparse.Namespace, threads: int, results: Results) -> None:
     """Both sides with memory of their own: where that lies makes up to a tenth of a step's time."""
     with tempfile.TemporaryDirectory() as made:
         scene = Scene(options.characters, threads, pathlib.Path(made))
-        command = [str(program), made, str(options.characters), str(threads)]
+        measure_in_one(scene, Loop(folder / "bench_loop.so", scene), 6, 5, results.in_one)
+        command = [str(folder / "bench_steps"), made, str(options.characters), str(threads)]
         with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as other:
-            measure(scene, other, "crowd", 6, 5, crowd)
-            measure(scene, other, "mover", 20, 400, mover)
+            measure(scene, other, "crowd", 6, 5, results.crowd)
+            measure(scene, other, "mover", 20, 400, results.mover)
             assert other.stdin is not None
             other.stdin.close()
 
 
-def build(options: argparse.Namespace, folder: pathlib.Path) -> pathlib.Path:
+def build(options: argparse.Namespace, folder: pathlib.Path) -> None:
+    here = pathlib.Path(__file__).parent
     libraries = [str(next(options.prefix.glob(f"lib*/**/{name}"))) for name in ("libtahr_threads.a", "libtahr.a")]
-    program = folder / "bench_steps"
-    source = str(pathlib.Path(__file__).with_suffix(".c"))
-    flags = ["-std=c11", "-O2", "-D_POSIX_C_SOURCE=200809L", f"-I{options.prefix}/include"]
-    command = [options.cc, *flags, source, *libraries, "-lm", "-pthread", "-ldl", "-o", str(program)]
-    subprocess.run(command, check=True)
-    return program
+    flags = [options.cc, "-std=c11", "-O2", "-D_POSIX_C_SOURCE=200809L", f"-I{options.prefix}/include"]
+    libraries += ["-lm", "-pthread", "-ldl"]
+    subprocess.run([*flags, str(here / "bench_steps.c"), *libraries, "-o", str(folder / "bench_steps")], check=True)
+    loop = [str(here / "bench_loop.c"), "-shared", "-fPIC", "-o", str(folder / "bench_loop.so")]
+    subprocess.run([*flags, *loop], check=True)
 
 
 def main() -> None:
@@ -136,18 +186,19 @@ def main() -> None:
     parser.add_argument("--launches", type=int, default=10)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as made:
-        program = build(options, pathlib.Path(made))
+        folder = pathlib.Path(made)
+        build(options, folder)
         for threads in (1, 2):
-            crowd: Times = ([], [])
-            mover: Times = ([], [])
+            results = Results()
             for _ in range(options.launches):
-                launch(program, options, threads, crowd, mover)
-            python, c = map(statistics.median, crowd)
-            print(
-                f"crowd of {options.characters}, {threads} threads: C {c / 1e6:.2f} ms of CPU time a step, "
-                f"Python {python / 1e6:.2f} ms: {100 * (python / c - 1):+.2f} %"
-            )
-            python, c = map(statistics.median, mover)
+                launch(folder, options, threads, results)
+            for what, times in (("one process", results.in_one), ("two processes", results.crowd)):
+                python, c = map(statistics.median, times)
+                print(
+                    f"crowd of {options.characters}, {threads} threads, {what}: C {c / 1e6:.2f} ms of CPU time a step, "
+                    f"Python {python / 1e6:.2f} ms: {100 * (python / c - 1):+.2f} %"
+                )
+            python, c = map(statistics.median, results.mover)
             print(f"one mover, walking: C {c:.0f} ns a step, Python {python:.0f} ns: {python - c:+.0f} ns")
 
 
