@@ -2,6 +2,9 @@
 """Publishing what is stepped in Python: the library's own thread sends it, here into files."""
 
 import os
+import pathlib
+import subprocess
+import sys
 import threading
 
 import numpy as np
@@ -207,3 +210,14 @@ def test_two_threads_at_once_are_refused_or_come_one_after_the_other(tmp_path):
             thread.join()
     assert len(done) + len(refused) == 4000
     assert publisher.counts["state"]["offered"] == len(done)
+
+
+def test_the_example_of_a_published_walk_draws_it(tmp_path):
+    pytest.importorskip("matplotlib")
+    program = pathlib.Path(__file__).parents[2] / "bindings" / "python" / "examples" / "published_walk.py"
+    command = [sys.executable, "-B", str(program), "--seconds", "3"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == "1080 states, 18 steps up, 0 messages lost: walk.png\n"
+    assert (tmp_path / "walk.png").read_bytes().startswith(b"\x89PNG")
+    assert len(read_log(tmp_path / "walk.lcmlog").states) == 1080
