@@ -150,6 +150,10 @@ def test_wrong_arguments_are_named(tmp_path):
                 publisher.step(mover, state, wish(0), DT, character=wrong)
             with pytest.raises(tahr.ArgumentError, match="config is .*, expected 0 to 0"):
                 publisher.step(mover, state, wish(0), DT, config=wrong)
+        with pytest.raises(tahr.ArgumentError, match="mover is a State, expected a tahr.Mover"):
+            publisher.step(state, state, wish(0), DT)
+        with pytest.raises(tahr.ArgumentError, match="input is a int, expected a tahr.Input"):
+            publisher.step(mover, state, 5, DT)
         with pytest.raises(tahr.ArgumentError, match="dt"):
             publisher.step(mover, state, wish(0), -1.0)
         assert state == before

@@ -81,8 +81,9 @@ void glue_states_hash(const tahr_state *states, size_t count, uint64_t *hashes);
 /* A telemetry whose sink is LCM. Used by one call at a time. */
 typedef struct glue_publisher glue_publisher;
 
-/* Whose step it is. */
+/* Whose step it is, and by what it is taken. */
 typedef struct glue_published {
+    glue_stepper *mover;
     uint32_t character, config, flags;
 } glue_published;
 
@@ -90,8 +91,8 @@ typedef struct glue_published {
 tahr_status glue_publisher_open(const tahr_lcm_desc *channels, tahr_telemetry_desc *desc, glue_publisher **publisher);
 
 /* As glue_mover_step and glue_crowd_step, and told of; report may be NULL, the tick has reports and statuses. */
-tahr_status glue_publisher_step(glue_publisher *publisher, glue_stepper *stepper, const glue_published *whom,
-                                const tahr_input *input, double dt, tahr_state *state, tahr_report *report);
+tahr_status glue_publisher_step(glue_publisher *publisher, const glue_published *whom, const tahr_input *input,
+                                double dt, tahr_state *state, tahr_report *report);
 tahr_status glue_publisher_crowd_step(glue_publisher *publisher, glue_stepper *stepper, const tahr_crowd_tick *tick,
                                       tahr_event *events, uint32_t room);
 

@@ -79,8 +79,8 @@ static tahr_status begin(glue_publisher *publisher, const glue_published *whom, 
     return status < 0 ? status : TAHR_OK;
 }
 
-tahr_status glue_publisher_step(glue_publisher *publisher, glue_stepper *stepper, const glue_published *whom,
-                                const tahr_input *input, double dt, tahr_state *state, tahr_report *report)
+tahr_status glue_publisher_step(glue_publisher *publisher, const glue_published *whom, const tahr_input *input,
+                                double dt, tahr_state *state, tahr_report *report)
 {
     tahr_status status = enter(publisher);
     if (status < 0) return status;
@@ -91,7 +91,7 @@ tahr_status glue_publisher_step(glue_publisher *publisher, glue_stepper *stepper
     status = begin(publisher, whom, state);
     if (status >= 0) {
         uint64_t start = nanoseconds();
-        status = glue_mover_step(stepper, input, dt, state, used);
+        status = glue_mover_step(whom->mover, input, dt, state, used);
         if (status >= 0) {
             tahr_telemetry_step step = {.character = whom->character,
                                         .status = status,
@@ -115,7 +115,7 @@ tahr_status glue_publisher_crowd_step(glue_publisher *publisher, glue_stepper *s
     tahr_status status = enter(publisher);
     if (status < 0) return status;
     for (uint32_t i = 0; i < tick->count && status >= 0; i++) {
-        const glue_published whom = {i, tick->members ? tick->members[i].config : 0, 0};
+        const glue_published whom = {.character = i, .config = tick->members ? tick->members[i].config : 0};
         status = begin(publisher, &whom, &tick->states[i]);
     }
     if (status >= 0) {

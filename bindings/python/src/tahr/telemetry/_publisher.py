@@ -95,7 +95,7 @@ class Publisher:
         self._ffi, self._lib, self._check = ffi, lib, check
         self._c = ffi.gc(made[0], lib.glue_publisher_drop)
         self._whom = ffi.new("glue_published *")
-        self._told = (0, 0, 0)  # what is in it
+        self._told: Any = None  # what is in it; keeps the mover
         self._ends = (characters, len(chosen))
         self._last: Any = None
         self._reports: "tuple[Array, Array, Array] | None" = None
@@ -115,23 +115,27 @@ class Publisher:
     ) -> int:
         """Mover.step, and published: as this character's, with this one of the configs. Raises what Mover.step raises,
         and ArgumentError (character, config)."""
-        whom = (character, config, 0 if mover._mode is None else self._lib.TAHR_STEP_CUSTOM)
-        if whom != self._told:
-            self._tell(whom)
-        used = self._ffi.NULL if report is None else report._c
-        status: int = self._lib.glue_publisher_step(self._c, mover._c, self._whom, input._c, dt, state._c, used)
+        try:
+            whom = (mover, character, config, 0 if mover._mode is None else self._lib.TAHR_STEP_CUSTOM)
+            if whom != self._told:
+                self._tell(whom)
+            used = self._ffi.NULL if report is None else report._c
+            status: int = self._lib.glue_publisher_step(self._c, self._whom, input._c, dt, state._c, used)
+        except (AttributeError, TypeError) as error:
+            raise _refuse(mover, state, input, dt, report) from error
         if status < 0:
             raised = mover._mode.take(False) if mover._mode is not None else None
             raise raised if raised is not None else self.world._failed(status, "Publisher.step")
         return status
 
-    def _tell(self, whom: Tuple[int, int, int]) -> None:
+    def _tell(self, whom: Tuple[Mover, int, int, int]) -> None:
         from .. import ArgumentError
 
-        for name, value, end in zip(("character", "config"), whom, self._ends):
+        for name, value, end in zip(("character", "config"), whom[1:], self._ends):
             if not isinstance(value, int) or not 0 <= value < end:
                 raise ArgumentError(f"Publisher.step: {name} is {value!r}, expected 0 to {end - 1}")
-        self._whom.character, self._whom.config, self._whom.flags = whom
+        self._whom.mover = whom[0]._c
+        self._whom.character, self._whom.config, self._whom.flags = whom[1:]
         self._told = whom
 
     def step_crowd(
@@ -256,6 +260,15 @@ def _leave_behind() -> None:
 
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_leave_behind)
+
+
+def _refuse(mover: object, state: object, input: object, dt: object, report: object) -> Exception:
+    """Which argument is of the wrong type?"""
+    from .. import ArgumentError, Mover
+
+    if not isinstance(mover, Mover):
+        return ArgumentError(f"Publisher.step: mover is a {type(mover).__name__}, expected a tahr.Mover")
+    return mover._refuse(state, input, dt, report)
 
 
 def _texts(world: World, url: Optional[str], prefix: Optional[str], level: str) -> Dict[str, str]:
