@@ -98,6 +98,24 @@ def test_watch_needs_a_display_or_a_file(log):
     )
 
 
+def test_watch_draws_until_its_window_is_closed(capsys, log, monkeypatch):
+    import matplotlib.pyplot as plt
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    plt.switch_backend("agg")
+    monkeypatch.setattr(FigureCanvasAgg, "required_interactive_framework", "headless")
+    drawn = []
+
+    def pause(_):
+        drawn.append(plt.gcf().texts[0].get_text())
+        if len(drawn) == 3:
+            plt.close("all")
+
+    monkeypatch.setattr(plt, "pause", pause)
+    assert run(capsys, "watch", "--lcm", f"file://{log}?speed=0") == (0, "", "")
+    assert len(drawn) == 3 and drawn[-1] == "flat on native, live"
+
+
 @pytest.mark.parametrize(
     "arguments, expected",
     [
