@@ -2,7 +2,7 @@
  * fuzz_trace.c: trace files: any bytes are refused with a status and a message, or are events up to where they break;
  * and `tahr replay` ends on them. Checksums would stop nearly all of them at the door: each file is tried once as it is
  * and once with its head and its checksums put right, as somebody would who forges one. */
-#include "../bindings/cli/replay.h"
+#include "../bindings/cli/replay_trace.h"
 #include "scratch.h"
 #include "target.h"
 

@@ -8,6 +8,7 @@
 
 #include <jansson.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <tahr/tahr.h>
 
@@ -84,20 +85,6 @@ static void append_line(void *user, int32_t level, const char *text)
     json_array_append_new(user, json_string(text));
 }
 
-/* What is known of the level, before any option of a walk would count. */
-static const char *const LEVEL_OPTIONS[] = {"--level", "--up", "--backend", "--2d", "--pixels-per-metre", "--tiles"};
-
-static int is_level_option(const char *argument)
-{
-    size_t length = strcspn(argument, "=");
-    for (size_t i = 0; i < sizeof LEVEL_OPTIONS / sizeof LEVEL_OPTIONS[0]; i++) {
-        if (strlen(LEVEL_OPTIONS[i]) == length && strncmp(argument, LEVEL_OPTIONS[i], length) == 0) {
-            return 1;
-        }
-    }
-    return 0;
-}
-
 static int describe_level(const struct options *options, int json)
 {
     json_t *lines = json ? json_array() : NULL;
@@ -114,18 +101,9 @@ static int describe_level(const struct options *options, int json)
     return failed ? EXIT_USAGE : EXIT_GOOD;
 }
 
-/* argv without --json. */
 static int info_level(int argc, char **argv, int json)
 {
     struct options options;
-    for (int i = 1; i < argc; i++) {
-        if (argv[i][0] == '-' && !is_level_option(argv[i])) {
-            say_error("info: unexpected argument '%s'; known with --level are --up, --backend and --json, and --2d "
-                      "--pixels-per-metre --tiles of two dimensions",
-                      argv[i]);
-            return EXIT_USAGE;
-        }
-    }
     int code = options_parse(&options, argc, argv) == 0 ? describe_level(&options, json) : EXIT_USAGE;
     options_close(&options);
     return code;
@@ -152,31 +130,22 @@ int info_command(int argc, char **argv)
         info_help();
         return EXIT_GOOD;
     }
-    int json = 0, kept = 1, level = 0;
-    for (int i = 1; i < argc; i++) {
-        level |= is_level_option(argv[i]);
-    }
-    for (int i = 1; level && i < argc; i++) {
-        if (strcmp(argv[i], "--json") == 0) {
-            json = 1;
-        } else {
-            argv[kept++] = argv[i];
-        }
-    }
-    if (level) {
-        argv[kept] = NULL;
-        return info_level(kept, argv, json);
-    }
-    json = argc > 1 && strcmp(argv[1], "--json") == 0;
+    char **of_level = memory_new((size_t)argc + 1, sizeof *of_level);
+    const int level = options_of_level(&argc, argv, of_level);
+    const int json = argc > 1 && strcmp(argv[1], "--json") == 0;
+    int code = EXIT_GOOD;
     if (argc > 1 + json) {
-        say_error("info: unexpected argument '%s'; known are --json and, of a level, --level, --up, --backend and --2d",
+        say_error("info: unexpected argument '%s'; known are --json and, of a level, --level, --up, --backend and --2d "
+                  "--pixels-per-metre --tiles",
                   argv[1 + json]);
-        return EXIT_USAGE;
-    }
-    if (json) {
+        code = EXIT_USAGE;
+    } else if (level > 1) {
+        code = info_level(level, of_level, json);
+    } else if (json) {
         info_json();
     } else {
         info_words();
     }
-    return EXIT_GOOD;
+    free(of_level);
+    return code;
 }

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: MIT
  * main.c: `tahr`, the library's shell. */
 #include "info.h"
+#ifdef TAHR_HAVE_LCM
+#include "lcm_listen.h"
+#include "lcm_record.h"
+#endif
 #include "levels.h"
 #include "options.h"
 #include "replay.h"
@@ -15,12 +19,32 @@
 static int help_command(int argc, char **argv);
 static int version_command(int argc, char **argv);
 
+#ifndef TAHR_HAVE_LCM
+static int lcm_command(int argc, char **argv)
+{
+    (void)argc;
+    say_error("%s: this tahr was built without LCM", argv[0]);
+    return EXIT_USAGE;
+}
+
+static void lcm_help(void)
+{
+    puts("This tahr was built without LCM.");
+}
+#define listen_command lcm_command
+#define record_command lcm_command
+#define listen_help lcm_help
+#define record_help lcm_help
+#endif
+
 static const struct {
     const char *name;
     int (*call)(int argc, char **argv);
     void (*help)(void);
 } commands[] = {
     {"run", run_command, options_help},
+    {"listen", listen_command, listen_help},
+    {"record", record_command, record_help},
     {"replay", replay_command, replay_help},
     {"level", level_command, level_help},
     {"info", info_command, info_help},
@@ -34,7 +58,8 @@ enum { COMMANDS = sizeof commands / sizeof *commands };
 
 static int complain_unknown(const char *command)
 {
-    say_error("unknown command '%s'; known are run, replay, level, info, selftest, help, --version", command);
+    say_error("unknown command '%s'; known are run, listen, record, replay, level, info, selftest, help, --version",
+              command);
     return EXIT_USAGE;
 }
 
@@ -43,7 +68,10 @@ static void print_commands(void)
     puts("usage: tahr COMMAND [options]\n"
          "\n"
          "  run              characters walk through a level; see `tahr run --help`\n"
-         "  replay FILE      repeats a run from the file that `tahr run --trace FILE` or a program left\n"
+         "  listen           shows what characters do elsewhere, over LCM; see `tahr listen --help`\n"
+         "  record FILE      keeps what is published over LCM as a log\n"
+         "  replay FILE      repeats a run from the file that `tahr run --trace FILE` or a program left; plays a\n"
+         "                   log of LCM, or proves it by taking every step again; see `tahr replay --help`\n"
          "  level [NAME]     writes a bundled level to standard output\n"
          "  info [--json]    version, ABI, collision engines and what they can do; --level FILE: what a scene is made "
          "of\n"

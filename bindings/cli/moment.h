@@ -32,6 +32,7 @@ struct run {
     struct track track;
     FILE *csv;         /* or NULL */
     tahr_trace *trace; /* or NULL */
+    struct feed *feed; /* or NULL */
     uint64_t step_count;
     double dt;
     struct result result;

@@ -2,11 +2,9 @@
  * options.c: the options of `tahr run`, read strictly: every message names the option and the value. */
 #include "options.h"
 
+#include "argument.h"
 #include "say.h"
 
-#include <errno.h>
-#include <getopt.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,6 +34,10 @@ enum {
     OPTION_PIXELS,
     OPTION_TILES,
     OPTION_SHAPE,
+    OPTION_LCM,
+    OPTION_LCM_RATE,
+    OPTION_LCM_PREFIX,
+    OPTION_FAST,
     OPTION_HELP
 };
 
@@ -60,6 +62,10 @@ static const struct option known[] = {{"level", required_argument, NULL, OPTION_
                                       {"pixels-per-metre", required_argument, NULL, OPTION_PIXELS},
                                       {"tiles", required_argument, NULL, OPTION_TILES},
                                       {"shape", required_argument, NULL, OPTION_SHAPE},
+                                      {"lcm", required_argument, NULL, OPTION_LCM},
+                                      {"lcm-rate", required_argument, NULL, OPTION_LCM_RATE},
+                                      {"lcm-prefix", required_argument, NULL, OPTION_LCM_PREFIX},
+                                      {"fast", no_argument, NULL, OPTION_FAST},
                                       {"help", no_argument, NULL, OPTION_HELP},
                                       {NULL, 0, NULL, 0}};
 
@@ -107,47 +113,17 @@ void options_help(void)
         "  --csv FILE         one row per character and step\n"
         "  --plot FILE        .svg or .png: the level from above with the paths, and the heights below\n"
         "  --trace FILE       the whole run, for `tahr replay FILE`: what a bug report needs, in one file\n"
+        "  --lcm URL          publishes what happens: udpm://ADDRESS:PORT?ttl=N as fast as it does in truth, to be\n"
+        "                     watched (`tahr listen`); file:///PATH as fast as it goes (for `tahr replay --verify`)\n"
+        "  --lcm-rate HZ      at most so many states of a character per simulated second (all)\n"
+        "  --lcm-prefix P     before the names of the channels\n"
+        "  --fast             to a network too as fast as it goes\n"
         "  --check MODE       all, sampled (every 16th step) or off: independent look for tunnelling (from 5 Hz up)\n"
         "                     and overlaps\n"
         "  --json             the summary as one JSON object\n"
         "\n"
         "Exit code: 0 all well, 1 a check failed or the run could not go on, 2 wrong usage.\n",
         stdout);
-}
-
-static int bad_value(const char *option, const char *value, const char *wanted)
-{
-    say_error("--%s '%s': %s", option, value, wanted);
-    return -1;
-}
-
-static int read_number(const char *option, const char *text, double low, double high, double *value)
-{
-    char *end = NULL;
-    errno = 0;
-    double x = strtod(text, &end);
-    if (end == text || *end != '\0' || errno != 0 || !(x >= low && x <= high)) {
-        char wanted[80];
-        snprintf(wanted, sizeof wanted, "expected a number from %g to %g", low, high);
-        return bad_value(option, text, wanted);
-    }
-    *value = x;
-    return 0;
-}
-
-static int read_whole(const char *option, const char *text, uint64_t low, uint64_t high, uint64_t *value)
-{
-    char *end = NULL;
-    errno = 0;
-    unsigned long long x = text[0] >= '0' && text[0] <= '9' ? strtoull(text, &end, 10) : 0;
-    if (end == NULL || *end != '\0' || errno != 0 || x < low || x > high) {
-        char wanted[80];
-        snprintf(wanted, sizeof wanted, "expected a whole number from %llu to %llu", (unsigned long long)low,
-                 (unsigned long long)high);
-        return bad_value(option, text, wanted);
-    }
-    *value = x;
-    return 0;
 }
 
 static int read_preset(const char *text, int32_t *preset)
@@ -161,7 +137,7 @@ static int read_preset(const char *text, int32_t *preset)
         }
         snprintf(wanted + used, sizeof wanted - used, "%s %s", id > 1 ? "," : "", tahr_preset_name(id));
     }
-    return bad_value("preset", text, wanted);
+    return argument_refuse("preset", text, wanted);
 }
 
 static int read_backend(const char *text, struct options *o)
@@ -182,7 +158,7 @@ static int read_backend(const char *text, struct options *o)
     }
     const size_t used = strlen(wanted);
     snprintf(wanted + used, sizeof wanted - used, "; or the path of a shared object, with a / or ending in .so");
-    return bad_value("backend", text, wanted);
+    return argument_refuse("backend", text, wanted);
 }
 
 static int read_shape(const char *text, uint32_t *shape)
@@ -195,13 +171,13 @@ static int read_shape(const char *text, uint32_t *shape)
             return 0;
         }
     }
-    return bad_value("shape", text, "expected capsule, box or sphere");
+    return argument_refuse("shape", text, "expected capsule, box or sphere");
 }
 
 static int read_tiles(const char *text, int *separate)
 {
     *separate = strcmp(text, "separate") == 0;
-    return *separate || strcmp(text, "joined") == 0 ? 0 : bad_value("tiles", text, "expected joined or separate");
+    return *separate || strcmp(text, "joined") == 0 ? 0 : argument_refuse("tiles", text, "expected joined or separate");
 }
 
 static int read_check(const char *text, enum check_mode *mode)
@@ -213,13 +189,13 @@ static int read_check(const char *text, enum check_mode *mode)
             return 0;
         }
     }
-    return bad_value("check", text, "expected all, sampled or off");
+    return argument_refuse("check", text, "expected all, sampled or off");
 }
 
 static int read_up(const char *text, char *up)
 {
     if (strcmp(text, "y") != 0 && strcmp(text, "z") != 0) {
-        return bad_value("up", text, "expected y or z");
+        return argument_refuse("up", text, "expected y or z");
     }
     *up = text[0];
     return 0;
@@ -233,18 +209,18 @@ static int read_option(struct options *o, int option, const char *value)
     case OPTION_LEVEL: o->level = value; return 0;
     case OPTION_UP: return read_up(value, &o->up);
     case OPTION_CHARACTERS:
-        failed = read_whole("characters", value, 1, 100000, &whole);
+        failed = argument_whole("characters", value, 1, 100000, &whole);
         o->characters = (uint32_t)whole;
         return failed;
     case OPTION_CROWD: o->crowd = 1; return 0;
     case OPTION_THREADS:
         whole = 0;
-        failed = read_whole("threads", value, 1, 256, &whole);
+        failed = argument_whole("threads", value, 1, 256, &whole);
         o->threads = (uint32_t)whole;
         return failed;
-    case OPTION_SECONDS: return read_number("seconds", value, 1e-6, 1e6, &o->seconds);
-    case OPTION_RATE: return read_number("rate", value, 1, 1e5, &o->rate);
-    case OPTION_SEED: return read_whole("seed", value, 0, INT64_MAX, &o->seed);
+    case OPTION_SECONDS: return argument_number("seconds", value, 1e-6, 1e6, &o->seconds);
+    case OPTION_RATE: return argument_number("rate", value, 1, 1e5, &o->rate);
+    case OPTION_SEED: return argument_whole("seed", value, 0, INT64_MAX, &o->seed);
     case OPTION_PRESET: return read_preset(value, &o->preset);
     case OPTION_BACKEND: return read_backend(value, o);
     case OPTION_ROUTE: o->route = value; return 0;
@@ -254,25 +230,15 @@ static int read_option(struct options *o, int option, const char *value)
     case OPTION_CHECK: return read_check(value, &o->check);
     case OPTION_2D: o->side = 1; return 0;
     case OPTION_TOUR: o->tour = 1; return 0;
-    case OPTION_PIXELS: return read_number("pixels-per-metre", value, 1e-3, 1e6, &o->pixels_per_metre);
+    case OPTION_PIXELS: return argument_number("pixels-per-metre", value, 1e-3, 1e6, &o->pixels_per_metre);
     case OPTION_TILES: return read_tiles(value, &o->separate_tiles);
     case OPTION_SHAPE: return read_shape(value, &o->shape);
+    case OPTION_LCM: o->lcm = value; return 0;
+    case OPTION_LCM_RATE: return argument_number("lcm-rate", value, 1e-3, 1e5, &o->lcm_rate);
+    case OPTION_LCM_PREFIX: o->lcm_prefix = value; return 0;
+    case OPTION_FAST: o->fast = 1; return 0;
     default: o->json = 1; return 0;
     }
-}
-
-static int complain_unknown(const char *argument, int option)
-{
-    if (option == ':') {
-        say_error("option '%s' needs a value", argument);
-        return -1;
-    }
-    fprintf(stderr, "tahr: unknown option '%s'; known are:", argument);
-    for (size_t i = 0; known[i].name != NULL; i++) {
-        fprintf(stderr, " --%s", known[i].name);
-    }
-    fputc('\n', stderr);
-    return -1;
 }
 
 /* What belongs to two dimensions, and what does not. */
@@ -323,7 +289,7 @@ static int check_together(struct options *o, const char given[OPTION_HELP + 1])
     size_t length = o->plot != NULL ? strlen(o->plot) : 0;
     if (o->plot != NULL &&
         (length < 5 || (strcmp(o->plot + length - 4, ".svg") != 0 && strcmp(o->plot + length - 4, ".png") != 0))) {
-        return bad_value("plot", o->plot, "expected a name that ends in .svg or .png");
+        return argument_refuse("plot", o->plot, "expected a name that ends in .svg or .png");
     }
     if (check_side(o, given) != 0) {
         return -1;
@@ -339,6 +305,10 @@ static int check_together(struct options *o, const char given[OPTION_HELP + 1])
     }
     if (o->level == NULL && up_given) {
         say_error("--up %c: only for a --level; the playground is Z up", o->up);
+        return -1;
+    }
+    if (o->lcm == NULL && (o->lcm_rate > 0 || o->lcm_prefix != NULL || o->fast)) {
+        say_error("--%s: only with --lcm URL", o->lcm_rate > 0 ? "lcm-rate" : o->fast ? "fast" : "lcm-prefix");
         return -1;
     }
     if (o->csv != NULL && o->plot != NULL && strcmp(o->csv, o->plot) == 0) {
@@ -373,10 +343,9 @@ int options_parse(struct options *options, int argc, char **argv)
                                 .preset = TAHR_PRESET_PRECISE,
                                 .backend = backend_choice_at(0),
                                 .check = CHECK_SAMPLED};
-    opterr = 0;
-    while ((option = getopt_long(argc, argv, ":", known, NULL)) != -1) {
-        if (option == '?' || option == ':') {
-            return complain_unknown(argv[optind - 1], option);
+    while ((option = argument_next(argc, argv, known)) != -1) {
+        if (option == '?') {
+            return -1;
         }
         if (option == OPTION_HELP) {
             options_help();
@@ -391,7 +360,47 @@ int options_parse(struct options *options, int argc, char **argv)
         say_error("unexpected argument '%s'; a level is given with --level FILE", argv[optind]);
         return -1;
     }
+    options->backend_given = given[OPTION_BACKEND];
     return check_together(options, given);
+}
+
+/* The option of a level that an argument names, or NULL. */
+static const struct option *option_of_level(const char *argument)
+{
+    static const int own[] = {OPTION_LEVEL, OPTION_UP, OPTION_BACKEND, OPTION_2D, OPTION_PIXELS, OPTION_TILES};
+    if (strncmp(argument, "--", 2) != 0) {
+        return NULL;
+    }
+    const size_t length = strcspn(argument + 2, "=");
+    for (size_t i = 0; known[i].name != NULL; i++) {
+        for (size_t k = 0; k < sizeof own / sizeof *own; k++) {
+            if (known[i].val == own[k] && strlen(known[i].name) == length &&
+                strncmp(argument + 2, known[i].name, length) == 0) {
+                return &known[i];
+            }
+        }
+    }
+    return NULL;
+}
+
+int options_of_level(int *argc, char **argv, char **of_level)
+{
+    int kept = 1, taken = 1;
+    of_level[0] = argv[0];
+    for (int i = 1; i < *argc; i++) {
+        const struct option *option = option_of_level(argv[i]);
+        if (option == NULL) {
+            argv[kept++] = argv[i];
+            continue;
+        }
+        of_level[taken++] = argv[i];
+        if (option->has_arg == required_argument && strchr(argv[i], '=') == NULL && i + 1 < *argc) {
+            of_level[taken++] = argv[++i];
+        }
+    }
+    argv[kept] = of_level[taken] = NULL;
+    *argc = kept;
+    return taken;
 }
 
 void options_close(struct options *options)

@@ -1,240 +1,151 @@
 /* SPDX-License-Identifier: MIT
- * replay.c: a recorded run, repeated without its backend and its level. */
+ * replay.c: `tahr replay`: a trace is repeated; a log of LCM is played, or proven. The first bytes say which it is. */
 #include "replay.h"
 
+#include "argument.h"
+#include "log_file.h"
+#include "options.h"
+#include "replay_trace.h"
 #include "say.h"
 
-#include <inttypes.h>
+#ifdef TAHR_HAVE_LCM
+#include "lcm_play.h"
+#include "lcm_verify.h"
+#endif
+
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <tahr/tahr.h>
-#include <tahr/trace.h>
 
-struct actor {
-    tahr_mover *mover;
-    tahr_state state;
-    int is_known; /* the state is what the last recorded step left */
+struct asked {
+    const char *path, *url, *glob;
+    double speed;
+    int trace;          /* 1: it must be one */
+    int verify, played; /* played: what only counts for that was given */
+    int level_argc;     /* the options of a level; 1: none */
+    char **level_argv;
 };
-
-struct replay {
-    tahr_trace_reader *reader;
-    tahr_world *world;
-    struct actor *actors;
-    size_t count, capacity;
-    tahr_status status; /* of the step under way */
-    int repeats;        /* 1: it was repeated, 0: left out */
-    struct replayed *found;
-};
-
-/* A world of as many bodies as there were: what they are comes from the file. */
-static int open_world(struct replay *r)
-{
-    const tahr_log log = say_log();
-    uint32_t count = tahr_trace_bodies(r->reader);
-    tahr_body_desc *bodies = memory_new(count + 1, sizeof *bodies);
-    tahr_world_desc desc;
-    for (uint32_t i = 0; i < count; i++) {
-        tahr_body_desc_init(&bodies[i], sizeof bodies[i], TAHR_BODY_SPHERE);
-        bodies[i].radius = 1;
-    }
-    tahr_world_desc_init(&desc, sizeof desc);
-    desc.bodies = bodies;
-    desc.body_count = count;
-    desc.log = &log;
-    tahr_status status = tahr_world_open(tahr_backend_v1_trace(), &desc, &r->world);
-    free(bodies);
-    if (status >= 0) {
-        status = tahr_world_record(r->world, tahr_trace_answers(r->reader));
-    }
-    return status < 0 ? -1 : 0;
-}
-
-static int differ(struct replay *r, const char *what)
-{
-    r->found->differs = 1;
-    snprintf(r->found->how, sizeof r->found->how, "%s", what);
-    return -1;
-}
-
-static int move(struct replay *r, const tahr_record_move *m)
-{
-    tahr_status status = m->kind == TAHR_RECORD_SET    ? tahr_world_set(r->world, m->poses, m->count)
-                         : m->kind == TAHR_RECORD_MOVE ? tahr_world_move(r->world, m->poses, m->count, m->dt)
-                                                       : tahr_world_touch(r->world);
-    return status < 0 ? differ(r, "bodies cannot be placed as they were") : 0;
-}
-
-static int create(struct replay *r, const tahr_config *recorded)
-{
-    tahr_config config = *recorded;
-    config.sleep = 0; /* a recorded step never sleeps */
-    r->actors = memory_grow(r->actors, &r->capacity, r->count + 1, sizeof *r->actors);
-    struct actor *actor = &r->actors[r->count];
-    *actor = (struct actor){0};
-    if (tahr_mover_create(r->world, &config, &actor->mover) < 0) {
-        return differ(r, "its mover cannot be created");
-    }
-    r->found->movers = (uint32_t)++r->count;
-    return 0;
-}
-
-static int begin_step(struct replay *r, const tahr_record_step *step)
-{
-    if (step->config != NULL && create(r, step->config) != 0) {
-        return -1;
-    }
-    struct actor *actor = &r->actors[step->mover];
-    if (step->state != NULL) {
-        actor->state = *step->state;
-        actor->is_known = 1;
-    }
-    if (!actor->is_known) {
-        return differ(r, "the state that it began with is not in the file");
-    }
-    r->repeats = !(step->flags & TAHR_RECORD_CUSTOM);
-    if (r->repeats) {
-        tahr_event events[8]; /* what is reported does not matter, but whether it is */
-        tahr_report report = {.struct_size = sizeof report, .events = events, .event_capacity = 8};
-        report.events = step->flags & TAHR_RECORD_EVENTS ? events : NULL;
-        r->status = tahr_mover_step(actor->mover, step->input, step->dt, &actor->state, &report);
-    }
-    actor->is_known = r->repeats;
-    return 0;
-}
-
-/* Whether a report had room for everything is no difference. */
-static tahr_status counted(tahr_status status)
-{
-    return status == TAHR_TRUNCATED ? TAHR_OK : status;
-}
-
-static int end_step(struct replay *r, const tahr_trace_event *event)
-{
-    const tahr_state *state = &r->actors[event->done.mover].state;
-    char what[240];
-    if (!r->repeats) {
-        r->found->custom++;
-        return 0;
-    }
-    const uint64_t hash = tahr_state_hash(state);
-    if (tahr_trace_difference(r->reader) != NULL) {
-        return differ(r, tahr_trace_difference(r->reader));
-    }
-    if (counted(r->status) != counted(event->done.status)) {
-        snprintf(what, sizeof what, "it returned %s, recorded is %s", tahr_status_name(r->status),
-                 tahr_status_name(event->done.status));
-        return differ(r, what);
-    }
-    if (event->queries_left > 0) {
-        snprintf(what, sizeof what, "it asked %" PRIu32 " queries fewer than recorded", event->queries_left);
-        return differ(r, what);
-    }
-    if (hash != event->done.hash) {
-        snprintf(what, sizeof what,
-                 "mover %" PRIu32 " came to (%.17g, %.17g, %.17g), hash %016" PRIx64 ", recorded is %016" PRIx64,
-                 event->done.mover, state->position.x, state->position.y, state->position.z, hash, event->done.hash);
-        return differ(r, what);
-    }
-    r->found->steps++;
-    return 0;
-}
-
-static void repeat(struct replay *r)
-{
-    tahr_trace_event event;
-    int failed = 0;
-    while (!failed && tahr_trace_next(r->reader, &event) >= 0) {
-        switch (event.kind) {
-        case TAHR_TRACE_MOVE: failed = move(r, &event.move); break;
-        case TAHR_TRACE_STEP: failed = begin_step(r, &event.step); break;
-        case TAHR_TRACE_DONE: failed = end_step(r, &event); break;
-        default: r->found->whole = 1; return;
-        }
-    }
-}
-
-int replay_file(const char *path, struct replayed *replayed)
-{
-    const tahr_log log = say_log();
-    struct replay r = {.found = replayed};
-    const tahr_trace_desc desc = {.struct_size = sizeof desc, .path = path, .log = &log};
-    *replayed = (struct replayed){0};
-    tahr_status status = tahr_trace_read(&desc, &r.reader);
-    int failed = status < 0 ? -1 : open_world(&r);
-    if (failed) {
-        say_error("cannot replay '%s': %s", path, status < 0 ? tahr_status_message(status) : "its world does not open");
-    } else {
-        printf("%s: recorded on backend %s %s\n", path, tahr_trace_backend_name(r.reader),
-               tahr_trace_backend_version(r.reader));
-        repeat(&r);
-    }
-    for (size_t i = 0; i < r.count; i++) {
-        tahr_mover_destroy(r.actors[i].mover);
-    }
-    free(r.actors);
-    tahr_world_close(r.world);
-    tahr_trace_reader_close(r.reader);
-    return failed;
-}
 
 void replay_help(void)
 {
-    puts("usage: tahr replay [--trace] FILE\n"
-         "\n"
-         "Repeats the run in a trace, without its collision engine and its level: every query has to be the one that "
-         "was\n"
-         "recorded, and every state the same to the bit. Such a file comes from `tahr run --trace FILE`, or from a\n"
-         "program that calls tahr_world_record with the recorder of trace.h.\n"
-         "\n"
-         "Exit code: 0 all is equal, 1 a step differs (the first is named) or the file breaks off, 2 no trace.");
+    puts(
+        "usage: tahr replay [--trace] FILE\n"
+        "       tahr replay FILE.lcmlog [--lcm URL] [--speed X] [--channel GLOB]\n"
+        "       tahr replay FILE.lcmlog --verify [--channel GLOB] [--level FILE] [--up y|z] [--2d] ...\n"
+        "\n"
+        "A trace (of `tahr run --trace FILE`, or of a program that calls tahr_world_record with the recorder of\n"
+        "trace.h) is repeated without its collision engine and its level: every query has to be the one that was\n"
+        "recorded, and every state the same to the bit.\n"
+        "\n"
+        "An LCM event log (of `tahr record`, `tahr run --lcm file:///PATH`, lcm-logger) is published again, with the\n"
+        "time between its messages:\n"
+        "  --lcm URL        udpm://ADDRESS:PORT?ttl=N (the environment's LCM_DEFAULT_URL, or else\n"
+        "                   udpm://239.255.76.67:7667?ttl=0)\n"
+        "  --speed X        X times as fast; 0: as fast as it goes (1)\n"
+        "  --channel GLOB   only these channels (all)\n"
+        "\n"
+        "  --verify         instead of that every recorded step is taken again, in the level and on the collision\n"
+        "                   engine of the recording, and the hash of every state compared. The level is opened by the\n"
+        "                   options of `tahr run`: --level, --up, --2d, --pixels-per-metre, --tiles; --backend only\n"
+        "                   where it comes from a shared object. What was lost on the way to the log is a gap: from\n"
+        "                   there to the next snapshot nothing is proven\n"
+        "\n"
+        "Exit code: 0 all is equal, or played; 1 a step differs (the first is named), is not proven, or the file is\n"
+        "damaged; 2 wrong usage, or a file that is neither.");
 }
 
-/* Of "FILE", "--trace FILE" or "--trace=FILE"; NULL after a message. */
-static const char *path_of(int argc, char **argv)
+/* 0: go on; 1: help was asked for and shown; -1: wrong usage, said so. */
+static int read_arguments(struct asked *a, int argc, char **argv)
 {
-    static const char option[] = "--trace";
-    const size_t length = strlen(option);
-    const char *path = argc > 1 ? argv[argc - 1] : "";
-    if (argc == 2 && strncmp(path, option, length) == 0 && path[length] == '=') {
-        return path + length + 1;
+    enum { TRACE = 256, LCM, SPEED, CHANNEL, VERIFY, HELP };
+    static const struct option known[] = {{"trace", optional_argument, NULL, TRACE},
+                                          {"lcm", required_argument, NULL, LCM},
+                                          {"speed", required_argument, NULL, SPEED},
+                                          {"channel", required_argument, NULL, CHANNEL},
+                                          {"verify", no_argument, NULL, VERIFY},
+                                          {"help", no_argument, NULL, HELP},
+                                          {NULL, 0, NULL, 0}};
+    int option, failed = 0;
+    while (!failed && (option = argument_next(argc, argv, known)) != -1) {
+        a->played |= option == LCM || option == SPEED;
+        switch (option) {
+        case TRACE:
+            a->trace = 1;
+            a->path = optarg;
+            break;
+        case LCM: a->url = optarg; break;
+        case SPEED: failed = argument_number("speed", optarg, 0, 1e6, &a->speed); break;
+        case CHANNEL: a->glob = optarg; break;
+        case VERIFY: a->verify = 1; break;
+        case HELP: replay_help(); return 1;
+        default: failed = -1;
+        }
     }
-    const int named = argc == 3 && strcmp(argv[1], option) == 0;
-    if (named || (argc == 2 && path[0] != '-')) {
-        return path;
-    }
-    if (argc > 1 && argv[1][0] == '-' && strcmp(argv[1], option) != 0) {
-        say_error("replay: unknown option '%s'; known are --trace and --help", argv[1]);
-    } else {
+    if (!failed && optind != argc - (a->path == NULL)) {
         say_error("replay: expected the name of one file; see `tahr replay --help`");
+        failed = -1;
     }
-    return NULL;
+    a->path = a->path == NULL && !failed ? argv[optind] : a->path;
+    return failed;
 }
+
+/* What single options cannot see. */
+static int check_together(const struct asked *a, enum log_kind kind)
+{
+    if (kind == LOG_UNKNOWN) {
+        say_error("cannot replay '%s': byte 0: no trace (those begin with TAHRTRC) and no LCM event log (ED A1 DA 01)",
+                  a->path);
+    } else if (a->trace && kind != LOG_TRACE) {
+        say_error("--trace '%s': byte 0: no trace, but an LCM event log", a->path);
+    } else if (kind == LOG_TRACE && (a->verify || a->played || a->glob != NULL || a->level_argc > 1)) {
+        say_error("'%s' is a trace, which is repeated from itself alone; --verify, --lcm, --speed, --channel and the "
+                  "options of a level are for LCM event logs",
+                  a->path);
+    } else if (a->verify && a->played) {
+        say_error("--verify: publishes nothing; not with --lcm or --speed");
+    } else if (!a->verify && a->level_argc > 1) {
+        say_error("%s: only with --verify", a->level_argv[1]);
+    } else {
+        return 0;
+    }
+    return -1;
+}
+
+#ifdef TAHR_HAVE_LCM
+static int verify(const struct asked *a)
+{
+    struct options options;
+    int code = EXIT_USAGE;
+    optind = 1; /* a second command line */
+    if (options_parse(&options, a->level_argc, a->level_argv) == 0) {
+        code = verify_log(a->path, a->glob, &options);
+    }
+    options_close(&options);
+    return code;
+}
+
+static int replay_log(const struct asked *a)
+{
+    return a->verify ? verify(a) : play_log(a->path, a->url, a->glob, a->speed);
+}
+#else
+static int replay_log(const struct asked *a)
+{
+    say_error("'%s' is an LCM event log, but this tahr was built without LCM", a->path);
+    return EXIT_USAGE;
+}
+#endif
 
 int replay_command(int argc, char **argv)
 {
-    struct replayed found;
-    if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) {
-        replay_help();
-        return EXIT_GOOD;
+    struct asked asked = {.speed = 1};
+    enum log_kind kind = LOG_UNKNOWN;
+    asked.level_argv = memory_new((size_t)argc + 1, sizeof *asked.level_argv);
+    asked.level_argc = options_of_level(&argc, argv, asked.level_argv);
+    const int parsed = read_arguments(&asked, argc, argv);
+    int code = parsed > 0 ? EXIT_GOOD : EXIT_USAGE;
+    if (parsed == 0 && log_file_kind(asked.path, &kind) == 0 && check_together(&asked, kind) == 0) {
+        code = kind == LOG_TRACE ? replay_trace(asked.path) : replay_log(&asked);
     }
-    const char *path = path_of(argc, argv);
-    if (path == NULL) {
-        return EXIT_USAGE;
-    }
-    if (replay_file(path, &found) != 0) {
-        return EXIT_USAGE;
-    }
-    printf("  repeated   %" PRIu64 " steps of %" PRIu32 " character%s, each with the same queries, status and state\n",
-           found.steps, found.movers, found.movers == 1 ? "" : "s");
-    if (found.custom > 0) {
-        printf("  left out   %" PRIu64 " steps that ran the caller's own mode\n", found.custom);
-    }
-    if (found.differs) {
-        printf("  differs    step %" PRIu64 ": %s\n", found.steps + found.custom, found.how);
-    } else if (!found.whole) {
-        printf("  broken     after step %" PRIu64 "\n", found.steps + found.custom);
-    }
-    puts(found.whole ? "ok" : "FAILED");
-    return found.whole ? EXIT_GOOD : EXIT_CHECK_FAILED;
+    free(asked.level_argv);
+    return code;
 }

@@ -3,10 +3,13 @@
 #include "run.h"
 
 #include "csv.h"
+#include "feed.h"
+#include "interrupt.h"
 #include "moment.h"
 #include "outputs.h"
 #include "plot.h"
 #include "say.h"
+#include "scene.h"
 #include "side.h"
 #include "spawn.h"
 #include "summary.h"
@@ -21,30 +24,6 @@
 #define EVENT_CAPACITY 64 /* per step; more are counted as lost by the library */
 #define TOUCHING 1e-6 /* m by which two characters may overlap: the rounding of where they are, far from the origin */
 #define WANDER_SPEED 5.0 /* m/s, by the definition of wandering */
-
-static int open_world(struct run *run)
-{
-    const struct options *o = run->options;
-    const tahr_log log = say_log();
-    tahr_world_desc desc;
-    tahr_world_desc_init(&desc, sizeof desc);
-    desc.bodies = run->level.bodies;
-    desc.body_count = (uint32_t)run->level.body_count;
-    desc.log = &log;
-    struct level_options room;
-    if (level_options(&run->level, o->backend, &room, &desc.options) != 0) {
-        return -1;
-    }
-    uint64_t before = clock_ns();
-    tahr_status status = tahr_world_open(backend_table(o->backend), &desc, &run->world);
-    run->result.open_seconds = (double)(clock_ns() - before) * 1e-9;
-    if (status < 0) {
-        say_error("level '%s' does not open on backend '%s': %s", run->level.name, o->backend->name,
-                  tahr_status_message(status));
-        return -1;
-    }
-    return 0;
-}
 
 static int create_characters(struct run *run)
 {
@@ -76,36 +55,6 @@ static int create_characters(struct run *run)
     }
     free(places);
     return failed;
-}
-
-static int load_side(struct run *run)
-{
-    const struct options *o = run->options;
-    const struct side_options options = {.pixels_per_metre = o->pixels_per_metre, .separate = o->separate_tiles};
-    struct side side;
-    if (side_load(&side, o->level, &options) != 0) {
-        return -1;
-    }
-    const char *base = o->level != NULL ? strrchr(o->level, '/') : NULL;
-    side_build(&run->level, &side,
-               base != NULL       ? base + 1
-               : o->level != NULL ? o->level
-                                  : "side-scroller",
-               (backend_table(o->backend)->capabilities & TAHR_CAP_PLANAR) != 0);
-    return 0;
-}
-
-static int load_level(struct run *run)
-{
-    const struct options *o = run->options;
-    if (o->side) {
-        return load_side(run);
-    }
-    if (o->level == NULL) {
-        level_playground(&run->level);
-        return 0;
-    }
-    return level_load(&run->level, o->level, o->up);
 }
 
 static void set_config(struct run *run)
@@ -175,13 +124,18 @@ static int open_run(struct run *run)
     if (o->tour) {
         route_tour(&run->route);
     }
-    if (load_level(run) != 0) {
+    if (scene_load(&run->level, o) != 0) {
         return -1;
     }
     run->result.load_seconds = (double)(clock_ns() - before) * 1e-9;
     set_config(run);
     run->poses = memory_new(run->level.mover_count, sizeof *run->poses);
-    if (open_world(run) != 0 || create_characters(run) != 0 || open_trace(run) != 0) {
+    before = clock_ns();
+    if (scene_open(&run->level, o, &run->world) != 0) {
+        return -1;
+    }
+    run->result.open_seconds = (double)(clock_ns() - before) * 1e-9;
+    if (create_characters(run) != 0 || open_trace(run) != 0) {
         return -1;
     }
     run->checker = o->check != CHECK_OFF ? checker_open(&run->level) : NULL;
@@ -233,6 +187,7 @@ static int move_bodies(struct run *run, double begin)
         say_error("cannot move the bodies of '%s': %s", level->name, tahr_status_message(status));
         return -1;
     }
+    feed_bodies(run->feed, run);
     if (run->checker != NULL) {
         checker_time(run->checker, begin, begin + run->dt);
     }
@@ -259,6 +214,7 @@ static int step_character(struct run *run, struct moment *m)
     m->before = character->state.position;
     m->flags_before = character->state.flags;
     m->shape_before = shape_now(&run->config, &character->state);
+    feed_begin(run->feed, m->index, &character->state);
     uint64_t before = clock_ns();
     tahr_status status = tahr_mover_step(character->mover, &m->input, run->dt, &character->state, &m->report);
     uint64_t ns = clock_ns() - before, clock = (uint64_t)run->result.clock_cost;
@@ -268,6 +224,7 @@ static int step_character(struct run *run, struct moment *m)
                   m->before.y, m->before.z, tahr_status_message(status));
         return -1;
     }
+    feed_step(run->feed, run, m, status, ns, 0);
     moment_watch(run, m, character);
     return 0;
 }
@@ -288,6 +245,11 @@ static int walk(struct run *run, struct throng *throng)
     uint64_t began = clock_ns(), next = began;
     for (moment.step = 0; moment.step < run->step_count; moment.step++) {
         moment.time = (double)moment.step * run->dt;
+        feed_wait(run->feed, moment.time);
+        if (interrupt_came()) {
+            run->result.ended = moment.time;
+            break;
+        }
         if (run->level.mover_count > 0 && move_bodies(run, moment.time) != 0) {
             return -1;
         }
@@ -368,7 +330,7 @@ static int finish(struct run *run)
 int run_describe(const struct options *options, const tahr_log *to)
 {
     struct run run = {.options = options};
-    int opened = load_level(&run) == 0 && open_world(&run) == 0;
+    int opened = scene_load(&run.level, options) == 0 && scene_open(&run.level, options, &run.world) == 0;
     if (opened && run.level.side) {
         side_describe(run.level.side, options->separate_tiles,
                       (backend_table(options->backend)->capabilities & TAHR_CAP_PLANAR) != 0, to);
@@ -393,8 +355,10 @@ int run_command(int argc, char **argv)
         .options = &options, .dt = 1 / options.rate, .step_count = (uint64_t)(options.seconds * options.rate + 0.5)};
     int code = EXIT_USAGE; /* whatever keeps a run from starting was asked for on the command line */
     struct throng *throng = NULL;
-    if (open_run(&run) == 0 && throng_open(&run, &throng) == 0) {
-        code = walk(&run, throng) == 0 && finish(&run) == 0 && !run.result.failed ? EXIT_GOOD : EXIT_CHECK_FAILED;
+    if (open_run(&run) == 0 && throng_open(&run, &throng) == 0 && feed_open(&run, &run.feed) == 0) {
+        const int walked = walk(&run, throng) == 0;
+        feed_close(&run, run.feed);
+        code = walked && finish(&run) == 0 && !run.result.failed ? EXIT_GOOD : EXIT_CHECK_FAILED;
     }
     throng_close(throng);
     close_run(&run);

@@ -19,6 +19,12 @@ struct finding {
 
 enum { MAX_FINDINGS = 20, MODES = TAHR_MODE_CUSTOM + 1, EVENT_TYPES = TAHR_EVENT_CUSTOM + 1 };
 
+/* What became of the messages of --lcm. */
+struct feed_counts {
+    int open; /* 0: not asked for, or not there */
+    uint64_t sent, thinned, dropped, failed;
+};
+
 /* What a run found. */
 struct result {
     uint64_t steps; /* of all characters */
@@ -39,6 +45,8 @@ struct result {
     uint64_t state_hash;
     uint64_t world_bytes;
     uint64_t trace_bytes; /* written by --trace */
+    struct feed_counts lcm;
+    double ended; /* s, when a signal ended it early; else 0 */
     double load_seconds, open_seconds, wall_seconds;
     int failed;                            /* a check did not hold */
     struct finding findings[MAX_FINDINGS]; /* the first ones */

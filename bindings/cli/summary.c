@@ -144,6 +144,15 @@ void summary_words(const struct options *o, const struct level *level, const str
         printf("  wrote      %s: %.2f MB, %.0f bytes per step\n", o->trace, (double)r->trace_bytes / 1e6,
                per_step(r, r->trace_bytes));
     }
+    if (r->lcm.open) {
+        printf("  lcm        %" PRIu64 " messages to %s; %" PRIu64 " dropped, %" PRIu64 " failed\n", r->lcm.sent,
+               o->lcm, r->lcm.dropped, r->lcm.failed);
+    } else if (o->lcm != NULL) {
+        printf("  lcm        NOT THERE: nothing went to %s\n", o->lcm);
+    }
+    if (r->ended > 0) {
+        printf("  ended      by a signal after %.4g s\n", r->ended);
+    }
     printf("%s\n", r->failed ? "FAILED" : "ok");
 }
 
@@ -261,6 +270,21 @@ static void put_places(json_t *object, const struct level *level)
     json_object_set_new(object, "places", places);
 }
 
+static void put_lcm(json_t *object, const struct options *o, const struct result *r)
+{
+    if (o->lcm != NULL) {
+        put_text(object, "lcm", o->lcm);
+        json_object_set_new(object, "lcm_open", json_boolean(r->lcm.open));
+        put_count(object, "lcm_sent", r->lcm.sent);
+        put_count(object, "lcm_thinned", r->lcm.thinned);
+        put_count(object, "lcm_dropped", r->lcm.dropped);
+        put_count(object, "lcm_failed", r->lcm.failed);
+    }
+    if (r->ended > 0) {
+        put_real(object, "ended", r->ended);
+    }
+}
+
 static void put_findings(json_t *object, const struct result *r)
 {
     json_t *list = json_array();
@@ -289,6 +313,7 @@ void summary_json(const struct options *options, const struct level *level, cons
     if (level->side != NULL) {
         put_places(object, level);
     }
+    put_lcm(object, options, result);
     put_findings(object, result);
     json_dumpf(object, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(12));
     putchar('\n');

@@ -2,6 +2,7 @@
  * throng.c: all characters of a run in one step, and an independent look at how near they come to each other. */
 #include "throng.h"
 
+#include "feed.h"
 #include "say.h"
 #include "vec.h"
 
@@ -164,6 +165,7 @@ static void prepare(struct run *run, struct throng *t, uint32_t i, uint64_t step
     m->before = character->state.position;
     m->flags_before = character->state.flags;
     m->shape_before = shape_now(&run->config, &character->state);
+    feed_begin(run->feed, i, &character->state);
     t->inputs[i] = m->input;
     t->states[i] = character->state;
     t->reports[i] = (tahr_report){.struct_size = sizeof *t->reports,
@@ -200,6 +202,7 @@ int throng_step(struct run *run, struct throng *t, uint64_t step, double time)
     for (uint32_t i = 0; i < n; i++) {
         t->moments[i].report = t->reports[i];
         run->characters[i].state = t->states[i];
+        feed_step(run->feed, run, &t->moments[i], t->statuses[i], 0, t->meets ? TAHR_STEP_CROWD : 0);
         moment_watch(run, &t->moments[i], &run->characters[i]);
     }
     return 0;

@@ -20,8 +20,9 @@ def run(*arguments, folder):
     return done.stdout
 
 
-def test_the_quick_start_says_what_the_readme_says(tmp_path):
-    text = (PYTHON / "README.md").read_text()
+@pytest.mark.parametrize("readme", [ROOT / "README.md", PYTHON / "README.md"], ids=["root", "python"])
+def test_the_quick_start_says_what_the_readme_says(readme, tmp_path):
+    text = readme.read_text()
     code, output = re.search(r"```python\n(.*?)```\n\n```\n(.*?)```", text, re.S).groups()
     (tmp_path / "quick_start.py").write_text(code)
     assert run("quick_start.py", folder=tmp_path) == output
