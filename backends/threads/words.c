@@ -11,24 +11,36 @@ static __m128i same(const char *one, const char *other)
     return _mm_cmpeq_epi32(_mm_load_si128((const void *)one), _mm_loadu_si128((const void *)other));
 }
 
-/* Of 8 words: 4 comparisons of 4 halves each become 16 bits, and those 8. Most lines do not change from step to step,
- * and cost no more than that. */
-static uint64_t line_differs(const char *a, const char *b)
+/* Of the 16 halves of 8 words, a bit each: which ones differ. */
+static uint64_t halves_differ(const char *a, const char *b)
 {
     const __m128i low = _mm_packs_epi32(same(a, b), same(a + 16, b + 16));
     const __m128i high = _mm_packs_epi32(same(a + 32, b + 32), same(a + 48, b + 48));
-    uint32_t halves = ~(uint32_t)_mm_movemask_epi8(_mm_packs_epi16(low, high)) & 0xFFFFu;
-    if (halves == 0) return 0;
-    halves = (halves | halves >> 1) & 0x5555u;
-    halves = (halves | halves >> 1) & 0x3333u;
-    halves = (halves | halves >> 2) & 0x0F0Fu;
-    return (halves | halves >> 4) & 0xFFu;
+    return (uint64_t)(~_mm_movemask_epi8(_mm_packs_epi16(low, high)) & 0xFFFF);
+}
+
+/* Of 32 words, from a bit for each half: neighbours become one, and then the gaps between them are closed. */
+static uint64_t bits_of_words(uint64_t halves)
+{
+    halves = (halves | halves >> 1) & 0x5555555555555555u;
+    halves = (halves | halves >> 1) & 0x3333333333333333u;
+    halves = (halves | halves >> 2) & 0x0F0F0F0F0F0F0F0Fu;
+    halves = (halves | halves >> 4) & 0x00FF00FF00FF00FFu;
+    halves = (halves | halves >> 8) & 0x0000FFFF0000FFFFu;
+    return (halves | halves >> 16) & 0x00000000FFFFFFFFu;
+}
+
+/* Without a branch: which words change is another thing for every character, and nothing to be foreseen. */
+static uint64_t differ_32(const char *a, const char *b)
+{
+    return bits_of_words(halves_differ(a, b) | halves_differ(a + 64, b + 64) << 16 |
+                         halves_differ(a + 128, b + 128) << 32 | halves_differ(a + 192, b + 192) << 48);
 }
 #else
-static uint64_t line_differs(const char *a, const char *b)
+static uint64_t differ_32(const char *a, const char *b)
 {
     uint64_t differ = 0;
-    for (int i = 0; i < 8; i++)
+    for (int i = 0; i < 32; i++)
         differ |= (uint64_t)(tahr__word_of(a, i) != tahr__word_of(b, i)) << i;
     return differ;
 }
@@ -37,10 +49,7 @@ static uint64_t line_differs(const char *a, const char *b)
 uint64_t tahr__words_differ(const void *one, const void *other)
 {
     const char *a = one, *b = other;
-    uint64_t differ = 0;
-    for (int i = 0; i < 64; i += 8)
-        differ |= line_differs(a + 8 * i, b + 8 * i) << i;
-    return differ;
+    return differ_32(a, b) | differ_32(a + 256, b + 256) << 32;
 }
 
 uint64_t *tahr__words_pack(uint64_t *to, const void *object, uint64_t mask)
