@@ -4,8 +4,9 @@
 
 #include <stdalign.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+
+#include "../common/malloc.h"
 
 tahr_status tahr_lcm_desc_init(tahr_lcm_desc *desc, size_t size)
 {
@@ -89,25 +90,12 @@ static void name_channels(tahr_lcm *lcm, const char *prefix)
         snprintf(lcm->names[i], sizeof lcm->names[i], "%sTAHR_%s", prefix ? prefix : "", names[i]);
 }
 
-static void *plain_alloc(void *user, size_t size, size_t alignment)
-{
-    (void)user, (void)alignment; /* no more than malloc's own is asked for here */
-    return malloc(size);
-}
-
-static void plain_free(void *user, void *memory, size_t size, size_t alignment)
-{
-    (void)user, (void)size, (void)alignment;
-    free(memory);
-}
-
 tahr_status tahr_lcm_open(const tahr_lcm_desc *desc, tahr_lcm **lcm)
 {
-    const tahr_allocator plain = {NULL, plain_alloc, plain_free};
     tahr_status status = desc && lcm ? check(desc) : TAHR_E_NULL;
 
     if (status < 0) return status;
-    const tahr_allocator a = desc->allocator ? *desc->allocator : plain;
+    const tahr_allocator a = tahr__allocator_or_malloc(desc->allocator);
     tahr_lcm *l = a.alloc(a.user, sizeof *l, alignof(tahr_lcm));
     if (!l) return tahr__lcm_complain(desc->log, TAHR_E_MEMORY, "tahr_lcm_open: no memory for %zu bytes", sizeof *l);
     memset(l, 0, sizeof *l);

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT
  * deliver.c: a record, told to the sink message by message. Hashing is done here, far from who steps. */
-#include <time.h>
-
 #include <tahr/state.h>
 
 #include "record.h"
@@ -21,13 +19,6 @@ static int may_tell(tahr_telemetry *t, uint32_t message)
     const int may = !tahr__is_abandoned(t);
     if (!may) tahr__tally_add(&t->drain.dropped, message, 1);
     return may;
-}
-
-static int64_t wall_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
 static void deliver_events(tahr_telemetry *t, const uint64_t *words, const tahr__record_step *r, tahr_stamp stamp)
@@ -84,7 +75,7 @@ static void deliver_step(tahr_telemetry *t, const tahr__record_step *r)
                         .step = r->step,
                         .epoch = r->head.epoch,
                         .time_ns = r->time_ns,
-                        .wall_ns = r->wall_ns ? r->wall_ns : wall_clock()};
+                        .wall_ns = r->wall_ns ? r->wall_ns : tahr__clock_ns(CLOCK_REALTIME)};
     tahr_input input = {0};
     tahr_report report = {0};
     if (parts & 1u << TAHR_MESSAGE_INPUT) words = read_input(words, &input);
@@ -111,7 +102,7 @@ static void deliver_snapshot(tahr_telemetry *t, const tahr__record_snapshot *r)
                               .sequence = r->sequence,
                               .epoch = r->head.epoch,
                               .time_ns = r->time_ns,
-                              .wall_ns = wall_clock()};
+                              .wall_ns = tahr__clock_ns(CLOCK_REALTIME)};
     tahr__words_unpack((const uint64_t *)(const void *)(r + 1), state);
     if (may_tell(t, TAHR_MESSAGE_SNAPSHOT))
         tahr__deliver_count(t, TAHR_MESSAGE_SNAPSHOT, t->sink.snapshot(t->sink.user, &stamp, state));
@@ -128,7 +119,7 @@ static void deliver_change(tahr_telemetry *t, const tahr__record_change *r)
                                      .dt = r->dt,
                                      .epoch = r->head.epoch,
                                      .revision = r->revision,
-                                     .wall_ns = wall_clock()};
+                                     .wall_ns = tahr__clock_ns(CLOCK_REALTIME)};
     if (may_tell(t, TAHR_MESSAGE_BODY))
         tahr__deliver_count(t, TAHR_MESSAGE_BODY, t->sink.change(t->sink.user, &change));
 }

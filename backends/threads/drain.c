@@ -1,16 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * drain.c: the thread between the rings and the sink. */
-#include <time.h>
-
 #include "record.h"
 #include "telemetry.h"
-
-static int64_t nanoseconds(clockid_t clock)
-{
-    struct timespec now;
-    clock_gettime(clock, &now);
-    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
 
 static uint64_t dropped_for_want_of_room(const tahr_telemetry *t)
 {
@@ -32,7 +23,7 @@ static void tell_world(tahr_telemetry *t)
                              .config_count = t->config_count,
                              .characters = t->character_count,
                              .run = d->run,
-                             .wall_ns = nanoseconds(CLOCK_REALTIME),
+                             .wall_ns = tahr__clock_ns(CLOCK_REALTIME),
                              .sequence = d->world_sequence++,
                              .epoch = atomic_load_explicit(&t->epoch, memory_order_acquire),
                              .revision = atomic_load_explicit(&t->revision, memory_order_relaxed),
@@ -88,7 +79,7 @@ uint64_t tahr__drain_pass(tahr_telemetry *t)
 /* Sleeps for the period, or until it is to end. */
 static void rest(tahr_telemetry *t)
 {
-    const int64_t until = nanoseconds(CLOCK_MONOTONIC) + t->drain_ns;
+    const int64_t until = tahr__clock_ns(CLOCK_MONOTONIC) + t->drain_ns;
     const struct timespec at = {.tv_sec = (time_t)(until / 1000000000), .tv_nsec = (long)(until % 1000000000)};
     pthread_mutex_lock(&t->lock);
     int woken = 0;
@@ -99,7 +90,7 @@ static void rest(tahr_telemetry *t)
 
 static void tell_world_in_time(tahr_telemetry *t)
 {
-    const int64_t now = nanoseconds(CLOCK_MONOTONIC);
+    const int64_t now = tahr__clock_ns(CLOCK_MONOTONIC);
     if (now < t->drain.world_ns) return;
     tell_world(t);
     t->drain.world_ns = now + t->world_ns;
@@ -127,7 +118,7 @@ static void finish(tahr_telemetry *t)
 void *tahr__drain_live(void *user)
 {
     tahr_telemetry *t = user;
-    t->drain.run = nanoseconds(CLOCK_REALTIME);
+    t->drain.run = tahr__clock_ns(CLOCK_REALTIME);
     for (;;) {
         const uint32_t ending = atomic_load_explicit(&t->ending, memory_order_acquire);
         tell_world_in_time(t);

@@ -1,24 +1,12 @@
 /* SPDX-License-Identifier: MIT
  * lay_out.c: all the memory of a telemetry: one block, in which everything begins on a line of its own. */
-#include <stdlib.h>
 #include <string.h>
 
+#include "../common/malloc.h"
 #include "telemetry.h"
 #include "telemetry_check.h"
 
 enum { LINE = 64 };
-
-static void *plain_alloc(void *user, size_t size, size_t alignment)
-{
-    (void)user;
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-}
-
-static void plain_free(void *user, void *memory, size_t size, size_t alignment)
-{
-    (void)user, (void)size, (void)alignment;
-    free(memory);
-}
 
 /* Takes the next size bytes of a block, or only counts them while there is none. */
 typedef struct block {
@@ -106,8 +94,7 @@ static void copy_desc(tahr_telemetry *t, const tahr_telemetry_desc *d)
 
 tahr_telemetry *tahr__telemetry_lay_out(const tahr_telemetry_desc *d)
 {
-    const tahr_allocator plain = {NULL, plain_alloc, plain_free};
-    const tahr_allocator a = d->allocator ? *d->allocator : plain;
+    const tahr_allocator a = tahr__allocator_or_malloc(d->allocator);
     tahr_telemetry counted = {0};
     block b = {NULL, 0};
     take(&b, 1, sizeof counted);

@@ -4,6 +4,7 @@
 #define TAHR_THREADS_TELEMETRY_H
 
 #include <pthread.h>
+#include <time.h>
 
 #include "places.h"
 #include "lane.h"
@@ -69,6 +70,14 @@ void tahr__deliver(tahr_telemetry *telemetry, const void *record);
 
 /* What the sink returned for a message. */
 void tahr__deliver_count(tahr_telemetry *telemetry, uint32_t message, tahr_status status);
+
+/* Only the thread that drains reads clocks. */
+static inline int64_t tahr__clock_ns(clockid_t clock)
+{
+    struct timespec now;
+    clock_gettime(clock, &now);
+    return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
+}
 
 static inline int tahr__is_abandoned(tahr_telemetry *telemetry)
 {

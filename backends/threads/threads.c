@@ -12,9 +12,10 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "../common/malloc.h"
 
 enum { MOST = 256 };
 
@@ -77,18 +78,6 @@ static void *live(void *user)
     return NULL;
 }
 
-static void *plain_alloc(void *user, size_t size, size_t alignment)
-{
-    (void)user;
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-}
-
-static void plain_free(void *user, void *memory, size_t size, size_t alignment)
-{
-    (void)user, (void)size, (void)alignment;
-    free(memory);
-}
-
 static uint32_t processors(void)
 {
     long n = sysconf(_SC_NPROCESSORS_ONLN);
@@ -97,10 +86,9 @@ static uint32_t processors(void)
 
 tahr_status tahr_threads_create(const tahr_allocator *allocator, uint32_t count, tahr_threads **threads)
 {
-    const tahr_allocator plain = {NULL, plain_alloc, plain_free};
     if (!threads) return TAHR_E_NULL;
     if (count > MOST) return TAHR_E_ARGUMENT;
-    const tahr_allocator a = allocator ? *allocator : plain;
+    const tahr_allocator a = tahr__allocator_or_malloc(allocator);
     tahr_threads *t = a.alloc(a.user, sizeof *t, 64);
     if (!t) return TAHR_E_MEMORY;
     memset(t, 0, sizeof *t);
