@@ -81,6 +81,7 @@ for binding in bindings/*/; do
     cpp) # of C++ what is quickly read
         pattern='<(atomic|cstddef|cstdint|cstdio|cstdlib|cstring|exception|new|stdexcept|type_traits|utility)>'
         pattern="$pattern|<tahr/[a-z0-9_]+\\.h>|\"[a-z_]+\\.hpp\"" ;;
+    cli) pattern='<(tahr/)?[a-z0-9_/-]+\.h>|"((\.\./|lcm/)?[a-z0-9_]+\.h)"' ;; # lcm/: all that speaks LCM
     *) pattern="<(tahr/)?[a-z0-9_/-]+\\.h>|$own" ;;
     esac
     check "bindings/$name" "bindings/$name" "$pattern"
@@ -96,7 +97,7 @@ for folder in tests/*/; do
     unit) pattern='"[a-z0-9_/.]+\.(h|inc)"' ;;
     fcl) pattern='<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>|"[a-z0-9_]+\.h"' ;;
     lcm) pattern='"(\.\./)?[a-z0-9_]+\.h"' ;;
-    cli) pattern='"((\.\./)?support/|\.\./\.\./bindings/cli/)?[a-z0-9_]+\.h"' ;;
+    cli) pattern='"((\.\./)?support/|\.\./\.\./bindings/cli/|lcm/)?[a-z0-9_]+\.h"' ;;
     *) pattern='"((\.\./)?support/)?[a-z0-9_]+\.h"' ;;
     esac
     check "tests/$name" "tests/$name" "<(tahr/)?[a-z0-9_/]+\\.h>|<[a-z_]+>|$pattern"

@@ -2,8 +2,8 @@
  * main.c: `tahr`, the library's shell. */
 #include "info.h"
 #ifdef TAHR_HAVE_LCM
-#include "lcm_listen.h"
-#include "lcm_record.h"
+#include "lcm/listen.h"
+#include "lcm/record.h"
 #endif
 #include "levels.h"
 #include "options.h"

@@ -9,8 +9,8 @@
 #include "say.h"
 
 #ifdef TAHR_HAVE_LCM
-#include "lcm_play.h"
-#include "lcm_verify.h"
+#include "lcm/play.h"
+#include "lcm/verify.h"
 #endif
 
 #include <stdio.h>

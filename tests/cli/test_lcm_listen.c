@@ -10,11 +10,11 @@
 #ifdef TAHR_HAVE_LCM
 
 #include "captured.h"
-#include "lcm_listen.h"
+#include "lcm/listen.h"
 #include "lcm_log.h"
-#include "lcm_record.h"
-#include "lcm_roster.h"
-#include "lcm_table.h"
+#include "lcm/record.h"
+#include "lcm/roster.h"
+#include "lcm/table.h"
 #include "run.h"
 #include "say.h"
 

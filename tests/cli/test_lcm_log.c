@@ -10,7 +10,7 @@
 #ifdef TAHR_HAVE_LCM
 
 #include "lcm_log.h"
-#include "lcm_message.h"
+#include "lcm/message.h"
 #include "log_file.h"
 
 #include <stdlib.h>

@@ -11,7 +11,7 @@
 
 #include "captured.h"
 #include "lcm_log.h"
-#include "lcm_message.h"
+#include "lcm/message.h"
 #include "replay.h"
 #include "say.h"
 #include "scene.h"

@@ -10,7 +10,7 @@
 
 #include "captured.h"
 #include "lcm_log.h"
-#include "lcm_message.h"
+#include "lcm/message.h"
 #include "replay.h"
 #include "run.h"
 #include "say.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * lcm_difference.h: in which fields a state differs from a recorded one. */
+ * difference.h: in which fields a state differs from a recorded one. */
 #ifndef TAHR_CLI_LCM_DIFFERENCE_H
 #define TAHR_CLI_LCM_DIFFERENCE_H
 

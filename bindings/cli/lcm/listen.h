@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * lcm_listen.h: `tahr listen`: what characters do elsewhere, shown while they do it. */
+ * listen.h: `tahr listen`: what characters do elsewhere, shown while they do it. */
 #ifndef TAHR_CLI_LCM_LISTEN_H
 #define TAHR_CLI_LCM_LISTEN_H
 

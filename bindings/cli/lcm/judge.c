@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * lcm_judge.c: a recorded run, taken again step by step. A telemetry tells of a change of the world before the steps in
+ * judge.c: a recorded run, taken again step by step. A telemetry tells of a change of the world before the steps in
  * it, and of one step its input, its events, its state, its report. */
-#include "lcm_judge.h"
+#include "judge.h"
 
-#include "lcm_actor.h"
-#include "lcm_crowd.h"
-#include "lcm_difference.h"
-#include "say.h"
+#include "actor.h"
+#include "crowd.h"
+#include "difference.h"
+#include "../say.h"
 
 #include <stdlib.h>
 #include <string.h>

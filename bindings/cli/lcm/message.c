@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * lcm_message.c: one message of a telemetry over LCM. */
-#include "lcm_message.h"
+ * message.c: one message of a telemetry over LCM. */
+#include "message.h"
 
 #include <ctype.h>
 #include <limits.h>

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: MIT
- * lcm_verify.c: a log of LCM, proven by taking every recorded step again. */
-#include "lcm_verify.h"
+ * verify.c: a log of LCM, proven by taking every recorded step again. */
+#include "verify.h"
 
-#include "lcm_judge.h"
-#include "log_file.h"
-#include "say.h"
-#include "scene.h"
-#include "stats.h"
+#include "judge.h"
+#include "../log_file.h"
+#include "../say.h"
+#include "../scene.h"
+#include "../stats.h"
 
 #include <fnmatch.h>
 #include <inttypes.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * lcm_crowd.c: recorded steps of a crowd, taken again. */
-#include "lcm_crowd.h"
+ * crowd.c: recorded steps of a crowd, taken again. */
+#include "crowd.h"
 
-#include "say.h"
+#include "../say.h"
 
 #include <stdlib.h>
 #include <string.h>

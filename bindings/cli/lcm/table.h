@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * lcm_table.h: who is heard, as a table that stays where it is on a terminal. */
+ * table.h: who is heard, as a table that stays where it is on a terminal. */
 #ifndef TAHR_CLI_LCM_TABLE_H
 #define TAHR_CLI_LCM_TABLE_H
 
-#include "lcm_roster.h"
+#include "roster.h"
 
 struct table {
     int drawn;         /* lines that are on the terminal, */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * lcm_actor.c: one character of a recorded run that is taken again. */
-#include "lcm_actor.h"
+ * actor.c: one character of a recorded run that is taken again. */
+#include "actor.h"
 
-#include "lcm_difference.h"
-#include "say.h"
+#include "difference.h"
+#include "../say.h"
 
 #include <stdlib.h>
 

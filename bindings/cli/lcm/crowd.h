@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * lcm_crowd.h: recorded steps of characters that are obstacles of each other, taken again as `tahr run --crowd` takes
+ * crowd.h: recorded steps of characters that are obstacles of each other, taken again as `tahr run --crowd` takes
  * them: all characters in one tick, everybody meets everybody, ids are their numbers. */
 #ifndef TAHR_CLI_LCM_CROWD_H
 #define TAHR_CLI_LCM_CROWD_H
 
-#include "lcm_actor.h"
+#include "actor.h"
 
 struct crowd;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * lcm_bus.h: a connection to LCM, for commands that hear what others publish, or publish what was recorded. */
+ * bus.h: a connection to LCM, for commands that hear what others publish, or publish what was recorded. */
 #ifndef TAHR_CLI_LCM_BUS_H
 #define TAHR_CLI_LCM_BUS_H
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * lcm_lines.h: one message as a line: in words, or as a JSON object. */
+ * lines.h: one message as a line: in words, or as a JSON object. */
 #ifndef TAHR_CLI_LCM_LINES_H
 #define TAHR_CLI_LCM_LINES_H
 
-#include "lcm_message.h"
+#include "message.h"
 
 #include <stdio.h>
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * lcm_actor.h: one character of a recorded run that is taken again: what is known of it, and what was found. */
+ * actor.h: one character of a recorded run that is taken again: what is known of it, and what was found. */
 #ifndef TAHR_CLI_LCM_ACTOR_H
 #define TAHR_CLI_LCM_ACTOR_H
 
-#include "lcm_judge.h"
+#include "judge.h"
 
 struct actor {
     int32_t character;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * lcm_message.h: one message of a telemetry over LCM: known by its channel, read, and told apart from what others
+ * message.h: one message of a telemetry over LCM: known by its channel, read, and told apart from what others
  * send. */
 #ifndef TAHR_CLI_LCM_MESSAGE_H
 #define TAHR_CLI_LCM_MESSAGE_H

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * lcm_judge.h: a recorded run, taken again step by step: is every state the one that was recorded? */
+ * judge.h: a recorded run, taken again step by step: is every state the one that was recorded? */
 #ifndef TAHR_CLI_LCM_JUDGE_H
 #define TAHR_CLI_LCM_JUDGE_H
 
-#include "lcm_bodies.h"
-#include "lcm_message.h"
+#include "bodies.h"
+#include "message.h"
 
 enum { FINDINGS_SAID = 12 };
 

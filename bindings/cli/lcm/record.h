@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * lcm_record.h: `tahr record`: what is published over LCM, kept as an ordinary LCM event log. */
+ * record.h: `tahr record`: what is published over LCM, kept as an ordinary LCM event log. */
 #ifndef TAHR_CLI_LCM_RECORD_H
 #define TAHR_CLI_LCM_RECORD_H
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * lcm_play.c: a log of LCM, published again as it was recorded. */
-#include "lcm_play.h"
+ * play.c: a log of LCM, published again as it was recorded. */
+#include "play.h"
 
-#include "interrupt.h"
-#include "lcm_bus.h"
-#include "log_file.h"
-#include "pace.h"
-#include "say.h"
-#include "stats.h"
+#include "../interrupt.h"
+#include "bus.h"
+#include "../log_file.h"
+#include "../pace.h"
+#include "../say.h"
+#include "../stats.h"
 
 #include <fnmatch.h>
 #include <inttypes.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * lcm_lines.c: one message as a line: in words, or as a JSON object. */
-#include "lcm_lines.h"
+ * lines.c: one message as a line: in words, or as a JSON object. */
+#include "lines.h"
 
-#include "say.h"
+#include "../say.h"
 
 #include <inttypes.h>
 #include <jansson.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * lcm_bodies.h: the bodies of a recorded world, placed again as the recording tells. */
+ * bodies.h: the bodies of a recorded world, placed again as the recording tells. */
 #ifndef TAHR_CLI_LCM_BODIES_H
 #define TAHR_CLI_LCM_BODIES_H
 

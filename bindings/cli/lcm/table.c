@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * lcm_table.c: who is heard, as a table that stays where it is on a terminal (ECMA-48: CSI A up, K and J erase). */
-#include "lcm_table.h"
+ * table.c: who is heard, as a table that stays where it is on a terminal (ECMA-48: CSI A up, K and J erase). */
+#include "table.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * lcm_roster.c: who was heard, and what was lost. */
-#include "lcm_roster.h"
+ * roster.c: who was heard, and what was lost. */
+#include "roster.h"
 
-#include "say.h"
+#include "../say.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * lcm_difference.c: in which fields a state differs from a recorded one. */
-#include "lcm_difference.h"
+ * difference.c: in which fields a state differs from a recorded one. */
+#include "difference.h"
 
 #include <inttypes.h>
 #include <stddef.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * lcm_verify.h: `tahr replay LOG --verify`: a log of LCM, proven by taking every recorded step again. */
+ * verify.h: `tahr replay LOG --verify`: a log of LCM, proven by taking every recorded step again. */
 #ifndef TAHR_CLI_LCM_VERIFY_H
 #define TAHR_CLI_LCM_VERIFY_H
 
-#include "options.h"
+#include "../options.h"
 
 /* glob: of the channels that count, or NULL: all. options: the level; unless they name a backend it becomes that of the
  * recording. Returns an exit code. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT
- * lcm_roster.h: who was heard: every character of every publisher, what is known of it, and what was lost of it. */
+ * roster.h: who was heard: every character of every publisher, what is known of it, and what was lost of it. */
 #ifndef TAHR_CLI_LCM_ROSTER_H
 #define TAHR_CLI_LCM_ROSTER_H
 
-#include "lcm_message.h"
+#include "message.h"
 
 /* One character. */
 struct roster_row {

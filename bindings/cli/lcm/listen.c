@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * lcm_listen.c: `tahr listen`. */
-#include "lcm_listen.h"
+ * listen.c: `tahr listen`. */
+#include "listen.h"
 
-#include "argument.h"
-#include "interrupt.h"
-#include "lcm_bus.h"
-#include "lcm_lines.h"
-#include "lcm_table.h"
-#include "say.h"
-#include "stats.h"
+#include "../argument.h"
+#include "../interrupt.h"
+#include "bus.h"
+#include "lines.h"
+#include "table.h"
+#include "../say.h"
+#include "../stats.h"
 
 #include <fnmatch.h>
 #include <inttypes.h>

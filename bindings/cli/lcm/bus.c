@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT
- * lcm_bus.c: a connection to LCM. */
-#include "lcm_bus.h"
+ * bus.c: a connection to LCM. */
+#include "bus.h"
 
-#include "interrupt.h"
-#include "log_file.h"
-#include "say.h"
-#include "stats.h"
+#include "../interrupt.h"
+#include "../log_file.h"
+#include "../say.h"
+#include "../stats.h"
 
 #include <arpa/inet.h>
 #include <stdio.h>

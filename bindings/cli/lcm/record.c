@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * lcm_record.c: `tahr record`. */
-#include "lcm_record.h"
+ * record.c: `tahr record`. */
+#include "record.h"
 
-#include "argument.h"
-#include "interrupt.h"
-#include "lcm_bus.h"
-#include "lcm_roster.h"
-#include "say.h"
-#include "stats.h"
+#include "../argument.h"
+#include "../interrupt.h"
+#include "bus.h"
+#include "roster.h"
+#include "../say.h"
+#include "../stats.h"
 
 #include <errno.h>
 #include <fnmatch.h>

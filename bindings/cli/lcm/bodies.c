@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT
- * lcm_bodies.c: the bodies of a recorded world, placed again as the recording tells. */
-#include "lcm_bodies.h"
+ * bodies.c: the bodies of a recorded world, placed again as the recording tells. */
+#include "bodies.h"
 
-#include "say.h"
+#include "../say.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * lcm_play.h: `tahr replay LOG`: a log of LCM, published again as it was recorded. */
+ * play.h: `tahr replay LOG`: a log of LCM, published again as it was recorded. */
 #ifndef TAHR_CLI_LCM_PLAY_H
 #define TAHR_CLI_LCM_PLAY_H
 
