@@ -42,7 +42,7 @@ static void deliver_report(tahr_telemetry *t, tahr_report *report, const tahr__r
     report->decisions = NULL;
     report->queries = NULL;
     const tahr_sink_report told = {
-        .report = report, .hash = tahr_state_hash(&t->characters[r->character].last), .ns = r->ns, .status = r->status};
+        .report = report, .hash = tahr_state_hash(&t->drain.last[r->character]), .ns = r->ns, .status = r->status};
     stamp.sequence = r->sequence[TAHR_MESSAGE_REPORT];
     tahr__deliver_count(t, TAHR_MESSAGE_REPORT, t->sink.report(t->sink.user, &stamp, &told));
 }
@@ -69,7 +69,7 @@ static void deliver_step(tahr_telemetry *t, const tahr__record_step *r)
 {
     const uint32_t parts = r->head.parts;
     const uint64_t *words = (const uint64_t *)(const void *)(r + 1);
-    tahr_state *state = &t->characters[r->character].last;
+    tahr_state *state = &t->drain.last[r->character];
     tahr_stamp stamp = {.character = r->character,
                         .config = r->config,
                         .step = r->step,
@@ -95,7 +95,7 @@ static void deliver_step(tahr_telemetry *t, const tahr__record_step *r)
 
 static void deliver_snapshot(tahr_telemetry *t, const tahr__record_snapshot *r)
 {
-    tahr_state *state = &t->characters[r->character].last;
+    tahr_state *state = &t->drain.last[r->character];
     const tahr_stamp stamp = {.character = r->character,
                               .config = r->config,
                               .step = r->step,

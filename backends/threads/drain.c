@@ -51,9 +51,9 @@ static uint64_t first_epoch(tahr_telemetry *t)
     return first;
 }
 
-/* Epoch by epoch. All records of an epoch were written before the next one began, and the epoch is read before the rings
- * are looked at: of those before it nothing is still to come. What belongs to a later one waits, for its change may lie
- * in a ring that was looked at too early. */
+/* Epoch by epoch. All records of an epoch were written before the next one began, and the epoch is read before the
+ * rings are looked at: of those before it nothing is still to come. What belongs to a later one waits, for its change
+ * may lie in a ring that was looked at too early. */
 uint64_t tahr__drain_pass(tahr_telemetry *t)
 {
     const uint64_t epoch = atomic_load_explicit(&t->epoch, memory_order_acquire);

@@ -209,13 +209,14 @@ static tahr_status check_step(const tahr_telemetry *t, const tahr_telemetry_step
     return s->report->events || s->report->event_count == 0 ? TAHR_OK : TAHR_E_NULL;
 }
 
-/* Who steps many takes them in order, as a rule: the next one's lines are on their way while the step is taken. */
+/* Who steps many takes them in order, as a rule: the lines of the one after the next are on their way for all of the
+ * next one's step. */
 static void expect(const tahr_telemetry *t, uint32_t character)
 {
 #ifdef __GNUC__
     if (character >= t->character_count) return;
     const char *at = (const char *)&t->characters[character];
-    for (size_t line = 0; line < offsetof(tahr__character, last); line += 64)
+    for (size_t line = 0; line < sizeof(tahr__character); line += 64)
         __builtin_prefetch(at + line);
 #else
     (void)t, (void)character;
@@ -245,7 +246,7 @@ tahr_status tahr_telemetry_push(tahr_telemetry *t, uint32_t lane, const tahr_tel
     c->sequence[TAHR_MESSAGE_EVENT] += p.events;
     c->sequence[TAHR_MESSAGE_INPUT] += due >> TAHR_MESSAGE_INPUT & 1;
     c->sequence[TAHR_MESSAGE_REPORT] += due >> TAHR_MESSAGE_REPORT & 1;
-    expect(t, step->character + 1);
+    expect(t, step->character + 2);
     if (!dropped) return TAHR_OK;
     c->gap |= dropped >> TAHR_MESSAGE_INPUT & 1;
     count_parts(&l->dropped, dropped, p.events);

@@ -44,8 +44,6 @@ typedef struct tahr__character {
     _Atomic uint32_t lane; /* and 1; 0: not seen yet */
     uint32_t snapshot;     /* 1: one is owed */
     uint32_t gap;          /* 1: an input was dropped since the last snapshot */
-    /* Of the thread that drains: the state as of the last record that has any of it. */
-    _Alignas(64) tahr_state last;
 } tahr__character;
 
 #endif

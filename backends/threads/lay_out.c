@@ -49,6 +49,7 @@ static void take_all(block *b, tahr_telemetry *t, const tahr_telemetry_desc *d)
     t->lane_count = d->lanes ? d->lanes : 1;
     t->lanes = take(b, t->lane_count, sizeof *t->lanes);
     t->characters = take(b, d->characters, sizeof *t->characters);
+    t->drain.last = take(b, d->characters, sizeof *t->drain.last);
     t->configs = take(b, d->config_count, d->configs->struct_size);
     take_places(b, &t->places, d->bodies);
     t->level = take_text(b, d->level);

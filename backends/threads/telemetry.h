@@ -18,6 +18,7 @@ typedef struct tahr__drain {
     uint64_t world_sequence;
     int64_t world_ns; /* when the next one is due, by the monotonic clock */
     int64_t run;
+    tahr_state *last; /* of each character: as of the last record that has any of it; no line of it is near who steps */
 } tahr__drain;
 
 struct tahr_telemetry {
