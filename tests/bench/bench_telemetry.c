@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #ifdef TAHR_HAVE_THREADS
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,46 +19,56 @@ enum { STEPS = 64000, BLOCK = 32, SETTLE = 2, EVENTS = 16, BATCH = 64, BATCHES =
 
 static const double DT = 1.0 / 60;
 
+static atomic_int stalls; /* 1: no function of the sink returns */
+
+static void nap(void)
+{
+    const struct timespec pause = {0, 200000};
+    nanosleep(&pause, NULL);
+}
+
+static tahr_status take(void *user)
+{
+    while (atomic_load(&stalls))
+        nap();
+    ++*(uint64_t *)user;
+    return TAHR_OK;
+}
+
 static tahr_status take_state(void *user, const tahr_stamp *stamp, const tahr_state *state)
 {
     (void)stamp, (void)state;
-    ++*(uint64_t *)user;
-    return TAHR_OK;
+    return take(user);
 }
 
 static tahr_status take_event(void *user, const tahr_stamp *stamp, const tahr_event *event)
 {
     (void)stamp, (void)event;
-    ++*(uint64_t *)user;
-    return TAHR_OK;
+    return take(user);
 }
 
 static tahr_status take_input(void *user, const tahr_stamp *stamp, const tahr_sink_input *input)
 {
     (void)stamp, (void)input;
-    ++*(uint64_t *)user;
-    return TAHR_OK;
+    return take(user);
 }
 
 static tahr_status take_report(void *user, const tahr_stamp *stamp, const tahr_sink_report *report)
 {
     (void)stamp, (void)report;
-    ++*(uint64_t *)user;
-    return TAHR_OK;
+    return take(user);
 }
 
 static tahr_status take_change(void *user, const tahr_sink_change *change)
 {
     (void)change;
-    ++*(uint64_t *)user;
-    return TAHR_OK;
+    return take(user);
 }
 
 static tahr_status take_world(void *user, const tahr_sink_world *world)
 {
     (void)world;
-    ++*(uint64_t *)user;
-    return TAHR_OK;
+    return take(user);
 }
 
 /* Everything is wanted. */
@@ -120,17 +131,12 @@ static int tick(trial *l, const bench_opened *opened, const bench_world *world, 
     return 1;
 }
 
-static void nap(void)
-{
-    const struct timespec pause = {0, 200000};
-    nanosleep(&pause, NULL);
-}
-
 /* A frame has time to spare after its steps: the thread that drains is not left behind for ever, but it does work while
  * others step. Returns how many naps that took. */
 static int let_drain(const tahr_telemetry *t)
 {
     for (int naps = 0;; naps++) {
+        if (atomic_load(&stalls)) return 0;
         tahr_telemetry_counts c = {.struct_size = sizeof c};
         uint64_t waiting = 0;
         tahr_telemetry_get_counts(t, &c);
@@ -215,10 +221,11 @@ static int take_turns(trial *l, const bench_opened *opened, const bench_world *w
     return 1;
 }
 
-int bench_telemetry_run(bench_opened *opened, const bench_world *world, uint32_t characters,
+int bench_telemetry_run(bench_opened *opened, const bench_world *world, uint32_t characters, int stalled,
                         bench_telemetry_result *result, char *error)
 {
     static uint64_t taken; /* by the sink, until the telemetry has ended */
+    atomic_store(&stalls, stalled);
     uint32_t *times = malloc(2 * STEPS * sizeof *times);
     trial l = {.crowd = {.count = characters, .seed = 17}, .times = {times, times + STEPS}};
     memset(result, 0, sizeof *result);
@@ -237,16 +244,17 @@ int bench_telemetry_run(bench_opened *opened, const bench_world *world, uint32_t
     } else if (!error[0]) {
         snprintf(error, 256, "out of memory, too many characters, or one was lost");
     }
+    atomic_store(&stalls, 0);
     tahr_telemetry_destroy(l.telemetry);
     bench_crowd_free(&l.crowd);
     free(times);
     return ok;
 }
 #else
-int bench_telemetry_run(bench_opened *opened, const bench_world *world, uint32_t characters,
+int bench_telemetry_run(bench_opened *opened, const bench_world *world, uint32_t characters, int stalled,
                         bench_telemetry_result *result, char *error)
 {
-    (void)opened, (void)world, (void)characters, (void)result;
+    (void)opened, (void)world, (void)characters, (void)stalled, (void)result;
     snprintf(error, 256, "built without libtahr_threads");
     return 0;
 }

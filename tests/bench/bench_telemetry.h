@@ -15,9 +15,10 @@ typedef struct bench_telemetry_result {
     uint64_t dropped;
 } bench_telemetry_result;
 
-/* Measures on an open world, with a sink that counts. Returns 0 and an explanation in error (capacity 256) if it could
+/* Measures on an open world, with a sink that counts, or stalled: that does not return until the end, as over a network
+ * that hangs. Returns 0 and an explanation in error (capacity 256) if it could
  * not. */
-int bench_telemetry_run(bench_opened *opened, const bench_world *world, uint32_t characters,
+int bench_telemetry_run(bench_opened *opened, const bench_world *world, uint32_t characters, int stalled,
                         bench_telemetry_result *result, char *error);
 
 #endif

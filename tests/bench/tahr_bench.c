@@ -15,6 +15,7 @@ typedef struct options {
     uint32_t characters; /* 0: all counts */
     int queries;         /* 1: single queries instead of steps */
     int telemetry;       /* 1: what it adds to a step */
+    int stalled;         /* 1: to a sink that does not return */
 } options;
 
 typedef struct plan {
@@ -27,8 +28,8 @@ enum { PLANS = 3 };
 static const plan NATIVE_PLANS[PLANS] = {{1, 20000}, {256, 300}, {10000, 20}};
 static const plan OTHER_PLANS[PLANS] = {{1, 600}, {16, 60}, {0, 0}};
 
-static const char OPTIONS[] =
-    "  --csv FILE (build/bench.csv)  --world NAME  --backend NAME  --characters N  --queries  --telemetry  --help\n";
+static const char OPTIONS[] = "  --csv FILE (build/bench.csv)  --world NAME  --backend NAME  --characters N  --queries "
+                              " --telemetry [--stalled]  --help\n";
 
 static int usage(const char *wrong)
 {
@@ -122,6 +123,8 @@ static int read_options(options *o, int argc, char **argv)
             o->queries = 1;
         } else if (strcmp(argv[i], "--telemetry") == 0) {
             o->telemetry = 1;
+        } else if (strcmp(argv[i], "--stalled") == 0) {
+            o->stalled = o->telemetry = 1;
         } else {
             return usage(argv[i]);
         }
@@ -231,7 +234,7 @@ static int measure_telemetry(FILE *csv, const bench_world *w, const options *o)
         bench_telemetry_result r;
         char error[256] = "";
         fprintf(stderr, "%s with telemetry ...\n", w->name);
-        if (bench_telemetry_run(&opened, w, o->characters ? o->characters : counts[i], &r, error)) {
+        if (bench_telemetry_run(&opened, w, o->characters ? o->characters : counts[i], o->stalled, &r, error)) {
             printf("%-12s %6u %7.0f %7.0f %7.0f   %7.0f %7.0f %7.0f   %7.0f %7llu\n", w->name, r.characters,
                    r.off_median, r.off_p99, r.off_p999, r.on_median, r.on_p99, r.on_p999, r.alone,
                    (unsigned long long)r.dropped);
@@ -312,11 +315,11 @@ static int measure(FILE *csv, const options *o)
     return ok;
 }
 
-static void print_telemetry_heads(FILE *csv)
+static void print_telemetry_heads(FILE *csv, const options *o)
 {
-    printf("ns of a step at 60 Hz without and with telemetry to a sink that counts, by turns; reading the clock costs "
+    printf("ns of a step at 60 Hz without and with telemetry to a sink that %s, by turns; reading the clock costs "
            "%.0f ns, subtracted;\nalone: what is added, begin and push by themselves in batches\n",
-           bench_clock_cost());
+           o->stalled ? "hangs" : "counts", bench_clock_cost());
     printf("%-12s %6s %7s %7s %7s   %7s %7s %7s   %7s %7s\n", "world", "chars", "off p50", "p99", "p99.9", "on p50",
            "p99", "p99.9", "alone", "dropped");
     fprintf(csv, "world,characters,steps,off_p50,off_p99,off_p999,on_p50,on_p99,on_p999,alone,dropped\n");
@@ -325,7 +328,7 @@ static void print_telemetry_heads(FILE *csv)
 static void print_heads(FILE *csv, const options *o)
 {
     if (o->telemetry) {
-        print_telemetry_heads(csv);
+        print_telemetry_heads(csv, o);
         return;
     }
     if (o->queries) {

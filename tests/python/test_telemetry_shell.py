@@ -4,6 +4,7 @@
 import os
 import subprocess
 
+import lcm
 import numpy as np
 import pytest
 from logs import messages
@@ -46,6 +47,15 @@ def test_what_the_shell_publishes_is_read_whole(recorded):
     assert sorted(first["character"].tolist()) == [0, 1, 2, 3]
     assert (tahr.hashes(first["state"].copy()) == first["state_hash"]).all()
     assert len(log.events) == log.reports["event_count"].sum()
+
+
+def test_what_the_shell_records_lcm_reads(recorded, tmp_path):
+    path = tmp_path / "kept.lcmlog"
+    shell("record", "--lcm", f"file://{recorded}?speed=0", path)
+    kept = [(event.channel, event.data) for event in lcm.EventLog(str(path), "r")]
+    assert kept == [(event.channel, event.data) for event in lcm.EventLog(str(recorded), "r")]
+    state = messages.state_t.decode(next(data for channel, data in kept if channel == "TAHR_STATE"))
+    assert (state.character, state.step) == (0, 0)
 
 
 def test_what_the_shell_publishes_can_be_drawn(recorded, tmp_path):
