@@ -16,6 +16,11 @@
 
 _Static_assert(sizeof((tahr_report_t){0}.saved) == sizeof((tahr_report){0}.saved), "report_t.saved has another length");
 
+/* What every message about a character begins with, as designated initialisers. */
+#define STAMPED(stamp)                                                                                                \
+    .character = (int32_t)(stamp)->character, .step = (int64_t)(stamp)->step, .sequence = (int64_t)(stamp)->sequence, \
+    .time_ns = (stamp)->time_ns, .wall_ns = (stamp)->wall_ns
+
 #define VEC3(v)             \
     {                       \
         (v).x, (v).y, (v).z \
@@ -41,12 +46,8 @@ static tahr_status send_state(void *user, const tahr_stamp *stamp, const tahr_st
 {
     const tahr_floor *f = &s->floor;
     const tahr_state_t message = {
-        .character = (int32_t)stamp->character,
+        STAMPED(stamp),
         .mode = (int32_t)s->mode,
-        .step = (int64_t)stamp->step,
-        .sequence = (int64_t)stamp->sequence,
-        .time_ns = stamp->time_ns,
-        .wall_ns = stamp->wall_ns,
         .position = VEC3(s->position),
         .velocity = VEC3(s->velocity),
         .orientation = QUAT(s->orientation),
@@ -74,12 +75,8 @@ static tahr_status send_state(void *user, const tahr_stamp *stamp, const tahr_st
 static tahr_status send_event(void *user, const tahr_stamp *stamp, const tahr_event *e)
 {
     const tahr_event_t message = {
-        .character = (int32_t)stamp->character,
+        STAMPED(stamp),
         .type = (int32_t)e->type,
-        .step = (int64_t)stamp->step,
-        .sequence = (int64_t)stamp->sequence,
-        .time_ns = stamp->time_ns,
-        .wall_ns = stamp->wall_ns,
         .body = (int32_t)e->body,
         .feature = (int32_t)e->feature,
         .surface = (int32_t)e->surface,
@@ -95,13 +92,9 @@ static tahr_status send_input(void *user, const tahr_stamp *stamp, const tahr_si
 {
     const tahr_input *i = given->input;
     const tahr_input_t message = {
-        .character = (int32_t)stamp->character,
+        STAMPED(stamp),
         .config = (int32_t)stamp->config,
-        .step = (int64_t)stamp->step,
-        .sequence = (int64_t)stamp->sequence,
         .epoch = (int64_t)stamp->epoch,
-        .time_ns = stamp->time_ns,
-        .wall_ns = stamp->wall_ns,
         .dt = given->dt,
         .step_flags = (int32_t)given->flags,
         .flags = (int32_t)i->flags,
@@ -125,12 +118,8 @@ static tahr_status send_report(void *user, const tahr_stamp *stamp, const tahr_s
 {
     const tahr_report *r = given->report;
     tahr_report_t message = {
-        .character = (int32_t)stamp->character,
+        STAMPED(stamp),
         .status = given->status,
-        .step = (int64_t)stamp->step,
-        .sequence = (int64_t)stamp->sequence,
-        .time_ns = stamp->time_ns,
-        .wall_ns = stamp->wall_ns,
         .state_hash = (int64_t)given->hash,
         .duration_ns = (int64_t)given->ns,
         .flags = (int32_t)r->flags,
@@ -159,13 +148,9 @@ static tahr_status send_report(void *user, const tahr_stamp *stamp, const tahr_s
 static tahr_status send_snapshot(void *user, const tahr_stamp *stamp, const tahr_state *state)
 {
     const tahr_snapshot_t message = {
-        .character = (int32_t)stamp->character,
+        STAMPED(stamp),
         .config = (int32_t)stamp->config,
-        .step = (int64_t)stamp->step,
-        .sequence = (int64_t)stamp->sequence,
         .epoch = (int64_t)stamp->epoch,
-        .time_ns = stamp->time_ns,
-        .wall_ns = stamp->wall_ns,
         .state_hash = (int64_t)tahr_state_hash(state),
         .size = sizeof *state,
         .state = (uint8_t *)state, /* only read */

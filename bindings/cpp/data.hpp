@@ -13,39 +13,42 @@ namespace tahr
 inline namespace TAHR_CPP_KIND
 {
 
+namespace detail
+{
+
+/* Zeros, and its size: how every sized struct begins. */
+template <class T> T sized() noexcept
+{
+    T made{};
+    made.struct_size = sizeof made;
+    return made;
+}
+
+} // namespace detail
+
 inline tahr_input make_input() noexcept
 {
-    tahr_input input{};
-    input.struct_size = sizeof input;
-    return input;
+    return detail::sized<tahr_input>();
 }
 
 inline tahr_report make_report() noexcept
 {
-    tahr_report report{};
-    report.struct_size = sizeof report;
-    return report;
+    return detail::sized<tahr_report>();
 }
 
 inline tahr_world_desc make_world_desc() noexcept
 {
-    tahr_world_desc desc{};
-    desc.struct_size = sizeof desc;
-    return desc;
+    return detail::sized<tahr_world_desc>();
 }
 
 inline tahr_native_desc make_native_desc() noexcept
 {
-    tahr_native_desc desc{};
-    desc.struct_size = sizeof desc;
-    return desc;
+    return detail::sized<tahr_native_desc>();
 }
 
 inline tahr_crowd_desc make_crowd_desc() noexcept
 {
-    tahr_crowd_desc desc{};
-    desc.struct_size = sizeof desc;
-    return desc;
+    return detail::sized<tahr_crowd_desc>();
 }
 
 /* Turned by nothing, unless it says how. */

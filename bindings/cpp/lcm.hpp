@@ -5,6 +5,7 @@
 
 #include <tahr/lcm.h>
 
+#include "data.hpp"
 #include "sink.hpp"
 
 namespace tahr
@@ -27,9 +28,7 @@ struct lcm_block : logged {
 
 inline tahr_lcm_desc make_lcm_desc() noexcept
 {
-    tahr_lcm_desc desc{};
-    desc.struct_size = sizeof desc;
-    return desc;
+    return detail::sized<tahr_lcm_desc>();
 }
 
 /* Owns a tahr_lcm. Moves, does not copy. For tahr::telemetry::create as it is: of one telemetry at a time, which keeps

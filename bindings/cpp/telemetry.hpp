@@ -16,9 +16,7 @@ inline namespace TAHR_CPP_KIND
 
 inline tahr_telemetry_desc make_telemetry_desc() noexcept
 {
-    tahr_telemetry_desc desc{};
-    desc.struct_size = sizeof desc;
-    return desc;
+    return detail::sized<tahr_telemetry_desc>();
 }
 
 /* Whose telemetry: a character's id; the lane of the thread that steps it, always the same one; which of the
