@@ -65,6 +65,13 @@ static const uint64_t *read_input(const uint64_t *words, tahr_input *input)
     return words + TAHR__INPUT_WORDS;
 }
 
+/* Returns what comes after it. */
+static const uint64_t *read_state(const uint64_t *words, tahr_state *state)
+{
+    tahr__motion_apply((const void *)words, state);
+    return tahr__words_unpack(words + sizeof(tahr__motion) / 8, state);
+}
+
 static void deliver_step(tahr_telemetry *t, const tahr__record_step *r)
 {
     const uint32_t parts = r->head.parts;
@@ -79,7 +86,7 @@ static void deliver_step(tahr_telemetry *t, const tahr__record_step *r)
     tahr_input input = {0};
     tahr_report report = {0};
     if (parts & 1u << TAHR_MESSAGE_INPUT) words = read_input(words, &input);
-    if (parts & (1u << TAHR_MESSAGE_STATE | 1u << TAHR_MESSAGE_REPORT)) words = tahr__words_unpack(words, state);
+    if (parts & (1u << TAHR_MESSAGE_STATE | 1u << TAHR_MESSAGE_REPORT)) words = read_state(words, state);
     if (parts & 1u << TAHR_MESSAGE_REPORT) {
         memcpy(&report, words, sizeof report);
         words += TAHR__REPORT_WORDS;
@@ -103,7 +110,7 @@ static void deliver_snapshot(tahr_telemetry *t, const tahr__record_snapshot *r)
                               .epoch = r->head.epoch,
                               .time_ns = r->time_ns,
                               .wall_ns = tahr__clock_ns(CLOCK_REALTIME)};
-    tahr__words_unpack((const uint64_t *)(const void *)(r + 1), state);
+    read_state((const uint64_t *)(const void *)(r + 1), state);
     if (may_tell(t, TAHR_MESSAGE_SNAPSHOT))
         tahr__deliver_count(t, TAHR_MESSAGE_SNAPSHOT, t->sink.snapshot(t->sink.user, &stamp, state));
 }

@@ -36,6 +36,14 @@ static tahr_stamp stamp_of(tahr_telemetry *t, const tahr__character *c)
                         .time_ns = c->time_ns};
 }
 
+static uint64_t *write_state(uint64_t *to, const tahr_state *state, tahr__character *c)
+{
+    *(tahr__motion *)(void *)to = tahr__motion_of(state);
+    to = tahr__words_pack(to + sizeof(tahr__motion) / 8, state, c->standing);
+    c->standing = 0;
+    return to;
+}
+
 static tahr_status push_snapshot(tahr_telemetry *t, tahr__lane *l, tahr__character *c, const tahr_state *state)
 {
     const tahr_stamp stamp = stamp_of(t, c);
@@ -48,7 +56,7 @@ static tahr_status push_snapshot(tahr_telemetry *t, tahr__lane *l, tahr__charact
         tahr__tally_add(&l->dropped, TAHR_MESSAGE_SNAPSHOT, 1);
         return TAHR_TRUNCATED;
     }
-    const uint64_t *end = tahr__words_pack(words + fixed, state, c->standing);
+    const uint64_t *end = write_state(words + fixed, state, c);
     *(tahr__record_snapshot *)(void *)words =
         (tahr__record_snapshot){.head = {(uint64_t)(end - words), stamp.epoch, TAHR__RECORD_SNAPSHOT, 0},
                                 .character = (uint32_t)(c - t->characters),
@@ -56,7 +64,6 @@ static tahr_status push_snapshot(tahr_telemetry *t, tahr__lane *l, tahr__charact
                                 .step = c->step,
                                 .sequence = sequence,
                                 .time_ns = c->time_ns};
-    c->standing = 0;
     c->gap = 0;
     c->snapshot_ns = c->time_ns + t->snapshot_ns;
     tahr__ring_commit(&l->ring, (uint64_t)(end - words));
@@ -65,13 +72,23 @@ static tahr_status push_snapshot(tahr_telemetry *t, tahr__lane *l, tahr__charact
 
 static int has_room(tahr__lane *l)
 {
-    return tahr__ring_room(&l->ring) >= l->ring.size / 4;
+    return tahr__ring_has_room(&l->ring, l->ring.size / 4);
 }
 
 /* After a gap it waits for room: what made the gap would make the next one. */
 static int wants_snapshot(const tahr__character *c, tahr__lane *l)
 {
     return c->snapshot || c->time_ns >= c->snapshot_ns || (c->gap && has_room(l));
+}
+
+/* Somebody wrote to the state, or it is the first one. */
+static void take_over(tahr_telemetry *t, tahr__character *c, uint32_t config, const tahr_state *state)
+{
+    const uint64_t edited = tahr__slot_compare(&c->slot, state);
+    c->config = config;
+    c->standing |= edited;
+    c->snapshot = 1;
+    tahr__slot_write(&c->slot, state, edited, stamp_of(t, c));
 }
 
 tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t character, uint32_t config,
@@ -81,15 +98,7 @@ tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t char
     if (config >= t->config_count) return TAHR_E_ARGUMENT;
     tahr__character *c = claim(t, lane, character);
     if (!c) return TAHR_E_ARGUMENT;
-    const int is_first = atomic_load_explicit(&c->slot.turn, memory_order_relaxed) == 0;
-    if (!tahr__slot_holds(&c->slot, state) || is_first || config != c->config) {
-        const uint64_t edited = tahr__slot_compare(&c->slot, state);
-        c->config = config;
-        c->standing |= edited;
-        c->snapshot = 1;
-        const tahr_stamp stamp = stamp_of(t, c);
-        tahr__slot_write(&c->slot, state, edited, &stamp);
-    }
+    if (config != c->config || !tahr__slot_holds(&c->slot, state)) take_over(t, c, config, state);
     if (!(t->wants & bit(TAHR_MESSAGE_SNAPSHOT)) || !wants_snapshot(c, &t->lanes[lane])) return TAHR_OK;
     return push_snapshot(t, &t->lanes[lane], c, state);
 }
@@ -97,6 +106,7 @@ tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t char
 /* Whether the state of this step is due, which ends at the character's time. */
 static int is_due(const tahr_telemetry *t, tahr__character *c)
 {
+    if (t->keeps_all) return 1;
     const int by_step = c->state_step == 0;
     c->state_step = (by_step ? t->every : c->state_step) - 1;
     if (!by_step || (double)c->time_ns < c->state_ns) return 0;
@@ -147,10 +157,7 @@ static int write_step(tahr__lane *l, const pushed *p)
     if (!words) return 0;
     uint64_t *end = words + fixed;
     if (p->parts & bit(TAHR_MESSAGE_INPUT)) end = write_input(end, s->input);
-    if (p->parts & WITH_STATE) {
-        end = tahr__words_pack(end, s->state, p->character->standing);
-        p->character->standing = 0;
-    }
+    if (p->parts & WITH_STATE) end = write_state(end, s->state, p->character);
     if (p->parts & bit(TAHR_MESSAGE_REPORT)) end = copy(end, s->report, TAHR__REPORT_WORDS);
     if (p->events > 0) end = copy(end, s->report->events, (uint64_t)p->events * TAHR__EVENT_WORDS);
     const uint64_t *sequence = p->character->sequence;
@@ -175,11 +182,14 @@ static int write_step(tahr__lane *l, const pushed *p)
  * found no room. */
 static uint32_t write_what_fits(tahr__lane *l, pushed *p)
 {
-    const uint32_t all = p->parts;
-    if (!(all & WITH_STATE)) return all && !write_step(l, p) ? all : 0;
-    if (has_room(l) && write_step(l, p)) return 0;
-    p->parts &= ~WITH_STATE;
-    return p->parts && !write_step(l, p) ? all : all & WITH_STATE;
+    const uint32_t all = p->parts, thin = all & WITH_STATE;
+    uint32_t dropped = thin && !has_room(l) ? thin : 0;
+    for (;;) {
+        p->parts = all & ~dropped;
+        if (!p->parts || write_step(l, p)) return dropped;
+        if (dropped == thin) return all;
+        dropped = thin;
+    }
 }
 
 /* Splits what the sink wants of a step into what is due and what is thinned out, and counts it. */
@@ -237,7 +247,7 @@ tahr_status tahr_telemetry_push(tahr_telemetry *t, uint32_t lane, const tahr_tel
     if (step->report && t->wants & bit(TAHR_MESSAGE_EVENT)) p.events = step->report->event_count;
     const uint64_t changed = tahr__slot_compare(&c->slot, step->state);
     c->standing |= changed;
-    tahr__slot_write(&c->slot, step->state, changed, &p.stamp);
+    tahr__slot_write(&c->slot, step->state, changed, p.stamp);
     choose_parts(t, l, &p);
     const uint32_t due = p.parts;
     const uint32_t dropped = write_what_fits(l, &p);

@@ -7,6 +7,8 @@
 
 #include <tahr/sink.h>
 
+#include "motion.h"
+
 enum { TAHR__RECORD_STEP = 1, TAHR__RECORD_SNAPSHOT = 2, TAHR__RECORD_CHANGE = 3 };
 
 /* The first word is what ring.h asks for: words, and no bit 63. */
@@ -18,8 +20,8 @@ typedef struct tahr__record {
 } tahr__record;
 
 /* After it, as far as parts says so: the input, without its optional fields if its flags are 0; if there is a state or
- * a report: the words of the state that changed since the last record of this character which has any (words.h); the
- * report; the events. */
+ * a report: the motion, and the words of the rest of the state that changed since the last record of this character which
+ * has any (words.h); the report; the events. */
 typedef struct tahr__record_step {
     tahr__record head;
     uint32_t character, config;
@@ -51,7 +53,7 @@ typedef struct tahr__record_change {
 enum {
     TAHR__POSE_WORDS = sizeof(tahr_body_pose) / 8,
     TAHR__EVENT_WORDS = sizeof(tahr_event) / 8,
-    TAHR__PACKED_STATE = sizeof(tahr_state) / 8 + 1, /* words, at most */
+    TAHR__PACKED_STATE = TAHR__STATE_WORDS + 1, /* words, at most */
     TAHR__INPUT_WORDS = sizeof(tahr_input) / 8,
     TAHR__PLAIN_INPUT_WORDS = offsetof(tahr_input, facing) / 8, /* where no flag makes one of the others count */
     TAHR__REPORT_WORDS = sizeof(tahr_report) / 8

@@ -10,37 +10,35 @@ enum { LOOKS = 1000 }; /* of tahr_telemetry_latest; a write takes far less than 
 
 _Static_assert(sizeof(_Atomic uint64_t) == 8, "atomic words are copied as plain ones by their only writer");
 
+#ifdef __GNUC__
+#define ALIGNED(words) __builtin_assume_aligned((const void *)(words), 64)
+#else
+#define ALIGNED(words) ((const void *)(words))
+#endif
+
+/* Of words from begin to end: whether any differs. */
+static uint64_t differ(const void *one, const void *other, int begin, int end)
+{
+    uint64_t any = 0;
+    for (int i = begin; i < end; i++)
+        any |= tahr__word_of(one, i) ^ tahr__word_of(other, i);
+    return any;
+}
+
 /* The writer may read what it alone writes as plain memory, whole lines at once. */
 uint64_t tahr__slot_compare(const tahr__slot *slot, const tahr_state *state)
 {
-    return tahr__words_differ((const void *)slot->words, state);
+    const void *words = ALIGNED(slot->words);
+    const uint64_t any = differ(words, state, TAHR__BEHIND_VELOCITY, TAHR__FLOOR_POINT) |
+                         differ(words, state, TAHR__BEHIND_DISTANCE, TAHR__FLOOR_POSITION) |
+                         differ(words, state, TAHR__BEHIND_FLOOR_POSITION, TAHR__STATE_WORDS);
+    return any ? tahr__words_differ(words, state) & ~TAHR__MOTION_MASK : 0;
 }
 
 int tahr__slot_holds(const tahr__slot *slot, const tahr_state *state)
 {
-    return memcmp((const void *)slot->words, state, sizeof *state) == 0;
-}
-
-static void put(_Atomic uint64_t *word, uint64_t value)
-{
-    atomic_store_explicit(word, value, memory_order_relaxed);
-}
-
-void tahr__slot_write(tahr__slot *slot, const tahr_state *state, uint64_t changed, const tahr_stamp *stamp)
-{
-    const uint64_t turn = atomic_load_explicit(&slot->turn, memory_order_relaxed);
-    put(&slot->turn, turn + 1);
-    atomic_thread_fence(memory_order_release); /* no word before the turn */
-    put(&slot->config, stamp->config);
-    put(&slot->step, stamp->step);
-    put(&slot->sequence, stamp->sequence);
-    put(&slot->epoch, stamp->epoch);
-    put(&slot->time, (uint64_t)stamp->time_ns);
-    for (; changed; changed &= changed - 1) {
-        const int i = tahr__lowest_bit(changed);
-        put(&slot->words[i], tahr__word_of(state, i));
-    }
-    atomic_store_explicit(&slot->turn, turn + 2, memory_order_release);
+    return atomic_load_explicit(&slot->turn, memory_order_relaxed) != 0 &&
+           memcmp((const void *)slot->words, state, sizeof *state) == 0;
 }
 
 static uint64_t get(const _Atomic uint64_t *word)

@@ -147,11 +147,21 @@ static int let_drain(const tahr_telemetry *t)
     }
 }
 
+/* The median between two ticks of the clock, which may be 10 ns apart: the mean of the tenth in the middle. */
+static double middle(const uint32_t *sorted, uint64_t count)
+{
+    const uint64_t first = count * 9 / 20, end = count * 11 / 20;
+    double sum = 0;
+    for (uint64_t i = first; i < end; i++)
+        sum += sorted[i];
+    return sum / (double)(end - first);
+}
+
 static void quantiles(uint32_t *times, uint64_t count, double *median, double *p99, double *p999)
 {
     const double cost = bench_clock_cost();
     bench_sort(times, count);
-    *median = times[count / 2] - cost;
+    *median = middle(times, count) - cost;
     *p99 = times[count - 1 - count / 100] - cost;
     *p999 = times[count - 1 - count / 1000] - cost;
 }
@@ -212,7 +222,8 @@ static int take_turns(trial *l, const bench_opened *opened, const bench_world *w
 {
     int naps[BLOCK] = {0};
     for (int t = 0; l->taken[0] + l->crowd.count <= STEPS || l->taken[1] + l->crowd.count <= STEPS; t++) {
-        const int on = t / BLOCK % 2, has_room = l->taken[on] + l->crowd.count <= STEPS;
+        const int on = (t / BLOCK + 1) / 2 % 2; /* off on on off: what drifts, drifts for both */
+        const int has_room = l->taken[on] + l->crowd.count <= STEPS;
         if (!tick(l, opened, world, on, t >= 2 * BLOCK && t % BLOCK >= SETTLE && has_room)) return 0;
         if (on) naps[t % BLOCK] = let_drain(l->telemetry);
         for (int i = 0; !on && i < naps[t % BLOCK]; i++)
