@@ -37,7 +37,7 @@ typedef struct tahr_telemetry_desc {
     uint32_t lanes;        /* [0: 1] 1..64 */
     uint32_t ring_bytes;   /* [0: 4 MiB, or 512 B for each of bodies] of each lane, 4 KiB..1 GiB, and no less than 256 B
                           * for each of bodies; rounded up to a power of two. A step of a character that walks takes
-                          * some 430 B, one with nothing but its input and events some 160 B */
+                          * some 470 B, one with nothing but its input and events some 160 B */
     uint32_t bodies;       /* most bodies that snapshots of the world tell of, 0..2^20; 0: there are none */
     uint32_t every;        /* [0: 1] the state of every n-th step of a character */
     uint32_t config_count; /* 1..65536 */
@@ -98,7 +98,7 @@ typedef struct tahr_telemetry_step {
  * Returns TAHR_OK, TAHR_TRUNCATED (something was dropped and counted), TAHR_E_NULL (also: events are counted, but not
  * there), TAHR_E_STRUCT_SIZE (input, report), TAHR_E_UNSUPPORTED (flags), TAHR_E_ARGUMENT (lane, character, a character
  * of another lane, dt, reserved); on error nothing is sent or counted, and the step was not taken as far as the
- * telemetry knows. Allocates nothing, never waits, calls nobody: some 80 ns (backends/threads/README.md). Since 0.1. */
+ * telemetry knows. Allocates nothing, never waits, calls nobody: some 60 ns (backends/threads/README.md). Since 0.1. */
 TAHR_API tahr_status tahr_telemetry_push(tahr_telemetry *telemetry, uint32_t lane, const tahr_telemetry_step *step);
 
 /* After a change of the world, on the thread that has exclusive access to it (nobody may begin or push meanwhile). SET
