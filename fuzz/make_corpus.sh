@@ -62,6 +62,13 @@ map chunks <<'END'
 {"type":"map","infinite":true,"width":0,"height":0,"tilewidth":8,"tileheight":8,"tilesets":[{"firstgid":1,"tilecount":3,"tilewidth":8,"tileheight":16,"tileoffset":{"x":0,"y":2},"tiles":[{"id":1,"type":"sensor"}]}],
 "layers":[{"type":"tilelayer","properties":[{"name":"solid","value":true}],"encoding":"base64","compression":"zlib","offsetx":4,"chunks":[{"x":-4,"y":0,"width":4,"height":2,"data":"eNpjYGBgYITgBiYgzYzggzEAC0QAiw=="}]}]}
 END
+# Three bytes and more for each thing that is done to a recording: what, and to which message.
+seed log whole ''
+seed log losses '\000\000\020\000\001\030\001\000\150\002\000\002\000\000\377'
+seed log lift '\000\000\122\000\001\101'
+seed log twice '\003\000\020\004\000\040\003\001\002\004\000\207'
+seed log spoiled '\005\000\005\010\001\005\000\012\004\103\006\000\100\013\377\006\000\001\022\020'
+seed log damaged '\007\000\000\000\100\000\252\001\000\020\377\000\377\000\000'
 seed trace text 'this is no trace, and the reader says at which byte that shows'
 seed trace empty ''
 # A walk of three steps, if the shell was built: a trace is of one version of the structs in it.

@@ -10,11 +10,15 @@ enum { LOOKS = 1000 }; /* of tahr_telemetry_latest; a write takes far less than 
 
 _Static_assert(sizeof(_Atomic uint64_t) == 8, "atomic words are copied as plain ones by their only writer");
 
+/* The words begin on a line. */
+static const void *on_line(const void *words)
+{
 #ifdef __GNUC__
-#define ALIGNED(words) __builtin_assume_aligned((const void *)(words), 64)
+    return __builtin_assume_aligned(words, 64);
 #else
-#define ALIGNED(words) ((const void *)(words))
+    return words;
 #endif
+}
 
 /* Of words from begin to end: whether any differs. */
 static uint64_t differ(const void *one, const void *other, int begin, int end)
@@ -28,7 +32,7 @@ static uint64_t differ(const void *one, const void *other, int begin, int end)
 /* The writer may read what it alone writes as plain memory, whole lines at once. */
 uint64_t tahr__slot_compare(const tahr__slot *slot, const tahr_state *state)
 {
-    const void *words = ALIGNED(slot->words);
+    const void *words = on_line((const void *)slot->words);
     const uint64_t any = differ(words, state, TAHR__BEHIND_VELOCITY, TAHR__FLOOR_POINT) |
                          differ(words, state, TAHR__BEHIND_DISTANCE, TAHR__FLOOR_POSITION) |
                          differ(words, state, TAHR__BEHIND_FLOOR_POSITION, TAHR__STATE_WORDS);
