@@ -203,6 +203,8 @@ static void check(const struct verdict *d, const told *t, const recorded *r)
     if (!t->only_lost) return;
     FUZZ_CHECK(d->desync_count == 0, "what was lost is no difference: character %d, step %d",
                (int)d->desyncs[0].character, (int)d->desyncs[0].step);
+    FUZZ_CHECK(d->contradiction_count == 0, "character %d, step %d: %s", (int)d->contradictions[0].character,
+               (int)d->contradictions[0].step, d->contradictions[0].how);
     FUZZ_CHECK(d->broken == 0, "nothing is broken");
     FUZZ_CHECK(d->proven + t->inputs_lost <= RECORDED_CHARACTERS * RECORDED_STEPS, "%u steps are proven",
                (unsigned)d->proven);

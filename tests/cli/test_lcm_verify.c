@@ -120,6 +120,40 @@ static void a_report_with_another_hash_is_named(void **state)
     log_copy_free(&log);
 }
 
+static void a_state_that_its_hash_does_not_stand_for_is_named(void **state)
+{
+    struct log_copy log = log_copy_of(&whole);
+    struct message m;
+    (void)state;
+    struct log_entry *entry = find(&log, TAHR_MESSAGE_STATE, 4, 100, &m);
+    m.is.state.velocity[1] += 1e-9;
+    m.is.state.floor_walkable ^= 1;
+    tahr_state_t_encode(entry->data, 0, (int)entry->size, &m.is.state);
+    assert_int_equal(verify(&log), EXIT_CHECK_FAILED);
+    assert_said("WRONG      character 4, step 100: its message of kind state is not what happened: velocity.y is ");
+    assert_said("; floor_walkable is ");
+    assert_proven(CHARACTERS * STEPS); /* by their hashes */
+    log_copy_free(&log);
+}
+
+static void an_event_that_did_not_happen_so_is_named(void **state)
+{
+    struct log_copy log = log_copy_of(&whole);
+    struct message m;
+    char wrong[100];
+    (void)state;
+    struct log_entry *entry = find(&log, TAHR_MESSAGE_EVENT, 1, 50, &m);
+    m.is.event.body += 1;
+    m.is.event.position[2] += 1e-9;
+    tahr_event_t_encode(entry->data, 0, (int)entry->size, &m.is.event);
+    snprintf(wrong, sizeof wrong,
+             "WRONG      character 1, step %d: its message of kind event is not what happened: body", (int)m.step);
+    assert_int_equal(verify(&log), EXIT_CHECK_FAILED);
+    assert_said(wrong);
+    assert_said("; position.z is ");
+    log_copy_free(&log);
+}
+
 static void a_lost_input_is_a_gap_up_to_the_next_snapshot(void **state)
 {
     struct log_copy log = log_copy_of(&whole);
@@ -463,6 +497,8 @@ int main(void)
         cmocka_unit_test(a_recording_is_proven),
         cmocka_unit_test(an_input_with_one_bit_changed_is_named_with_the_fields_that_differ),
         cmocka_unit_test(a_report_with_another_hash_is_named),
+        cmocka_unit_test(a_state_that_its_hash_does_not_stand_for_is_named),
+        cmocka_unit_test(an_event_that_did_not_happen_so_is_named),
         cmocka_unit_test(a_lost_input_is_a_gap_up_to_the_next_snapshot),
         cmocka_unit_test(a_lost_body_is_a_gap_of_everybody),
         cmocka_unit_test(a_lost_change_of_the_world_is_a_gap_of_everybody),

@@ -11,7 +11,7 @@ struct actor *actor_new(int32_t character)
 {
     struct actor *actor = memory_new(1, sizeof *actor);
     actor->character = character;
-    actor->gap_from = actor->events_step = -1;
+    actor->gap_from = actor->events_step = actor->taken_step = -1;
     for (int kind = 0; kind < TAHR_MESSAGE_COUNT; kind++) {
         actor->sequence[kind] = -1;
     }
@@ -53,6 +53,7 @@ void actor_lose(struct actor *actor, struct verdict *verdict, int64_t from, cons
     }
     actor->known = 0;
     actor->has_report = 0;
+    actor->is_wrong = 0;
     if (actor->gap_from < 0) {
         actor->gap_from = from;
         actor->gap_why = why;
@@ -109,6 +110,40 @@ static void differ(struct actor *actor, struct verdict *verdict, uint64_t record
     actor->last = step;
 }
 
+static void contradict(struct verdict *verdict, const struct contradiction *found)
+{
+    if (verdict->contradiction_count < FINDINGS_SAID) {
+        verdict->contradictions[verdict->contradiction_count] = *found;
+    }
+    verdict->contradiction_count++;
+}
+
+/* The hash of the last step is the recorded one: is what the messages about it say? */
+static void compare_messages(struct actor *actor, struct verdict *verdict)
+{
+    struct contradiction found = {actor->character, actor->next - 1, TAHR_MESSAGE_STATE, ""};
+    if (actor->is_wrong) {
+        contradict(verdict, &actor->wrong);
+    }
+    if (actor->heard && actor->heard_state.step == found.step &&
+        difference_of_message(&actor->state, &actor->heard_state, found.how, sizeof found.how) > 0) {
+        contradict(verdict, &found);
+    }
+}
+
+void actor_compare_event(struct actor *actor, const tahr_event_t *recorded)
+{
+    struct contradiction found = {actor->character, recorded->step, TAHR_MESSAGE_EVENT, "it did not happen"};
+    const int64_t at = actor->events - 1;
+    if (actor->is_wrong || actor->taken_step != recorded->step || at >= EVENTS_KEPT) {
+        return;
+    }
+    if (at >= actor->taken_count || difference_of_event(&actor->taken[at], recorded, found.how, sizeof found.how) > 0) {
+        actor->is_wrong = 1;
+        actor->wrong = found;
+    }
+}
+
 void actor_compare(struct actor *actor, struct verdict *verdict, uint64_t recorded)
 {
     if (recorded != actor->hash) {
@@ -117,6 +152,8 @@ void actor_compare(struct actor *actor, struct verdict *verdict, uint64_t record
     }
     verdict->proven += (uint64_t)actor->unsettled; /* equal now, so they were on the way */
     actor->unsettled = 0;
+    compare_messages(actor, verdict);
+    actor->is_wrong = 0;
 }
 
 void actor_end(struct actor *actor, struct verdict *verdict)

@@ -5,6 +5,8 @@
 
 #include "judge.h"
 
+enum { EVENTS_KEPT = 32 };
+
 struct actor {
     int32_t character;
     uint32_t config;
@@ -19,9 +21,15 @@ struct actor {
     const char *gap_why;
     int64_t sequence[TAHR_MESSAGE_COUNT]; /* that comes next; -1: none heard */
     int64_t events_step, events;          /* heard of that step */
-    int differs;                          /* 1: until a snapshot, which may excuse it; */
-    struct desync *desync;                /* where it is told, or NULL */
-    int heard;                            /* 1: the message of a state, the last that came */
+    /* The events of the last step taken alone, as they happened again; -1: there is none, or one was lost. */
+    int64_t taken_step;
+    tahr_event taken[EVENTS_KEPT];
+    uint32_t taken_count;
+    int is_wrong; /* 1: an event is not what happened, if the hash says that all else is */
+    struct contradiction wrong;
+    int differs;           /* 1: until a snapshot, which may excuse it; */
+    struct desync *desync; /* where it is told, or NULL */
+    int heard;             /* 1: the message of a state, the last that came */
     tahr_state_t heard_state;
     int has_report; /* 1: of a step that waits for the others of its tick */
     tahr_report_t report;
@@ -41,6 +49,9 @@ void actor_stepped(struct actor *actor);
 
 /* The hash that was recorded of the last step. */
 void actor_compare(struct actor *actor, struct verdict *verdict, uint64_t recorded);
+
+/* An event of a step, the actor->events-th of it. */
+void actor_compare_event(struct actor *actor, const tahr_event_t *recorded);
 
 /* Steps that were taken, but of which nothing says where they led, are a gap. */
 void actor_give_up(struct actor *actor, struct verdict *verdict);

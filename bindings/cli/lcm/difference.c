@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * difference.c: in which fields a state differs from a recorded one. */
+ * difference.c: in which fields a state or an event differs from a recorded one. */
 #include "difference.h"
 
 #include <inttypes.h>
@@ -104,10 +104,8 @@ static void compare_whole(struct saying *s, const char *name, size_t index, size
     }
 }
 
-int difference_of_states(const tahr_state *state, const tahr_state *recorded, char *text, size_t size)
+static void compare_states(struct saying *saying, const tahr_state *state, const tahr_state *recorded)
 {
-    struct saying saying = {text, size, 0};
-    text[0] = 0;
     for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) {
         const uint8_t *ours = (const uint8_t *)state + fields[f].offset;
         const uint8_t *theirs = (const uint8_t *)recorded + fields[f].offset;
@@ -115,21 +113,33 @@ int difference_of_states(const tahr_state *state, const tahr_state *recorded, ch
             uint32_t a = 0, b = 0;
             memcpy(&a, ours + i * sizeof a, sizeof a);
             memcpy(&b, theirs + i * sizeof b, sizeof b);
-            compare_whole(&saying, fields[f].name, i, fields[f].count, (uint64_t[2]){a, b});
+            compare_whole(saying, fields[f].name, i, fields[f].count, (uint64_t[2]){a, b});
         }
         if (fields[f].type == LONG) {
             uint64_t pair[2];
             memcpy(&pair[0], ours, sizeof pair[0]);
             memcpy(&pair[1], theirs, sizeof pair[1]);
-            compare_whole(&saying, fields[f].name, 0, 1, pair);
+            compare_whole(saying, fields[f].name, 0, 1, pair);
         }
         if (fields[f].type == REAL) {
             double a[8], b[8];
             memcpy(a, ours, fields[f].count * sizeof *a);
             memcpy(b, theirs, fields[f].count * sizeof *b);
-            compare_reals(&saying, fields[f].name, a, b, fields[f].count);
+            compare_reals(saying, fields[f].name, a, b, fields[f].count);
         }
     }
+}
+
+static struct saying begin(char *text, size_t size)
+{
+    text[0] = 0;
+    return (struct saying){text, size, 0};
+}
+
+int difference_of_states(const tahr_state *state, const tahr_state *recorded, char *text, size_t size)
+{
+    struct saying saying = begin(text, size);
+    compare_states(&saying, state, recorded);
     return saying.count;
 }
 
@@ -158,8 +168,41 @@ static tahr_state state_of(const tahr_state *state, const tahr_state_t *m)
     return s;
 }
 
+/* What the message says once more, so that who listens need not know the bits. */
+static void compare_floor(struct saying *saying, uint32_t flags, const tahr_state_t *m)
+{
+    const struct {
+        const char *name;
+        uint32_t bit;
+        int recorded;
+    } said[] = {{"floor_blocking", TAHR_FLOOR_BLOCKING, m->floor_blocking},
+                {"floor_walkable", TAHR_FLOOR_WALKABLE, m->floor_walkable},
+                {"floor_perching", TAHR_FLOOR_PERCHING, m->floor_perching}};
+    for (size_t i = 0; i < sizeof said / sizeof *said; i++) {
+        compare_whole(saying, said[i].name, 0, 1, (uint64_t[2]){(flags & said[i].bit) != 0, said[i].recorded != 0});
+    }
+}
+
 int difference_of_message(const tahr_state *state, const tahr_state_t *recorded, char *text, size_t size)
 {
+    struct saying saying = begin(text, size);
     const tahr_state theirs = state_of(state, recorded);
-    return difference_of_states(state, &theirs, text, size);
+    compare_states(&saying, state, &theirs);
+    compare_floor(&saying, state->floor.flags, recorded);
+    return saying.count;
+}
+
+int difference_of_event(const tahr_event *event, const tahr_event_t *recorded, char *text, size_t size)
+{
+    struct saying saying = begin(text, size);
+    const double position[3] = {event->position.x, event->position.y, event->position.z};
+    const double normal[3] = {event->normal.x, event->normal.y, event->normal.z};
+    compare_whole(&saying, "type", 0, 1, (uint64_t[2]){event->type, (uint32_t)recorded->type});
+    compare_whole(&saying, "body", 0, 1, (uint64_t[2]){event->body, (uint32_t)recorded->body});
+    compare_whole(&saying, "feature", 0, 1, (uint64_t[2]){event->feature, (uint32_t)recorded->feature});
+    compare_whole(&saying, "surface", 0, 1, (uint64_t[2]){event->surface, (uint32_t)recorded->surface});
+    compare_reals(&saying, "value", &event->value, &recorded->value, 1);
+    compare_reals(&saying, "position", position, recorded->position, 3);
+    compare_reals(&saying, "normal", normal, recorded->normal, 3);
+    return saying.count;
 }

@@ -183,7 +183,7 @@ static const char *obstacle(const struct judge *j, const struct actor *a, const 
 static void step_alone(struct judge *j, struct actor *a, const tahr_input_t *m)
 {
     const tahr_input input = input_of(m);
-    tahr_report report = {.struct_size = sizeof report};
+    tahr_report report = {.struct_size = sizeof report, .events = a->taken, .event_capacity = EVENTS_KEPT};
     tahr_status status = TAHR_OK;
     if (a->mover == NULL) {
         status = tahr_mover_create(j->world, &j->configs[a->config], &a->mover);
@@ -193,6 +193,8 @@ static void step_alone(struct judge *j, struct actor *a, const tahr_input_t *m)
         actor_lose(a, &j->verdict, m->step, "the library refuses the step");
         return;
     }
+    a->taken_step = m->step;
+    a->taken_count = report.event_count;
     actor_stepped(a);
 }
 
@@ -261,9 +263,14 @@ static void hear_report(struct judge *j, struct actor *a, const tahr_report_t *m
 
 static void hear_event(struct judge *j, struct actor *a, const tahr_event_t *m)
 {
+    const int64_t expected = a->sequence[TAHR_MESSAGE_EVENT];
     j->verdict.lost[TAHR_MESSAGE_EVENT] += (uint64_t)actor_missing(a, TAHR_MESSAGE_EVENT, m->sequence);
     a->events = a->events_step == m->step ? a->events + 1 : 1;
     a->events_step = m->step;
+    if (m->sequence != (expected >= 0 ? expected : 0)) {
+        a->taken_step = -1; /* which one of its step it is is not known then */
+    }
+    actor_compare_event(a, m);
 }
 
 static void hear_state(struct judge *j, struct actor *a, const tahr_state_t *m)

@@ -25,6 +25,14 @@ struct desync {
     char how[640];    /* in which fields, as far as is known */
 };
 
+/* A message that says something else than what the recorded hash stands for. */
+struct contradiction {
+    int32_t character;
+    int64_t step;
+    uint32_t kind; /* TAHR_MESSAGE_STATE, _EVENT */
+    char how[640]; /* in which fields */
+};
+
 /* What was found. */
 struct verdict {
     uint64_t proven, unproven; /* steps */
@@ -33,6 +41,8 @@ struct verdict {
     struct gap gaps[FINDINGS_SAID];       /* the first ones */
     struct desync desyncs[FINDINGS_SAID]; /* likewise, the excused ones too */
     size_t desyncs_told;
+    uint64_t contradiction_count;
+    struct contradiction contradictions[FINDINGS_SAID];
     uint64_t lost[TAHR_MESSAGE_COUNT]; /* numbers missing in the sequences */
     uint64_t broken;                   /* snapshots that are not what their hash says, ids that cannot be */
     uint32_t characters;               /* heard */

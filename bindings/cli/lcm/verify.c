@@ -163,6 +163,19 @@ static void print_desyncs(const struct verdict *d)
     }
 }
 
+static void print_contradictions(const struct verdict *d)
+{
+    for (uint64_t i = 0; i < d->contradiction_count && i < FINDINGS_SAID; i++) {
+        const struct contradiction *one = &d->contradictions[i];
+        printf("  WRONG      character %" PRId32 ", step %" PRId64
+               ": its message of kind %s is not what happened: %s\n",
+               one->character, one->step, tahr_message_name(one->kind), one->how);
+    }
+    if (d->contradiction_count > FINDINGS_SAID) {
+        printf("  WRONG      %" PRIu64 " messages in all\n", d->contradiction_count);
+    }
+}
+
 static void end_run(struct verify *v)
 {
     if (v->judge == NULL) {
@@ -176,9 +189,11 @@ static void end_run(struct verify *v)
         printf("  written    %" PRIu64 " times the program wrote to a state between steps\n", d->edits);
     }
     print_desyncs(d);
+    print_contradictions(d);
     print_gaps(d);
     print_lost(d);
-    const int whole = d->gap_count == 0 && d->desync_count == 0 && d->broken == 0 && d->lost[TAHR_MESSAGE_EVENT] == 0;
+    const int whole = d->gap_count == 0 && d->desync_count == 0 && d->contradiction_count == 0 && d->broken == 0 &&
+                      d->lost[TAHR_MESSAGE_EVENT] == 0;
     v->worst = !whole && v->worst == EXIT_GOOD ? EXIT_CHECK_FAILED : v->worst;
     judge_close(v->judge);
     v->judge = NULL;
