@@ -40,6 +40,11 @@ enum {
     TAHR__STATE_WORDS = sizeof(tahr_state) / 8
 };
 
+_Static_assert(offsetof(tahr_state, position) == 0 && offsetof(tahr_state, velocity) == sizeof(tahr_vec3) &&
+                   TAHR__BEHIND_VELOCITY == 6 && TAHR__BEHIND_DISTANCE == TAHR__FLOOR_POINT + 4 &&
+                   TAHR__BEHIND_FLOOR_POSITION == TAHR__FLOOR_POSITION + 3,
+               "a motion is these words, and the rest is the others");
+
 /* Of words from begin to end, a bit each. */
 #define TAHR__WORDS(begin, end) (((uint64_t)1 << (end)) - ((uint64_t)1 << (begin)))
 #define TAHR__MOTION_MASK                                                                            \

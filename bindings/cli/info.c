@@ -120,8 +120,9 @@ void info_help(void)
          "\n"
          "With --level, or another option of a level (then the bundled playground; with --2d the bundled "
          "side-scroller):\n"
-         "what the scene is made of as the backend opens it, and which way queries go through it and why: triangles\n"
-         "and how they meet, what was dropped, bytes per triangle, the densest place, fields of heights.");
+         "its hash, as logs of LCM tell it; what the scene is made of as the backend opens it, and which way queries\n"
+         "go through it and why: triangles and how they meet, what was dropped, bytes per triangle, the densest place,\n"
+         "fields of heights.");
 }
 
 int info_command(int argc, char **argv)

@@ -16,6 +16,8 @@
 #include "throng.h"
 #include "vec.h"
 
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <tahr/trace.h>
@@ -327,10 +329,21 @@ static int finish(struct run *run)
     return 0;
 }
 
+/* Which level this is, as a telemetry's messages name it. */
+static void describe_name(const struct level *level, const tahr_log *to)
+{
+    char line[400];
+    snprintf(line, sizeof line, "level '%s', hash %016" PRIx64, level->name, scene_hash(level));
+    to->write(to->user, TAHR_LOG_INFO, line);
+}
+
 int run_describe(const struct options *options, const tahr_log *to)
 {
     struct run run = {.options = options};
     int opened = scene_load(&run.level, options) == 0 && scene_open(&run.level, options, &run.world) == 0;
+    if (opened) {
+        describe_name(&run.level, to);
+    }
     if (opened && run.level.side) {
         side_describe(run.level.side, options->separate_tiles,
                       (backend_table(options->backend)->capabilities & TAHR_CAP_PLANAR) != 0, to);

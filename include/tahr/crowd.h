@@ -38,10 +38,10 @@ typedef struct tahr_crowd_desc {
     uint32_t capacity;           /* 1..2^22 characters, for which memory is taken */
     uint32_t config_count;       /* 1..65536 */
     const tahr_config *configs;  /* what members choose from; all of one struct_size */
-    tahr_run_tasks_fn run_tasks; /* NULL: everything on the calling thread */
+    tahr_run_tasks_fn run_tasks; /* NULL: everything on the calling thread; so are ticks of less than 32 characters */
     void *run_user;              /* handed to it; must stay valid until the crowd is destroyed */
-    uint32_t tasks;              /* [0: 32] parts that a tick is cut into, up to 4096: changes no result */
-    uint32_t reserved;           /* 0 */
+    uint32_t tasks; /* [0: 32] parts that a tick is cut into, up to 4096, of 16 characters or more: changes no result */
+    uint32_t reserved; /* 0 */
 } tahr_crowd_desc;
 
 /* ALONE: meets nobody. */

@@ -27,7 +27,7 @@ expect 2 "more"
 # Of a level: one triangle mesh of two triangles in a file of ours, Y up.
 printf 'v 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nf 1 2 3\nf 1 3 4\n' >"$work/two.obj"
 tahr info --level "$work/two.obj"
-expect 0 "native, 3D" "1 static bodies" "body 0: "
+expect 0 "level 'two.obj', hash " "native, 3D" "1 static bodies" "body 0: "
 tahr info --level "$work/two.obj" --json --backend native
 expect 0 '"scene"' "native, 3D"
 is_json || fail "info --level --json is no JSON"
