@@ -2,6 +2,7 @@
  * info.c: `tahr info`: version, ABI, presets, collision engines and what they can do; what a level is made of. */
 #include "info.h"
 
+#include "json_text.h"
 #include "options.h"
 #include "run.h"
 #include "say.h"
@@ -82,7 +83,7 @@ static void print_line(void *user, int32_t level, const char *text)
 static void append_line(void *user, int32_t level, const char *text)
 {
     (void)level;
-    json_array_append_new(user, json_string(text));
+    json_array_append_new(user, json_text(text));
 }
 
 static int describe_level(const struct options *options, int json)
@@ -111,18 +112,19 @@ static int info_level(int argc, char **argv, int json)
 
 void info_help(void)
 {
-    puts("usage: tahr info [--json]\n"
-         "       tahr info [--json] [--level FILE] [--up y|z] [--2d [--pixels-per-metre P] [--tiles MODE]] "
-         "[--backend NAME]\n"
-         "\n"
-         "Version, ABI, presets, and the collision engines that this shell was built with: what `--backend` and\n"
-         "`tahr selftest` take, with their capabilities (TAHR_CAP_* of tahr/backend.h).\n"
-         "\n"
-         "With --level, or another option of a level (then the bundled playground; with --2d the bundled "
-         "side-scroller):\n"
-         "its hash, as logs of LCM tell it; what the scene is made of as the backend opens it, and which way queries\n"
-         "go through it and why: triangles and how they meet, what was dropped, bytes per triangle, the densest place,\n"
-         "fields of heights.");
+    puts(
+        "usage: tahr info [--json]\n"
+        "       tahr info [--json] [--level FILE] [--up y|z] [--2d [--pixels-per-metre P] [--tiles MODE]] "
+        "[--backend NAME]\n"
+        "\n"
+        "Version, ABI, presets, and the collision engines that this shell was built with: what `--backend` and\n"
+        "`tahr selftest` take, with their capabilities (TAHR_CAP_* of tahr/backend.h).\n"
+        "\n"
+        "With --level, or another option of a level (then the bundled playground; with --2d the bundled "
+        "side-scroller):\n"
+        "its hash, as logs of LCM tell it; what the scene is made of as the backend opens it, and which way queries\n"
+        "go through it and why: triangles and how they meet, what was dropped, bytes per triangle, the densest place,\n"
+        "fields of heights.");
 }
 
 int info_command(int argc, char **argv)

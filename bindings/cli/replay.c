@@ -19,9 +19,9 @@
 struct asked {
     const char *path, *url, *glob;
     double speed;
-    int trace;          /* 1: it must be one */
-    int verify, played; /* played: what only counts for that was given */
-    int level_argc;     /* the options of a level; 1: none */
+    int trace;                /* 1: it must be one */
+    int verify, json, played; /* played: what only counts for that was given */
+    int level_argc;           /* the options of a level; 1: none */
     char **level_argv;
 };
 
@@ -30,7 +30,7 @@ void replay_help(void)
     puts(
         "usage: tahr replay [--trace] FILE\n"
         "       tahr replay FILE.lcmlog [--lcm URL] [--speed X] [--channel GLOB]\n"
-        "       tahr replay FILE.lcmlog --verify [--channel GLOB] [--level FILE] [--up y|z] [--2d] ...\n"
+        "       tahr replay FILE.lcmlog --verify [--json] [--channel GLOB] [--level FILE] [--up y|z] [--2d] ...\n"
         "\n"
         "A trace (of `tahr run --trace FILE`, or of a program that calls tahr_world_record with the recorder of\n"
         "trace.h) is repeated without its collision engine and its level: every query has to be the one that was\n"
@@ -49,6 +49,7 @@ void replay_help(void)
         "                   --level, --up, --2d, --pixels-per-metre, --tiles; --backend only where it comes from a\n"
         "                   shared object. What was lost on the way to the log is a gap: from there to the next\n"
         "                   snapshot nothing is proven\n"
+        "  --json           what was found as JSON: counts of everything, and the first twelve of each kind\n"
         "\n"
         "Exit code: 0 all is equal, or played; 1 a step differs (the first is named), is not proven, or the file is\n"
         "damaged; 2 wrong usage, or a file that is neither.");
@@ -57,14 +58,12 @@ void replay_help(void)
 /* 0: go on; 1: help was asked for and shown; -1: wrong usage, said so. */
 static int read_arguments(struct asked *a, int argc, char **argv)
 {
-    enum { TRACE = 256, LCM, SPEED, CHANNEL, VERIFY, HELP };
-    static const struct option known[] = {{"trace", optional_argument, NULL, TRACE},
-                                          {"lcm", required_argument, NULL, LCM},
-                                          {"speed", required_argument, NULL, SPEED},
-                                          {"channel", required_argument, NULL, CHANNEL},
-                                          {"verify", no_argument, NULL, VERIFY},
-                                          {"help", no_argument, NULL, HELP},
-                                          {NULL, 0, NULL, 0}};
+    enum { TRACE = 256, LCM, SPEED, CHANNEL, VERIFY, JSON, HELP };
+    static const struct option known[] = {
+        {"trace", optional_argument, NULL, TRACE}, {"lcm", required_argument, NULL, LCM},
+        {"speed", required_argument, NULL, SPEED}, {"channel", required_argument, NULL, CHANNEL},
+        {"verify", no_argument, NULL, VERIFY},     {"json", no_argument, NULL, JSON},
+        {"help", no_argument, NULL, HELP},         {NULL, 0, NULL, 0}};
     int option, failed = 0;
     while (!failed && (option = argument_next(argc, argv, known)) != -1) {
         a->played |= option == LCM || option == SPEED;
@@ -77,6 +76,7 @@ static int read_arguments(struct asked *a, int argc, char **argv)
         case SPEED: failed = argument_number("speed", optarg, 0, 1e6, &a->speed); break;
         case CHANNEL: a->glob = optarg; break;
         case VERIFY: a->verify = 1; break;
+        case JSON: a->json = 1; break;
         case HELP: replay_help(); return 1;
         default: failed = -1;
         }
@@ -103,6 +103,8 @@ static int check_together(const struct asked *a, enum log_kind kind)
                   a->path);
     } else if (a->verify && a->played) {
         say_error("--verify: publishes nothing; not with --lcm or --speed");
+    } else if (!a->verify && a->json) {
+        say_error("--json: only with --verify");
     } else if (!a->verify && a->level_argc > 1) {
         say_error("%s: only with --verify", a->level_argv[1]);
     } else {
@@ -118,6 +120,7 @@ static int verify(const struct asked *a)
     int code = EXIT_USAGE;
     optind = 1; /* a second command line */
     if (options_parse(&options, a->level_argc, a->level_argv) == 0) {
+        options.json = a->json;
         code = verify_log(a->path, a->glob, &options);
     }
     options_close(&options);

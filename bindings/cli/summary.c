@@ -3,6 +3,7 @@
 #include "summary.h"
 
 #include "check.h"
+#include "json_text.h"
 #include "side.h"
 
 #include <inttypes.h>
@@ -168,8 +169,7 @@ static void put_real(json_t *object, const char *key, double value)
 
 static void put_text(json_t *object, const char *key, const char *value)
 {
-    json_t *text = json_string(value);
-    json_object_set_new(object, key, text != NULL ? text : json_string("?")); /* a file name need not be UTF-8 */
+    json_object_set_new(object, key, json_text(value));
 }
 
 static void put_run(json_t *object, const struct options *o, const struct level *level)

@@ -58,6 +58,15 @@ expect 2 "was recorded in level" "with hash" "--level"
 tahr replay "$log" --verify --level "$work/nowhere.obj"
 expect 2 "$work/nowhere.obj"
 
+# As JSON: all is equal; of a file that is cut off, what of it is.
+tahr replay "$log" --verify --json --level "$work/level.obj" --up z
+expect 0 '"verdict": "ok"' '"proven": 1920,' '"gaps": []' '"backend": "native"'
+is_json || fail "replay --verify --json is no JSON"
+head -c 100000 "$log" >"$work/cut.lcmlog"
+tahr replay "$work/cut.lcmlog" --verify --json --level "$work/level.obj" --up z
+expect 1 '"verdict": "not proven"' '"damages": 1' "cut off"
+is_json || fail "replay --verify --json of a damaged file is no JSON"
+
 # Thinned out, states are fewer and inputs are not.
 tahr run --seconds 2 --characters 2 --lcm "file://$log" --lcm-rate 10 --lcm-prefix robot_
 expect 0 "messages to file://$log; 0 dropped, 0 failed"
@@ -110,6 +119,7 @@ usage "$work/none/b" "cannot write" record --lcm "file://$log" "$work/none/b"
 usage "--speed '-1'" "number from 0" replay "$log" --speed -1
 usage "expected udpm://" "--lcm 'memq://'" replay "$log" --lcm memq://
 usage "--verify" "not with --lcm" replay "$log" --verify --speed 2
+usage "--json" "only with --verify" replay "$log" --json
 usage "--level" "only with --verify" replay "$log" --level "$work/level.obj"
 usage "--trace '$log'" "an LCM event log" replay --trace "$log"
 usage "--backend ccd" "was recorded on backend 'native'" replay "$log" --verify --backend ccd

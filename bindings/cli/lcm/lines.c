@@ -2,6 +2,7 @@
  * lines.c: one message as a line: in words, or as a JSON object. */
 #include "lines.h"
 
+#include "../json_text.h"
 #include "../say.h"
 
 #include <inttypes.h>
@@ -128,12 +129,6 @@ static const struct {
                                [TAHR_MESSAGE_SNAPSHOT] = {FIELDS(snapshot)}, [TAHR_MESSAGE_BODY] = {FIELDS(body)},
                                [TAHR_MESSAGE_WORLD] = {FIELDS(world)}};
 
-static json_t *text_value(const char *text)
-{
-    json_t *value = json_string(text);
-    return value != NULL ? value : json_string("?"); /* what comes over a network need not be UTF-8 */
-}
-
 static json_t *bytes_value(const uint8_t *bytes, int32_t count)
 {
     char *digits = memory_new((size_t)count * 2 + 1, 1);
@@ -164,7 +159,7 @@ static json_t *value_at(const uint8_t *at, enum field_type type, int32_t size)
     case HASH: snprintf(hash, sizeof hash, "%016" PRIx64, (uint64_t)is.integer); return json_string(hash);
     case REAL: return isfinite(is.real) ? json_real(is.real) : json_null();
     case TRUTH: return json_boolean(*at != 0);
-    case TEXT: return text_value(is.text);
+    case TEXT: return json_text(is.text);
     default: return bytes_value(is.bytes, size);
     }
 }
@@ -175,7 +170,7 @@ void line_json(FILE *to, const char *channel, const struct message *m)
     const int32_t size = m->kind == TAHR_MESSAGE_SNAPSHOT ? m->is.snapshot.size
                          : m->kind == TAHR_MESSAGE_WORLD  ? m->is.world.size
                                                           : 0;
-    json_object_set_new(object, "channel", text_value(channel));
+    json_object_set_new(object, "channel", json_text(channel));
     for (size_t i = 0; i < kinds[m->kind].count; i++) {
         const struct field *field = &kinds[m->kind].fields[i];
         const uint8_t *at = (const uint8_t *)&m->is + field->offset;

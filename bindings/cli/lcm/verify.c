@@ -2,7 +2,8 @@
  * verify.c: a log of LCM, proven by taking every recorded step again. */
 #include "verify.h"
 
-#include "judge.h"
+#include "findings.h"
+#include "../json_text.h"
 #include "../log_file.h"
 #include "../say.h"
 #include "../scene.h"
@@ -10,10 +11,10 @@
 
 #include <fnmatch.h>
 #include <inttypes.h>
+#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <tahr/telemetry.h>
 #include <unistd.h>
 
 #define SHOW_NS 100000000u
@@ -32,7 +33,8 @@ struct verify {
     int has_prefix;
     uint64_t inputs, early; /* all; before anything was known of their run */
     uint64_t foreign;
-    int worst; /* exit code so far */
+    int worst;                /* exit code so far */
+    json_t *json, *json_runs; /* what is told at the end; NULL: in words, as it is found */
 };
 
 static int unusable(struct verify *v)
@@ -105,77 +107,6 @@ static int check_world(struct verify *v, const tahr_world_t *w)
     return 0;
 }
 
-static void print_lost(const struct verdict *d)
-{
-    uint64_t all = 0;
-    for (int kind = 0; kind < TAHR_MESSAGE_COUNT; kind++) {
-        all += d->lost[kind];
-    }
-    if (all > 0) {
-        const char *between = "  lost       ";
-        for (uint32_t kind = 0; kind < TAHR_MESSAGE_COUNT; kind++) {
-            if (d->lost[kind] > 0) {
-                printf("%s%" PRIu64 " of kind %s", between, d->lost[kind], tahr_message_name(kind));
-                between = ", ";
-            }
-        }
-        putchar('\n');
-    }
-    if (d->broken > 0) {
-        printf("  broken     %" PRIu64 " messages that no telemetry sends\n", d->broken);
-    }
-}
-
-static void print_gaps(const struct verdict *d)
-{
-    if (d->gap_count > 0) {
-        printf("  not proven %" PRIu64 " steps, in %" PRIu64 " gap%s\n", d->unproven, d->gap_count,
-               d->gap_count == 1 ? "" : "s");
-    }
-    for (uint64_t i = 0; i < d->gap_count && i < FINDINGS_SAID; i++) {
-        const struct gap *gap = &d->gaps[i];
-        printf("             character %" PRId32 ", from step %" PRId64 " to %" PRId64 ": %s\n", gap->character,
-               gap->from, gap->to, gap->why);
-    }
-    if (d->gap_count > FINDINGS_SAID) {
-        printf("             and %" PRIu64 " more\n", d->gap_count - FINDINGS_SAID);
-    }
-}
-
-static void print_desyncs(const struct verdict *d)
-{
-    for (size_t i = 0; i < d->desyncs_told; i++) {
-        const struct desync *one = &d->desyncs[i];
-        if (one->excused) {
-            continue;
-        }
-        printf("  DIFFERS    character %" PRId32 ", step %" PRId64 ": state %016" PRIx64 ", recorded %016" PRIx64 "\n",
-               one->character, one->step, one->hash, one->recorded);
-        if (one->since < one->step) {
-            printf("             or before: the reports from step %" PRId64 " on are missing\n", one->since);
-        }
-        if (one->how[0] != '\0') {
-            printf("             %s\n", one->how);
-        }
-    }
-    if (d->desync_count > FINDINGS_SAID) {
-        printf("  DIFFERS    %" PRIu64 " times in all\n", d->desync_count);
-    }
-}
-
-static void print_contradictions(const struct verdict *d)
-{
-    for (uint64_t i = 0; i < d->contradiction_count && i < FINDINGS_SAID; i++) {
-        const struct contradiction *one = &d->contradictions[i];
-        printf("  WRONG      character %" PRId32 ", step %" PRId64
-               ": its message of kind %s is not what happened: %s\n",
-               one->character, one->step, tahr_message_name(one->kind), one->how);
-    }
-    if (d->contradiction_count > FINDINGS_SAID) {
-        printf("  WRONG      %" PRIu64 " messages in all\n", d->contradiction_count);
-    }
-}
-
 static void end_run(struct verify *v)
 {
     if (v->judge == NULL) {
@@ -183,15 +114,11 @@ static void end_run(struct verify *v)
     }
     judge_end(v->judge);
     const struct verdict *d = judge_verdict(v->judge);
-    printf("  proven     %" PRIu64 " steps of %" PRIu32 " character%s: taken again, each state has the recorded hash\n",
-           d->proven, d->characters, d->characters == 1 ? "" : "s");
-    if (d->edits > 0) {
-        printf("  written    %" PRIu64 " times the program wrote to a state between steps\n", d->edits);
+    if (v->json != NULL) {
+        findings_put(json_array_get(v->json_runs, json_array_size(v->json_runs) - 1), d);
+    } else {
+        findings_print(d);
     }
-    print_desyncs(d);
-    print_contradictions(d);
-    print_gaps(d);
-    print_lost(d);
     const int whole = d->gap_count == 0 && d->desync_count == 0 && d->contradiction_count == 0 && d->broken == 0 &&
                       d->lost[TAHR_MESSAGE_EVENT] == 0;
     v->worst = !whole && v->worst == EXIT_GOOD ? EXIT_CHECK_FAILED : v->worst;
@@ -199,6 +126,18 @@ static void end_run(struct verify *v)
     v->judge = NULL;
     tahr_world_close(v->world);
     v->world = NULL;
+}
+
+static void tell_run(struct verify *v, const tahr_world_t *w)
+{
+    if (v->json != NULL) {
+        json_array_append_new(v->json_runs, json_pack("{s:o, s:o, s:o, s:i}", "level", json_text(w->level), "backend",
+                                                      json_text(w->backend), "version", json_text(w->version),
+                                                      "characters", (int)w->characters));
+        return;
+    }
+    printf("%s: recorded in level '%s' on backend %s by tahr %s, %" PRId32 " character%s\n", v->path, w->level,
+           w->backend, w->version, w->characters, w->characters == 1 ? "" : "s");
 }
 
 static int begin_run(struct verify *v, const tahr_world_t *w)
@@ -225,8 +164,7 @@ static int begin_run(struct verify *v, const tahr_world_t *w)
     memcpy(configs, w->configs, (size_t)w->size);
     v->judge = judge_open(v->world, configs, (uint32_t)w->config_count, (uint32_t)w->characters);
     free(configs);
-    printf("%s: recorded in level '%s' on backend %s by tahr %s, %" PRId32 " character%s\n", v->path, w->level,
-           w->backend, w->version, w->characters, w->characters == 1 ? "" : "s");
+    tell_run(v, w);
     return 0;
 }
 
@@ -291,25 +229,46 @@ static void read_all(struct verify *v, struct log_file *log)
 }
 
 /* What is not about one run. */
-static void end_all(struct verify *v, const struct log_file *log)
+static void print_rest(const struct verify *v, uint64_t damages)
 {
     if (v->foreign > 0) {
         printf("  ignored    %" PRIu64 " messages of another package or version on channels of ours\n", v->foreign);
     }
     if (v->early > 0) {
         printf("  not proven %" PRIu64 " steps recorded before anything was known of their level\n", v->early);
-        v->worst = v->worst == EXIT_GOOD ? EXIT_CHECK_FAILED : v->worst;
     }
-    if (log_file_damages(log) > 0) {
-        printf("  damaged    the file, in %" PRIu64 " place%s\n", log_file_damages(log),
-               log_file_damages(log) == 1 ? "" : "s");
-        v->worst = v->worst == EXIT_GOOD ? EXIT_CHECK_FAILED : v->worst;
+    if (damages > 0) {
+        printf("  damaged    the file, in %" PRIu64 " place%s\n", damages, damages == 1 ? "" : "s");
     }
+    puts(v->worst == EXIT_GOOD ? "ok" : v->worst == EXIT_USAGE ? "FAILED" : "NOT PROVEN");
+}
+
+static void put_rest(const struct verify *v, uint64_t damages)
+{
+    const char *verdict = v->worst == EXIT_GOOD ? "ok" : v->worst == EXIT_USAGE ? "failed" : "not proven";
+    json_object_set_new(v->json, "ignored", json_integer((json_int_t)v->foreign));
+    json_object_set_new(v->json, "early", json_integer((json_int_t)v->early));
+    json_object_set_new(v->json, "damages", json_integer((json_int_t)damages));
+    json_object_set_new(v->json, "verdict", json_string(verdict));
+    json_dumpf(v->json, stdout, JSON_INDENT(2));
+    putchar('\n');
+}
+
+static void end_all(struct verify *v, uint64_t damages)
+{
     if (v->inputs == 0 || v->run_count == 0) {
         say_error("'%s': nothing to prove: expected %s of `tahr run --lcm`, or of a program that calls "
                   "tahr_telemetry_begin",
                   v->path, v->inputs == 0 ? "inputs (channel TAHR_INPUT)" : "a world (channel TAHR_WORLD)");
         unusable(v);
+    }
+    if ((v->early > 0 || damages > 0) && v->worst == EXIT_GOOD) {
+        v->worst = EXIT_CHECK_FAILED;
+    }
+    if (v->json != NULL) {
+        put_rest(v, damages);
+    } else {
+        print_rest(v, damages);
     }
 }
 
@@ -320,12 +279,16 @@ int verify_log(const char *path, const char *glob, struct options *options)
     if (log == NULL) {
         return EXIT_USAGE;
     }
+    if (options->json) {
+        v.json_runs = json_array();
+        v.json = json_pack("{s:o, s:o}", "file", json_text(path), "runs", v.json_runs);
+    }
     read_all(&v, log);
     if (v.worst != EXIT_USAGE) {
         end_run(&v);
-        end_all(&v, log);
-        puts(v.worst == EXIT_GOOD ? "ok" : v.worst == EXIT_USAGE ? "FAILED" : "NOT PROVEN");
+        end_all(&v, log_file_damages(log));
     }
+    json_decref(v.json);
     judge_close(v.judge);
     tahr_world_close(v.world);
     level_close(&v.level);

@@ -6,7 +6,7 @@
 #include "../options.h"
 
 /* glob: of the channels that count, or NULL: all. options: the level; unless they name a backend it becomes that of the
- * recording. Returns an exit code. */
+ * recording; with json all that was found is told as JSON. Returns an exit code. */
 int verify_log(const char *path, const char *glob, struct options *options);
 
 #endif
