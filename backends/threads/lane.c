@@ -9,6 +9,13 @@
 
 _Static_assert(sizeof(tahr_input) % 8 == 0 && sizeof(tahr_report) % 8 == 0, "they are packed by words");
 
+/* What is rare lies apart, so that what every step runs through is short. */
+#ifdef __GNUC__
+#define RARE __attribute__((cold, noinline))
+#else
+#define RARE
+#endif
+
 /* Longest step that any config allows (config.h: max_dt). */
 static const double LONGEST_DT = 10;
 
@@ -44,7 +51,7 @@ static uint64_t *write_state(uint64_t *to, const tahr_state *state, tahr__charac
     return to;
 }
 
-static tahr_status push_snapshot(tahr_telemetry *t, tahr__lane *l, tahr__character *c, const tahr_state *state)
+RARE static tahr_status push_snapshot(tahr_telemetry *t, tahr__lane *l, tahr__character *c, const tahr_state *state)
 {
     const tahr_stamp stamp = stamp_of(t, c);
     const uint32_t fixed = sizeof(tahr__record_snapshot) / 8;
@@ -82,9 +89,9 @@ static int wants_snapshot(const tahr__character *c, tahr__lane *l)
 }
 
 /* Somebody wrote to the state, or it is the first one. */
-static void take_over(tahr_telemetry *t, tahr__character *c, uint32_t config, const tahr_state *state)
+RARE static void take_over(tahr_telemetry *t, tahr__character *c, uint32_t config, const tahr_state *state)
 {
-    const uint64_t edited = tahr__slot_compare(&c->slot, state);
+    const uint64_t edited = tahr__slot_compare(&c->slot, state, t->wide);
     c->config = config;
     c->standing |= edited;
     c->snapshot = 1;
@@ -98,7 +105,7 @@ tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t char
     if (config >= t->config_count) return TAHR_E_ARGUMENT;
     tahr__character *c = claim(t, lane, character);
     if (!c) return TAHR_E_ARGUMENT;
-    if (config != c->config || !tahr__slot_holds(&c->slot, state)) take_over(t, c, config, state);
+    if (config != c->config || !tahr__slot_holds(&c->slot, state, t->wide)) take_over(t, c, config, state);
     if (!(t->wants & bit(TAHR_MESSAGE_SNAPSHOT)) || !wants_snapshot(c, &t->lanes[lane])) return TAHR_OK;
     return push_snapshot(t, &t->lanes[lane], c, state);
 }
@@ -207,11 +214,11 @@ static void choose_parts(const tahr_telemetry *t, tahr__lane *l, pushed *p)
     p->parts = all & ~thinned;
 }
 
-static tahr_status check_step(const tahr_telemetry *t, const tahr_telemetry_step *s)
+static tahr_status check_step(const tahr_telemetry_step *s)
 {
     if (!s->input || !s->state) return TAHR_E_NULL;
     if (!(s->dt >= 0 && s->dt <= LONGEST_DT)) return TAHR_E_ARGUMENT;
-    if (s->character >= t->character_count || s->reserved != 0) return TAHR_E_ARGUMENT;
+    if (s->reserved != 0) return TAHR_E_ARGUMENT;
     if (s->flags & ~(uint32_t)(TAHR_STEP_CUSTOM | TAHR_STEP_CROWD)) return TAHR_E_UNSUPPORTED;
     if (s->input->struct_size < sizeof *s->input) return TAHR_E_STRUCT_SIZE;
     if (!s->report) return TAHR_OK;
@@ -236,7 +243,7 @@ static void expect(const tahr_telemetry *t, uint32_t character)
 tahr_status tahr_telemetry_push(tahr_telemetry *t, uint32_t lane, const tahr_telemetry_step *step)
 {
     if (!t || !step) return TAHR_E_NULL;
-    const tahr_status wrong = check_step(t, step);
+    const tahr_status wrong = check_step(step);
     if (wrong < 0) return wrong;
     tahr__character *c = claim(t, lane, step->character);
     if (!c) return TAHR_E_ARGUMENT;
@@ -245,7 +252,7 @@ tahr_status tahr_telemetry_push(tahr_telemetry *t, uint32_t lane, const tahr_tel
     c->time_ns += (int64_t)(step->dt * 1e9 + 0.5);
     pushed p = {.step = step, .character = c, .stamp = stamp_of(t, c)};
     if (step->report && t->wants & bit(TAHR_MESSAGE_EVENT)) p.events = step->report->event_count;
-    const uint64_t changed = tahr__slot_compare(&c->slot, step->state);
+    const uint64_t changed = tahr__slot_compare(&c->slot, step->state, t->wide);
     c->standing |= changed;
     tahr__slot_write(&c->slot, step->state, changed, p.stamp);
     choose_parts(t, l, &p);

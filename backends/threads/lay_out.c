@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "../common/malloc.h"
+#include "../common/processor.h"
 #include "telemetry.h"
 #include "telemetry_check.h"
 
@@ -83,6 +84,7 @@ static void copy_desc(tahr_telemetry *t, const tahr_telemetry_desc *d)
     t->every = d->every ? d->every : 1;
     t->state_rate = d->state_rate;
     t->state_period = d->state_rate > 0 ? 1e9 / d->state_rate : 0;
+    t->wide = tahr__has_avx2() && !(d->flags & TAHR_TELEMETRY_NARROW);
     t->keeps_all = t->every == 1 && d->state_rate <= 0;
     t->snapshot_ns = period(d->snapshot_period, 10);
     t->world_ns = period(d->world_period, 1);

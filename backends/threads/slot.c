@@ -30,19 +30,21 @@ static uint64_t differ(const void *one, const void *other, int begin, int end)
 }
 
 /* The writer may read what it alone writes as plain memory, whole lines at once. */
-uint64_t tahr__slot_compare(const tahr__slot *slot, const tahr_state *state)
+uint64_t tahr__slot_compare(const tahr__slot *slot, const tahr_state *state, int wide)
 {
     const void *words = on_line((const void *)slot->words);
+    if (wide) return tahr__words_differ_wide(words, state) & ~TAHR__MOTION_MASK;
     const uint64_t any = differ(words, state, TAHR__BEHIND_VELOCITY, TAHR__FLOOR_POINT) |
                          differ(words, state, TAHR__BEHIND_DISTANCE, TAHR__FLOOR_POSITION) |
                          differ(words, state, TAHR__BEHIND_FLOOR_POSITION, TAHR__STATE_WORDS);
     return any ? tahr__words_differ(words, state) & ~TAHR__MOTION_MASK : 0;
 }
 
-int tahr__slot_holds(const tahr__slot *slot, const tahr_state *state)
+int tahr__slot_holds(const tahr__slot *slot, const tahr_state *state, int wide)
 {
-    return atomic_load_explicit(&slot->turn, memory_order_relaxed) != 0 &&
-           memcmp((const void *)slot->words, state, sizeof *state) == 0;
+    const void *words = (const void *)slot->words;
+    if (atomic_load_explicit(&slot->turn, memory_order_relaxed) == 0) return 0;
+    return wide ? tahr__words_differ_wide(words, state) == 0 : memcmp(words, state, sizeof *state) == 0;
 }
 
 static uint64_t get(const _Atomic uint64_t *word)

@@ -20,10 +20,10 @@ typedef struct tahr__slot {
 } tahr__slot;
 
 /* By the writer: which words of the slot are not those of state, one bit each; but for those of the motion. */
-uint64_t tahr__slot_compare(const tahr__slot *slot, const tahr_state *state);
+uint64_t tahr__slot_compare(const tahr__slot *slot, const tahr_state *state, int wide);
 
-/* By the writer: whether it was written, and all words are the same. */
-int tahr__slot_holds(const tahr__slot *slot, const tahr_state *state);
+/* By the writer: whether it was written, and all words are the same. wide: tahr__has_avx2. */
+int tahr__slot_holds(const tahr__slot *slot, const tahr_state *state, int wide);
 
 static inline void tahr__slot_put(_Atomic uint64_t *word, uint64_t value)
 {

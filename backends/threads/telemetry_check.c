@@ -130,7 +130,7 @@ tahr_status tahr__telemetry_check(const tahr_telemetry_desc *d)
     tahr_status status = check_tail(d, sizeof *d);
     if (status == TAHR_E_STRUCT_SIZE) return status; /* nothing of it can be read, the log neither */
     if (status < 0) return tahr__telemetry_complain(d, status, "desc has a tail that is not known here, and not zero");
-    if (d->flags & ~(uint32_t)TAHR_TELEMETRY_THIN_ALL) {
+    if (d->flags & ~(uint32_t)(TAHR_TELEMETRY_THIN_ALL | TAHR_TELEMETRY_NARROW)) {
         snprintf(text, sizeof text, "desc.flags is %#x, expected TAHR_TELEMETRY_*", (unsigned)d->flags);
         return tahr__telemetry_complain(d, TAHR_E_UNSUPPORTED, text);
     }

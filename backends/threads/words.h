@@ -29,10 +29,19 @@ static inline int tahr__lowest_bit(uint64_t mask)
 }
 
 /* Writes the mask and the words of object that it names. Returns what comes after them. */
-uint64_t *tahr__words_pack(uint64_t *to, const void *object, uint64_t mask);
+static inline uint64_t *tahr__words_pack(uint64_t *to, const void *object, uint64_t mask)
+{
+    *to++ = mask;
+    for (; mask; mask &= mask - 1)
+        *to++ = tahr__word_of(object, tahr__lowest_bit(mask));
+    return to;
+}
 
 /* Which of 64 words are not the same in both, one bit each. one begins on a line of 64 bytes, other anywhere. */
 uint64_t tahr__words_differ(const void *one, const void *other);
+
+/* The same, where tahr__has_avx2. */
+uint64_t tahr__words_differ_wide(const void *one, const void *other);
 
 /* Writes the words that follow a mask over those of object; the others stay. Returns what comes after them. */
 const uint64_t *tahr__words_unpack(const uint64_t *from, void *object);

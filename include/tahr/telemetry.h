@@ -24,8 +24,9 @@ extern "C" {
 typedef struct tahr_telemetry tahr_telemetry;
 
 /* THIN_ALL: inputs and reports go with the states that are due; else only states are thinned out. Without every input
- * a recording cannot be repeated. */
-enum { TAHR_TELEMETRY_THIN_ALL = 1 << 0 };
+ * a recording cannot be repeated. NARROW: states are compared without AVX2, as on processors that have none: slower, and
+ * not another message. */
+enum { TAHR_TELEMETRY_THIN_ALL = 1 << 0, TAHR_TELEMETRY_NARROW = 1 << 1 };
 
 /* [in] everything is copied, but the sink's user, which must stay valid until the telemetry is destroyed (and see
  * tahr_telemetry_stop), and so must what allocator and log need. Zero what you do not use. */

@@ -97,8 +97,8 @@ static void every_part_of_a_description_is_looked_at(void **unused)
     desc.struct_size--;
     refuses(&desc, TAHR_E_STRUCT_SIZE, "");
     desc = good;
-    desc.flags = 2;
-    refuses(&desc, TAHR_E_UNSUPPORTED, "desc.flags is 0x2, expected TAHR_TELEMETRY_*");
+    desc.flags = 4;
+    refuses(&desc, TAHR_E_UNSUPPORTED, "desc.flags is 0x4, expected TAHR_TELEMETRY_*");
     desc = good;
     desc.sink = NULL;
     refuses(&desc, TAHR_E_NULL, "desc.sink is NULL");

@@ -136,15 +136,15 @@ static void check_counts(const listener *l, const tahr_telemetry *t, int all_arr
     }
 }
 
-static void every_step_arrives_bit_for_bit(void **unused)
+static void expect_every_step(uint32_t flags)
 {
     record r;
     tahr_telemetry_desc desc;
     tahr_telemetry *t;
     made_up m[CHARACTERS];
-    (void)unused;
     record_init(&r);
     listener_describe(&r.ear, CHARACTERS, &desc);
+    desc.flags = flags;
     desc.ring_bytes = 64 << 20; /* room for all, however late the thread comes */
     assert_int_equal(tahr_telemetry_create(&desc, &t), TAHR_OK);
     for (uint32_t i = 0; i < CHARACTERS; i++)
@@ -161,6 +161,18 @@ static void every_step_arrives_bit_for_bit(void **unused)
     assert_true(r.ear.flushes > 0);
     tahr_telemetry_destroy(t);
     record_end(&r);
+}
+
+static void every_step_arrives_bit_for_bit(void **unused)
+{
+    (void)unused;
+    expect_every_step(0);
+}
+
+static void so_it_does_without_wide_vectors(void **unused)
+{
+    (void)unused;
+    expect_every_step(TAHR_TELEMETRY_NARROW);
 }
 
 /* A ring that holds a dozen steps and a sink that waits now and then: most is dropped, and what arrives is right. */
@@ -369,6 +381,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_step_arrives_bit_for_bit),
+        cmocka_unit_test(so_it_does_without_wide_vectors),
         cmocka_unit_test(what_is_left_by_drops_and_thinning_is_still_right),
         cmocka_unit_test(a_million_messages_are_received_or_counted_as_dropped),
         cmocka_unit_test(inputs_and_events_outlive_states),
