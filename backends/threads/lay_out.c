@@ -4,6 +4,7 @@
 
 #include "../common/malloc.h"
 #include "../common/processor.h"
+#include "pages.h"
 #include "telemetry.h"
 #include "telemetry_check.h"
 
@@ -96,6 +97,15 @@ static void copy_desc(tahr_telemetry *t, const tahr_telemetry_desc *d)
     memcpy(t->configs, d->configs, (size_t)d->config_count * d->configs->struct_size);
 }
 
+/* An allocator of the user's is asked for lines, and knows best what pages they are on. */
+static void *allocate(const tahr_telemetry_desc *d, const tahr_allocator *a, size_t bytes)
+{
+    const int large = !d->allocator && bytes >= TAHR__LARGE_PAGE;
+    void *memory = a->alloc(a->user, bytes, large ? TAHR__LARGE_PAGE : LINE);
+    if (memory && large) tahr__pages_prefer_large(memory, bytes);
+    return memory;
+}
+
 tahr_telemetry *tahr__telemetry_lay_out(const tahr_telemetry_desc *d)
 {
     const tahr_allocator a = tahr__allocator_or_malloc(d->allocator);
@@ -104,7 +114,7 @@ tahr_telemetry *tahr__telemetry_lay_out(const tahr_telemetry_desc *d)
     take(&b, 1, sizeof counted);
     take_all(&b, &counted, d);
     const size_t bytes = b.used;
-    b.memory = a.alloc(a.user, bytes, LINE);
+    b.memory = allocate(d, &a, bytes);
     if (!b.memory) return NULL;
     memset(b.memory, 0, bytes); /* the rings too: the system gives a page when it is first touched, now and not later */
     b.used = 0;

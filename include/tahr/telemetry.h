@@ -60,9 +60,9 @@ typedef struct tahr_telemetry_desc {
  * nothing; may run on several threads. Returns TAHR_OK, TAHR_E_NULL, TAHR_E_STRUCT_SIZE. Since 0.1. */
 TAHR_API tahr_status tahr_telemetry_desc_init(tahr_telemetry_desc *desc, size_t size);
 
-/* Takes memory, in one block (the rings; 1216 B for each character, some 150 B for each body) and starts the thread,
- * which takes no signals, and tells the sink of the world at once. [out] telemetry, untouched on error; end it with
- * tahr_telemetry_destroy.
+/* Takes memory, in one block (the rings; 1216 B for each character, some 150 B for each body; from 2 MiB on, and without
+ * an allocator of yours, Linux is asked for large pages) and starts the thread, which takes no signals, and tells the
+ * sink of the world at once. [out] telemetry, untouched on error; end it with tahr_telemetry_destroy.
  * Returns TAHR_OK, TAHR_E_NULL (desc, telemetry, sink or its name, configs, half an allocator), TAHR_E_STRUCT_SIZE
  * (desc, sink, configs), TAHR_E_UNSUPPORTED (unknown flags or tail), TAHR_E_ABI (sink of another ABI), TAHR_E_ARGUMENT
  * (a field out of its range, a config that is not valid), TAHR_E_MEMORY (also: the system gives no thread); the log
