@@ -67,7 +67,7 @@ for backend in backends/*/; do
     ccd) third='|<ccd/[a-z0-9_]+\.h>' ;;
     fcl) third='|<(fcl|octomap)/[a-zA-Z0-9_/.-]+>|<[a-z_]+>' ;;
     box2d) third='|<box2d/[a-z0-9_]+\.h>|<[a-z_]+>' ;;
-    threads) third='|<(emmintrin|immintrin|pthread|signal|sys/mman|time|unistd)\.h>' ;;
+    threads) third='|<(immintrin|pthread|signal|sys/mman|time|unistd)\.h>' ;;
     lcm) third='|<(lcm|tahr_lcm)/[a-z0-9_]+\.h>|<((arpa|netinet|sys)/[a-z]+|fcntl|time|unistd)\.h>' ;;
     native | common) third='|<[ei]mmintrin\.h>' ;; # the processor's own vectors
     *) third= ;;

@@ -113,7 +113,7 @@ tahr_status tahr_telemetry_begin(tahr_telemetry *t, uint32_t lane, uint32_t char
 /* Whether the state of this step is due, which ends at the character's time. */
 static int is_due(const tahr_telemetry *t, tahr__character *c)
 {
-    if (t->keeps_all) return 1;
+    if (t->every == 1 && t->state_period <= 0) return 1;
     const int by_step = c->state_step == 0;
     c->state_step = (by_step ? t->every : c->state_step) - 1;
     if (!by_step || (double)c->time_ns < c->state_ns) return 0;

@@ -86,7 +86,6 @@ static void copy_desc(tahr_telemetry *t, const tahr_telemetry_desc *d)
     t->state_rate = d->state_rate;
     t->state_period = d->state_rate > 0 ? 1e9 / d->state_rate : 0;
     t->wide = tahr__has_avx2() && !(d->flags & TAHR_TELEMETRY_NARROW);
-    t->keeps_all = t->every == 1 && d->state_rate <= 0;
     t->snapshot_ns = period(d->snapshot_period, 10);
     t->world_ns = period(d->world_period, 1);
     t->drain_ns = period(d->drain_period, 0.001);

@@ -26,7 +26,6 @@ struct tahr_telemetry {
     tahr_sink sink;
     uint32_t wants; /* 1 << TAHR_MESSAGE_*: what the sink has a function for */
     uint32_t flags, lane_count, character_count, config_count, every;
-    uint32_t keeps_all;                      /* 1: every state is due */
     int wide;                                /* 1: tahr__has_avx2, and not NARROW */
     double state_period;                     /* ns; 0: all */
     int64_t snapshot_ns, world_ns, drain_ns; /* periods */
