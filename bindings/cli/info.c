@@ -2,7 +2,7 @@
  * info.c: `tahr info`: version, ABI, presets, collision engines and what they can do; what a level is made of. */
 #include "info.h"
 
-#include "json_text.h"
+#include "json_values.h"
 #include "options.h"
 #include "run.h"
 #include "say.h"

@@ -3,7 +3,7 @@
 #include "summary.h"
 
 #include "check.h"
-#include "json_text.h"
+#include "json_values.h"
 #include "side.h"
 
 #include <inttypes.h>
@@ -157,11 +157,6 @@ void summary_words(const struct options *o, const struct level *level, const str
     printf("%s\n", r->failed ? "FAILED" : "ok");
 }
 
-static void put_count(json_t *object, const char *key, uint64_t value)
-{
-    json_object_set_new(object, key, json_integer((json_int_t)value));
-}
-
 static void put_real(json_t *object, const char *key, double value)
 {
     json_object_set_new(object, key, json_real(value));
@@ -178,24 +173,24 @@ static void put_run(json_t *object, const struct options *o, const struct level 
     put_text(object, "level", level->name);
     put_text(object, "backend", o->backend->name);
     put_text(object, "preset", tahr_preset_name(o->preset));
-    put_count(object, "characters", o->characters);
-    put_count(object, "threads", o->threads);
+    json_put_count(object, "characters", o->characters);
+    json_put_count(object, "threads", o->threads);
     json_object_set_new(object, "crowd", json_boolean(o->crowd));
     put_real(object, "seconds", o->seconds);
     put_real(object, "rate", o->rate);
-    put_count(object, "seed", o->seed);
+    json_put_count(object, "seed", o->seed);
     put_text(object, "check", checks[o->check]);
-    put_count(object, "bodies", level->body_count);
-    put_count(object, "triangles", level->triangle_count);
+    json_put_count(object, "bodies", level->body_count);
+    json_put_count(object, "triangles", level->triangle_count);
 }
 
 static void put_cost(json_t *object, const struct result *r)
 {
-    put_count(object, "steps", r->steps);
+    json_put_count(object, "steps", r->steps);
     put_real(object, "ns_median", times_quantile(&r->times, 0.5));
     put_real(object, "ns_p99", times_quantile(&r->times, 0.99));
     put_real(object, "ns_mean", times_mean(&r->times));
-    put_count(object, "ns_max", r->times.greatest);
+    json_put_count(object, "ns_max", r->times.greatest);
     put_real(object, "ns_clock", r->clock_cost);
     put_real(object, "sweeps_per_step", per_step(r, r->sweeps));
     put_real(object, "contact_queries_per_step", per_step(r, r->contact_queries));
@@ -208,8 +203,8 @@ static void put_cost(json_t *object, const struct result *r)
         put_real(saved, tahr_shortcut_name(i), per_step(r, r->saved[i]));
     }
     json_object_set_new(object, "saved_per_step", saved);
-    put_count(object, "most_queries", r->most_queries);
-    put_count(object, "world_bytes", r->world_bytes);
+    json_put_count(object, "most_queries", r->most_queries);
+    json_put_count(object, "world_bytes", r->world_bytes);
     put_real(object, "load_seconds", r->load_seconds);
     put_real(object, "open_seconds", r->open_seconds);
     put_real(object, "wall_seconds", r->wall_seconds);
@@ -220,21 +215,21 @@ static void put_behaviour(json_t *object, const struct result *r)
     char hash[17];
     snprintf(hash, sizeof hash, "%016" PRIx64, r->state_hash);
     put_real(object, "grounded", per_step(r, r->modes[TAHR_MODE_WALKING]));
-    put_count(object, "steps_climbed", r->events[TAHR_EVENT_STEPPED_UP]);
-    put_count(object, "steps_descended", r->events[TAHR_EVENT_STEPPED_DOWN]);
-    put_count(object, "jumps", r->events[TAHR_EVENT_JUMPED]);
-    put_count(object, "landings", r->events[TAHR_EVENT_LANDED]);
-    put_count(object, "fell_out", r->fell_out);
-    put_count(object, "stuck", r->stuck);
-    put_count(object, "hung", r->hung);
-    put_count(object, "bad_states", r->bad_states);
-    put_count(object, "depenetrated", r->events[TAHR_EVENT_DEPENETRATED]);
-    put_count(object, "crushed", r->events[TAHR_EVENT_CRUSHED]);
-    put_count(object, "unknown", r->unknown);
-    put_count(object, "query_caps", r->query_caps);
+    json_put_count(object, "steps_climbed", r->events[TAHR_EVENT_STEPPED_UP]);
+    json_put_count(object, "steps_descended", r->events[TAHR_EVENT_STEPPED_DOWN]);
+    json_put_count(object, "jumps", r->events[TAHR_EVENT_JUMPED]);
+    json_put_count(object, "landings", r->events[TAHR_EVENT_LANDED]);
+    json_put_count(object, "fell_out", r->fell_out);
+    json_put_count(object, "stuck", r->stuck);
+    json_put_count(object, "hung", r->hung);
+    json_put_count(object, "bad_states", r->bad_states);
+    json_put_count(object, "depenetrated", r->events[TAHR_EVENT_DEPENETRATED]);
+    json_put_count(object, "crushed", r->events[TAHR_EVENT_CRUSHED]);
+    json_put_count(object, "unknown", r->unknown);
+    json_put_count(object, "query_caps", r->query_caps);
     put_real(object, "time_lost", r->time_lost);
-    put_count(object, "checked", r->checked);
-    put_count(object, "tunnels", r->tunnels);
+    json_put_count(object, "checked", r->checked);
+    json_put_count(object, "tunnels", r->tunnels);
     put_real(object, "deepest_penetration", r->deepest);
     put_real(object, "least_clearance", r->least_clearance);
     put_real(object, "least_apart", r->least_apart);
@@ -250,7 +245,7 @@ static void put_counts(json_t *object, const struct result *r)
         put_real(modes, tahr_mode_name(i), per_step(r, r->modes[i]));
     }
     for (uint32_t i = 1; i < EVENT_TYPES; i++) {
-        put_count(events, tahr_event_name(i), r->events[i]);
+        json_put_count(events, tahr_event_name(i), r->events[i]);
     }
     json_object_set_new(object, "modes", modes);
     json_object_set_new(object, "events", events);
@@ -275,10 +270,10 @@ static void put_lcm(json_t *object, const struct options *o, const struct result
     if (o->lcm != NULL) {
         put_text(object, "lcm", o->lcm);
         json_object_set_new(object, "lcm_open", json_boolean(r->lcm.open));
-        put_count(object, "lcm_sent", r->lcm.sent);
-        put_count(object, "lcm_thinned", r->lcm.thinned);
-        put_count(object, "lcm_dropped", r->lcm.dropped);
-        put_count(object, "lcm_failed", r->lcm.failed);
+        json_put_count(object, "lcm_sent", r->lcm.sent);
+        json_put_count(object, "lcm_thinned", r->lcm.thinned);
+        json_put_count(object, "lcm_dropped", r->lcm.dropped);
+        json_put_count(object, "lcm_failed", r->lcm.failed);
     }
     if (r->ended > 0) {
         put_real(object, "ended", r->ended);
@@ -292,8 +287,8 @@ static void put_findings(json_t *object, const struct result *r)
         const struct finding *f = &r->findings[i];
         json_t *entry = json_object();
         put_text(entry, "what", f->what);
-        put_count(entry, "character", f->character);
-        put_count(entry, "step", f->step);
+        json_put_count(entry, "character", f->character);
+        json_put_count(entry, "step", f->step);
         put_real(entry, "time", f->time);
         put_real(entry, "x", f->position.x);
         put_real(entry, "y", f->position.y);

@@ -2,6 +2,8 @@
  * findings.c: what a judge found, in words or as JSON. */
 #include "findings.h"
 
+#include "../json_values.h"
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <tahr/telemetry.h>
@@ -90,11 +92,6 @@ void findings_print(const struct verdict *d)
     print_lost(d);
 }
 
-static void put_count(json_t *object, const char *key, uint64_t count)
-{
-    json_object_set_new(object, key, json_integer((json_int_t)count));
-}
-
 static json_t *json_of_hash(uint64_t hash)
 {
     char text[20];
@@ -144,18 +141,18 @@ void findings_put(json_t *run, const struct verdict *d)
 {
     json_t *lost = json_object();
     for (uint32_t kind = 0; kind < TAHR_MESSAGE_COUNT; kind++) {
-        put_count(lost, tahr_message_name(kind), d->lost[kind]);
+        json_put_count(lost, tahr_message_name(kind), d->lost[kind]);
     }
-    put_count(run, "heard", d->characters);
-    put_count(run, "proven", d->proven);
-    put_count(run, "unproven", d->unproven);
-    put_count(run, "written", d->edits);
-    put_count(run, "differing", d->desync_count);
+    json_put_count(run, "heard", d->characters);
+    json_put_count(run, "proven", d->proven);
+    json_put_count(run, "unproven", d->unproven);
+    json_put_count(run, "written", d->edits);
+    json_put_count(run, "differing", d->desync_count);
     json_object_set_new(run, "differs", json_of_desyncs(d));
-    put_count(run, "contradicting", d->contradiction_count);
+    json_put_count(run, "contradicting", d->contradiction_count);
     json_object_set_new(run, "wrong", json_of_contradictions(d));
-    put_count(run, "gap_count", d->gap_count);
+    json_put_count(run, "gap_count", d->gap_count);
     json_object_set_new(run, "gaps", json_of_gaps(d));
     json_object_set_new(run, "lost", lost);
-    put_count(run, "broken", d->broken);
+    json_put_count(run, "broken", d->broken);
 }

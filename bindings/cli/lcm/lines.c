@@ -2,7 +2,7 @@
  * lines.c: one message as a line: in words, or as a JSON object. */
 #include "lines.h"
 
-#include "../json_text.h"
+#include "../json_values.h"
 #include "../say.h"
 
 #include <inttypes.h>

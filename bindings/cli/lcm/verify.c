@@ -3,7 +3,7 @@
 #include "verify.h"
 
 #include "findings.h"
-#include "../json_text.h"
+#include "../json_values.h"
 #include "../log_file.h"
 #include "../say.h"
 #include "../scene.h"
@@ -246,9 +246,9 @@ static void print_rest(const struct verify *v, uint64_t damages)
 static void put_rest(const struct verify *v, uint64_t damages)
 {
     const char *verdict = v->worst == EXIT_GOOD ? "ok" : v->worst == EXIT_USAGE ? "failed" : "not proven";
-    json_object_set_new(v->json, "ignored", json_integer((json_int_t)v->foreign));
-    json_object_set_new(v->json, "early", json_integer((json_int_t)v->early));
-    json_object_set_new(v->json, "damages", json_integer((json_int_t)damages));
+    json_put_count(v->json, "ignored", v->foreign);
+    json_put_count(v->json, "early", v->early);
+    json_put_count(v->json, "damages", damages);
     json_object_set_new(v->json, "verdict", json_string(verdict));
     json_dumpf(v->json, stdout, JSON_INDENT(2));
     putchar('\n');
